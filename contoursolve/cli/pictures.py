@@ -202,17 +202,10 @@ def _about(answer: Answer) -> str:
 def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -> list[Written]:
     """The DXF drawing, if anything is solved."""
     with importing("dxf", "a DXF drawing"):
-        from contoursolve.output import to_dxf  # noqa: PLC0415 - needs an extra
-    contours = [answer.contour for answer in result.answers if answer.contour]
-    runs, solved = tool.runs if tool else (), {line for answer in result.answers for line in answer.lines}
-    paths = {f"tool - program line {each.run.lines[0]}": each.path for each in runs if each.path}
-    beside = f", {count(len(paths), 'path')} of the tool" if paths else ""
-    plain = [each for each in runs if solved.isdisjoint(each.run.lines)]
-    paths |= {f"part - program line {each.run.lines[0]}": each.part for each in plain}
-    if not contours and not paths:
-        return []
-    elements = count(sum(len(contour.elements) for contour in contours), "element")
-    return [(target, to_dxf(result.answers, paths), f"{elements} of {count(len(contours), 'contour')}{beside}")]
+        from contoursolve.output import drawing_for_cad  # noqa: PLC0415 - needs an extra
+
+        drawn = drawing_for_cad(result, tool)
+    return [] if drawn is None else [(target, *drawn)]
 
 
 @click.command(short_help="Make a page about a program, to read, send and print.")

@@ -56,5 +56,7 @@ from .term_writer import (
     write_term as write_term,
 )
 from .variables import (
+    NamedVariable as NamedVariable,
     check_names as check_names,
+    named_variables as named_variables,
 )

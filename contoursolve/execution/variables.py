@@ -2,16 +2,20 @@
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+
+from msgspec import Struct
 
 from contoursolve.diagnostics import UserError
 from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed
 from contoursolve.execution.macro_language import (
     ARGUMENT,
+    MACHINES,
     SKIP_SWITCH,
     UNSET,
     VACANT,
     Assign,
+    For,
     Forget,
     Known,
     MacroLanguage,
@@ -60,6 +64,47 @@ def _declares(language: MacroLanguage, text: str, name: str) -> bool:
 
 def _setting(name: str) -> str:
     return "; a setting is stated with --set" if re.fullmatch(r"[\w-]+\.[\w-]+", name) else ""
+
+
+class NamedVariable(Struct, frozen=True):
+    """A variable that a program names: the first line that does, and the first that sets it, if any does."""
+
+    name: str
+    line: int
+    set_on: int | None
+
+
+def named_variables(language: MacroLanguage, lines: Iterable[str]) -> list[NamedVariable]:
+    """The variables of the user that lines name, in their order, those that only the machine knows left out."""
+    found: dict[str, NamedVariable] = {}
+    for number, text in enumerate(lines, 1):
+        if not language.may_say(text):
+            continue
+        code = language.read(text)
+        set_here = (each.variable for each in code.statements if isinstance(each, _SETTING))
+        targets = {*code.parameters, *_names_in(tuple(set_here))}
+        for name in (*code.parameters, *_names_in((code.statements, code.words))):
+            set_on = number if name in targets else None
+            before = found.setdefault(name, NamedVariable(name, number, set_on))
+            if before.set_on is None and set_on is not None:
+                found[name] = NamedVariable(name, before.line, set_on)
+    own = (each for each in found.values() if each.name not in (SKIP_SWITCH.name, language.always_empty))
+    return [each for each in own if not language.unknown(each.name).endswith(MACHINES)]
+
+
+_SETTING = (Assign, Forget, For)
+
+
+def _names_in(record: object) -> Iterator[str]:
+    """The names of all variables in a record, and in what it holds."""
+    if isinstance(record, Variable):
+        yield record.name
+    elif isinstance(record, tuple):
+        for each in record:
+            yield from _names_in(each)
+    elif isinstance(record, Struct):
+        for field in record.__struct_fields__:
+            yield from _names_in(getattr(record, field))
 
 
 class Variables:

@@ -24,8 +24,10 @@ from .document import (
     Findings as Findings,
     Shelf as Shelf,
     stream_json as stream_json,
+    to_json as to_json,
 )
 from .dxf import (
+    drawing_for_cad as drawing_for_cad,
     to_dxf as to_dxf,
 )
 from .equations import (

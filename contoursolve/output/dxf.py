@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from math import atan2, degrees, hypot
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import ezdxf
 from ezdxf.document import Drawing
@@ -17,10 +18,14 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, count
 from contoursolve.geometry import Length, Plane, Turn
+from contoursolve.program import Result
 from contoursolve.solving import ArcSegment, Contour, Point, Segment
 from contoursolve.tolerance import LENGTH
+
+if TYPE_CHECKING:
+    from contoursolve.tool_radius import ToolReport
 
 CONSTRUCTION = "construction"
 """The layer of what is not cut: virtual and computed intersections."""
@@ -34,6 +39,21 @@ _CROSS = 2
 _MARK = 0.01
 """1. Height of texts, as a share of the drawing's larger side."""
 _FULL = 360.0
+
+
+def drawing_for_cad(result: Result, tool: "ToolReport | None") -> tuple[bytes, str] | None:
+    """The drawing of all that is solved of a program, with the path of its tool, and the number of things in it; None
+    if nothing is solved."""
+    contours = [answer.contour for answer in result.answers if answer.contour]
+    runs, solved = tool.runs if tool else (), {line for answer in result.answers for line in answer.lines}
+    paths = {f"tool - program line {each.run.lines[0]}": each.path for each in runs if each.path}
+    beside = f", {count(len(paths), 'path')} of the tool" if paths else ""
+    plain = [each for each in runs if solved.isdisjoint(each.run.lines)]
+    paths |= {f"part - program line {each.run.lines[0]}": each.part for each in plain}
+    if not contours and not paths:
+        return None
+    elements = count(sum(len(contour.elements) for contour in contours), "element")
+    return to_dxf(result.answers, paths), f"{elements} of {count(len(contours), 'contour')}{beside}"
 
 
 def to_dxf(answers: Sequence[Answer], paths: Mapping[str, Contour] = MappingProxyType({})) -> bytes:

@@ -123,7 +123,8 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
         weight = PATH_WEIGHT if trail.weight is Weight.MAIN else THIN_WEIGHT
         is_named = scene.is_one_contour and trail.weight is Weight.MAIN
         for part in [replace(trail, segments=(each,)) for each in trail.segments] if is_named else [trail]:
-            with canvas.about(About(element=part.segments[0].name) if is_named else ANYTHING):
+            own = About(line=str(part.line)) if part.line else ANYTHING
+            with canvas.about(About(element=part.segments[0].name) if is_named else own):
                 for stroke in _strokes(view, part) if part.weight is not Weight.PASSING else _passing(canvas, part):
                     canvas.draw(stroke, weight)
     for trail in (trail for trail in trails if trail.weight is Weight.MAIN):

@@ -95,7 +95,10 @@ def compose_overview(
     scenes: list[Scene] = []
     for plane in dict.fromkeys(each.plane for each in everything):
         own = [(number, answer) for number, answer in enumerate(result.answers, 1) if answer.plane == plane]
-        drawn = [DrawnContour(number, answer, tuple(_trails(answer))) for number, answer in own[:MOST_CONTOURS]]
+        drawn = [
+            DrawnContour(number, answer, tuple(replace(each, line=answer.lines[0]) for each in _trails(answer)))
+            for number, answer in own[:MOST_CONTOURS]
+        ]
         told = shown if not scenes else f"{plane.code}: {' and '.join(plane.axes)}"
         near = [each for each in moves if each.axes == plane.axes]
         more = [each for each in beside if each.plane == plane]

@@ -44,13 +44,15 @@ class Sweep(Struct, frozen=True):
 
 
 class About(Struct, frozen=True):
-    """Subject of an item, by which a page finds it: a word's key, an element's or points' names, numbers of findings.
-    Findings count in the contour, from 1; several names are separated by blanks."""
+    """Subject of an item, by which a page finds it: a word's key, an element's or points' names, numbers of findings,
+    the line on which one of several contours begins. Findings count in the contour, from 1; several names are separated
+    by blanks."""
 
     word: str = ""
     point: str = ""
     element: str = ""
     finding: str = ""
+    line: str = ""
 
 
 ANYTHING = About()

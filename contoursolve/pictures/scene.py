@@ -38,6 +38,8 @@ class Trail(Struct, frozen=True):
     segments: tuple[Segment, ...]
     role: Role
     weight: Weight = Weight.MAIN
+    line: int = 0
+    """The line on which the contour begins to which it belongs, among several; 0 for what is alone."""
 
 
 class Thin(Struct, frozen=True):

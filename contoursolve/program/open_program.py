@@ -29,7 +29,7 @@ from contoursolve.program.agreeing_controls import choose_alike
 from contoursolve.program.examination import Cursor, Examination
 from contoursolve.program.named_words import has_named, is_named_for_all
 from contoursolve.program.no_contour import conclusions, nothing_to_solve
-from contoursolve.program.pipeline import Result, run
+from contoursolve.program.pipeline import Result, Run, run
 from contoursolve.program.project_file import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import (
     PLANE,
@@ -538,6 +538,14 @@ class OpenProgram:
             asked = replace(self._asked, dialect=self.dialect, around=surroundings_of(self.name))
             self._unread = run(parse(self.text, self.name), asked)
         return self._unread
+
+    def result(self) -> Result:
+        """The program with all that is found in it, once `check` has returned True."""
+        if self._examination is None:
+            return self._whole()
+        frame = Run(parse(self.text, self.name), self._examination.asked).frame
+        answers = (self.contour_at(each.first) for each in [*self.contours])
+        return replace(frame, answers=tuple(filter(None, answers)), diagnostics=self.diagnostics)
 
     @property
     def contours(self) -> Iterator[OpenContour]:

@@ -20,22 +20,15 @@ from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import Blocks
 from contoursolve.program import find_settings, likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
+from contoursolve.workbench.fields import ActionError, Data, read_field
 from contoursolve.workbench.files import FileConflictError, FileText, Folder, text_of
-from contoursolve.workbench.open_view import Data, ProgramView
+from contoursolve.workbench.open_view import ProgramView
 
 logger = logging.getLogger(__name__)
 
 MOST_WINDOWS, MOST_PROGRAMS, MOST_EXAMINED = 32, 16, 8
 """Windows that are known, programs that each has, and programs of all windows of which more than the text is kept. The
 oldest go first; a page opens them again with its own text."""
-
-
-class ActionError(UserError, ValueError):
-    """An action that cannot be done; the message says why, and `more` what else is told."""
-
-    def __init__(self, message: str, **more: Any) -> None:
-        super().__init__(message)
-        self.more = more
 
 
 class PageWindow:
@@ -105,7 +98,8 @@ class Desk:
     def _add(self, window: PageWindow, file: FileText, control: str | None) -> ProgramView:
         """Another program of a window."""
         window.opened += 1
-        view = ProgramView(str(window.opened), file, control, self.settings())
+        path = self.folder.path / file.name if self.folder is not None else None
+        view = ProgramView(str(window.opened), file, control, self.settings(), path)
         window.programs[view.number] = view
         while len(window.programs) > MOST_PROGRAMS:
             del window.programs[next(iter(window.programs))]
@@ -150,18 +144,18 @@ def _files(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
 
 def _open(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     control = _control_of(action)
-    name = _text(action, "name", "program.nc")
+    name = read_field(action, "name", str, "program.nc")
     if "example" in action:
-        file = FileText(*_example(_text(action, "example")))
-        control = control or _text(action, "example")
+        file = FileText(*_example(read_field(action, "example", str)))
+        control = control or read_field(action, "example", str)
     elif "base64" in action:
         file = text_of(_bytes(action), name, is_file=False)
     elif "text" in action:
-        encoding = _text(action, "encoding", "utf-8")
+        encoding = read_field(action, "encoding", str, "utf-8")
         if encoding not in ("utf-8", "latin-1"):
             raise ActionError(f"{encoding!r} is no encoding of programs; it is utf-8 or latin-1")
         mark = b"\xef\xbb\xbf" if action.get("has_order_mark") else b""
-        file = FileText(name, _text(action, "text"), encoding, mark, _text(action, "base", ""))
+        file = FileText(name, read_field(action, "text", str), encoding, mark, read_field(action, "base", str, ""))
     else:
         file = desk.files().read(name)
     return desk._add(window, file, control).view(is_whole=True)
@@ -191,7 +185,7 @@ def _go_on(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
 def _edit(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     program = desk.program(window, action)
     if "text" in action:
-        program.replace(_text(action, "text"))
+        program.replace(read_field(action, "text", str))
     else:
         edits = action.get("edits")
         _check_seq(program, action)
@@ -240,8 +234,8 @@ def _set_control(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> D
 def _fix(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     program = desk.program(window, action)
     _check_seq(program, action)
-    finding, lines = program.finding(_number(action, "finding"))
-    number = _number(action, "fix")
+    finding, lines = program.finding(read_field(action, "finding", int))
+    number = read_field(action, "fix", int)
     if not 0 <= number < len(finding.fixes):
         raise ActionError(f"there is no fix {number + 1} of this finding; nothing was changed")
     edits = program.changed_by(program.program.edits_of(program.changes_of(finding.fixes[number], lines)))
@@ -252,7 +246,7 @@ _WAYS = {"safe": safe_fixes, "likely": likely_fixes}
 
 
 def _fix_all(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    program, way = desk.program(window, action), _WAYS.get(_text(action, "kind", "safe"))
+    program, way = desk.program(window, action), _WAYS.get(read_field(action, "kind", str, "safe"))
     if way is None:
         raise ActionError("all fixes are applied by kind: safe, or likely")
     mended = mend_open(program.program, way)
@@ -263,14 +257,12 @@ def _fix_all(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
 
 def _look(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     program = desk.program(window, action)
-    return _explored(program, program.look(_number(action, "line")))
+    return _explored(program, program.look(read_field(action, "line", int)))
 
 
 def _act(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    program, asked = desk.program(window, action), action.get("action")
-    if not isinstance(asked, dict):
-        raise ActionError("act needs an action of the explorer")
-    changed, edits = program.act(asked, _number(action, "line"))
+    program, asked = desk.program(window, action), read_field(action, "action", dict)
+    changed, edits = program.act(asked, read_field(action, "line", int))
     return {**_explored(program, program.explored, changed), **({**program.view(), "edits": edits} if edits else {})}
 
 
@@ -285,11 +277,17 @@ def _explored(program: ProgramView, explored: Explored | None, changed: Data | N
 def _save(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     program, folder = desk.program(window, action), desk.files()
     file = program.file
-    name = _text(action, "name", file.name)
-    base = _text(action, "over", file.mark if name == file.name else "")
+    name = read_field(action, "name", str, file.name)
+    base = read_field(action, "over", str, file.mark if name == file.name else "")
     mark = folder.write(name, replace(file, name=name).encode(program.text), base)
     program.file = replace(file, name=name, mark=mark)
     return {"saved": name, "base": mark, "has_changes": False, "seq": program.seq}
+
+
+def _make(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    from contoursolve.workbench.products import answer_with  # noqa: PLC0415 - a page is shown before it asks for one
+
+    return answer_with(action["do"], desk.program(window, action), action)
 
 
 def _close(_desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
@@ -311,27 +309,20 @@ ACTIONS: dict[str, Callable[[Desk, PageWindow, Mapping[str, Any]], Data]] = {
     "act": _act,
     "save": _save,
     "close": _close,
+    "drawing": _make,
+    "tool": _make,
+    "variables": _make,
+    "expand": _make,
+    "convert": _make,
+    "report": _make,
+    "dxf": _make,
+    "png": _make,
+    "verify": _make,
 }
 """Functions that answer, by the name of the action."""
 
 WRITING = frozenset(("save",))
 """Actions that write files."""
-
-
-def _text(action: Mapping[str, Any], name: str, default: str | None = None) -> str:
-    """A text of an action. Raises ActionError."""
-    value = action.get(name, default)
-    if not isinstance(value, str):
-        raise ActionError(f"{action['do']} needs a text {name}")
-    return value
-
-
-def _number(action: Mapping[str, Any], name: str) -> int:
-    """A whole number of an action. Raises ActionError."""
-    value = action.get(name)
-    if not isinstance(value, int) or isinstance(value, bool):
-        raise ActionError(f"{action['do']} needs a whole number {name}")
-    return value
 
 
 def _control_of(action: Mapping[str, Any]) -> str | None:
@@ -344,6 +335,6 @@ def _control_of(action: Mapping[str, Any]) -> str | None:
 
 def _bytes(action: Mapping[str, Any]) -> bytes:
     try:
-        return base64.b64decode(_text(action, "base64"), validate=True)
+        return base64.b64decode(read_field(action, "base64", str), validate=True)
     except binascii.Error:
         raise ActionError("the file did not arrive whole; drop it again") from None

@@ -7,8 +7,8 @@ the end of each line as it was.
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import accumulate
+from pathlib import Path
 from time import monotonic
-from typing import Any
 
 from msgspec.structs import replace
 
@@ -18,9 +18,9 @@ from contoursolve.output import effect_of
 from contoursolve.program import CONTROL, OpenProgram, changes_of
 from contoursolve.solving import Status
 from contoursolve.workbench.explored import Explored
+from contoursolve.workbench.fields import Data
 from contoursolve.workbench.files import FileRefusedError, FileText, mark_of
 
-Data = dict[str, Any]
 Edit = tuple[int, int, str]
 """Two offsets in a text as a page counts it, and what stands between them instead."""
 
@@ -38,7 +38,11 @@ class OldEditError(UserError, ValueError):
 class ProgramView:
     """One program of a window. `seq` counts its texts; `view` is what a page does not have yet."""
 
-    def __init__(self, number: str, file: FileText, control: str | None, settings: Mapping[str, str]) -> None:
+    def __init__(
+        self, number: str, file: FileText, control: str | None, settings: Mapping[str, str], path: Path | None
+    ) -> None:
+        self.path = path
+        """The place of its file, beside which are subprograms and the project file; None without a folder."""
         self.number, self.seq, self.file = number, 0, replace(file, text="")
         self.control, self.settings = control, settings
         self._text = file.text
@@ -53,7 +57,8 @@ class ProgramView:
     def program(self) -> OpenProgram:
         """The program; examined anew where it was at rest."""
         if self._program is None:
-            self._program = OpenProgram(self._text, control=self.control, settings=self.settings, name=self.file.name)
+            name = str(self.path or self.file.name)
+            self._program = OpenProgram(self._text, control=self.control, settings=self.settings, name=name)
             self._text = ""
         return self._program
 
@@ -223,11 +228,12 @@ class ProgramView:
         for finding, lines in found[:MOST_FINDINGS]:
             before = self._shown.get(id(finding))
             is_same = before is not None and before[0] is finding and before[1] == lines
-            shown[id(finding)] = before if is_same and before else (finding, lines, self._shown_as(finding, lines))
+            shown[id(finding)] = before if is_same and before else (finding, lines, self.told(finding, lines))
         self._shown = shown
         return [data for _, _, data in shown.values()]
 
-    def _shown_as(self, finding: Diagnostic, lines: tuple[int, ...]) -> Data:
+    def told(self, finding: Diagnostic, lines: tuple[int, ...]) -> Data:
+        """A finding as a page shows it, with its fixes, which replace some lines."""
         alarm = finding.alarm
         return {
             "code": finding.code,

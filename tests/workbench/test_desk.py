@@ -1,8 +1,12 @@
 """The desk of the workbench: every action through its one door, without a server."""
 
+from base64 import b64decode, b64encode
+
 import pytest
 
+import contoursolve
 from contoursolve.controls import DIALECTS
+from contoursolve.pictures import Theme
 from contoursolve.workbench import Desk
 
 BROKEN = b"%\r\nO1\r\n\r\nG00 X40. Z0.\r\n  G111 X100. A180. K-30. B120. P60. \r\nM30\n"
@@ -73,3 +77,41 @@ def test_a_saved_program_keeps_every_byte_that_nobody_changed(tmp_path):
     assert page.text == data.decode().replace("\r\n", "\n").replace("P60.", "P6.\nG01 Z-60.")
     page.ask("save")
     assert (tmp_path / "part.nc").read_bytes() == data.replace(b"P60.", b"P6.\r\nG01 Z-60.")
+
+
+def test_each_product_is_that_of_the_command_of_its_name(tmp_path):
+    page, text = Page(Desk(tmp_path)), "G00 X40. Z0.\r\nG111 X100. A180. K-30. B120. P5.\r\n"
+    page.ask("open", name="part.nc", base64=b64encode(text.encode()).decode())
+    drawn = page.ask("drawing")
+    assert drawn["svg"] == contoursolve.pictures.draw(contoursolve.solve(text), theme=Theme.PAGE).svg
+    plain = b64decode(page.ask("expand", comments=False)["base64"])
+    assert plain == contoursolve.expand(text, comments=False).text.encode()
+    other = b64decode(page.ask("convert", to="fanuc-lathe")["base64"])
+    assert other == contoursolve.convert(text, "fanuc-lathe").text.encode()
+    assert page.ask("verify")["verdict"] == "verified"
+    for kind, beginning in (("report", b"<!doctype html>"), ("dxf", b"  0\nSECTION"), ("png", b"\x89PNG")):
+        assert b64decode(page.ask(kind)["base64"]).startswith(beginning)
+    cut = page.ask("tool", tool="R6., tip 3", side="right")
+    assert not cut["runs"][0]["fits"]
+    assert cut["largest_mm"] == pytest.approx(5.0)
+    assert {each["code"] for each in cut["findings"]} != set()
+    for wrong in (
+        {"do": "tool", "tool": "R-1"},
+        {"do": "tool", "tool": 5},
+        {"do": "convert", "to": "heidenhain"},
+        {"do": "convert"},
+        {"do": "expand", "post": "none"},
+        {"do": "expand", "decimals": True},
+        {"do": "variables", "values": {"Q": "x"}},
+    ):
+        assert [*page.ask(**wrong)] == ["trouble"]
+
+
+def test_the_variables_of_a_subprogram_have_fields_and_their_values_show_what_it_does():
+    page = Page(Desk())
+    page.ask("open", name="q.nc", control="fanuc-lathe", text="#5=10\nG00 X40. Z0.\nG01 Z-30. ,R#5\nX#1 ,A#2 F#5041\n")
+    asked = page.ask("variables")
+    assert [(each["name"], each["set_on"]) for each in asked["fields"]] == [("#5", 1), ("#1", None), ("#2", None)]
+    assert asked["contours"][0]["status"] == "underdetermined"
+    assert page.ask("variables", values={"#1": 100.0, "#2": 120})["contours"][0]["status"] == "solved"
+    assert "there is no variable" in page.ask("variables", values={"nothing": 1})["trouble"]

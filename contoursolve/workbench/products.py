@@ -1,0 +1,192 @@
+"""Answers of the desk that make something of a program: drawings, other programs, pages; with a tool, with values."""
+
+import base64
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import PurePath
+from typing import Any
+
+import contoursolve
+from contoursolve.comparison import Document, verify
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics import importing
+from contoursolve.execution import named_variables
+from contoursolve.notebook import Product, converted, expanded, page_about, stated_tool
+from contoursolve.output import beside_of, receipt_lines, to_json
+from contoursolve.pictures import Theme, draw_result
+from contoursolve.program import CONTROL, Result
+from contoursolve.tool_radius import ToolReport, title_of
+from contoursolve.workbench.fields import ActionError, Data, read_field
+from contoursolve.workbench.open_view import ProgramView
+
+MOST_VARIABLES = 200
+"""Variables of a program that have fields."""
+
+
+def answer_with(make: str, view: ProgramView, action: Mapping[str, Any]) -> Data:
+    """The answer of one of `PRODUCTS`, of a program that is examined. Raises ActionError, ValueError."""
+    view.program.check()
+    if view.program.dialect is None:
+        raise ActionError(view.program.trouble)
+    return PRODUCTS[make](view, action)
+
+
+def _drawing(view: ProgramView, _: Mapping[str, Any]) -> Data:
+    return _drawn(view.program.result(), _stated(view))
+
+
+def _stated(view: ProgramView) -> ToolReport | None:
+    """The report about the tool that the program or the project file states, if there is one."""
+    found = stated_tool(view.program, view.path)
+    return found if isinstance(found, ToolReport) else None
+
+
+def _drawn(result: Result, tool: ToolReport | None) -> Data:
+    picture = draw_result(result, theme=Theme.PAGE, beside=beside_of(tool))
+    return {"svg": picture.svg, "title": picture.title, "description": picture.description}
+
+
+def _with_tool(view: ProgramView, action: Mapping[str, Any]) -> Data:
+    program = view.program
+    result, report = contoursolve.solve_with_tool(
+        program.text,
+        read_field(action, "tool", str, "program"),
+        tip=read_field(action, "tip", int, None),
+        side=read_field(action, "side", str, None) or None,
+        outside=read_field(action, "outside", str, "roll"),
+        name=program.name,
+        control=program.dialect,
+    )
+    radii = [each.largest_radius for each in report.runs]
+    limits = [each for each in radii if each is not None]
+    return {
+        **_drawn(result, report),
+        "findings": _told(view, result),
+        "runs": [
+            {
+                "line": each.run.lines[0],
+                "last": each.run.lines[-1],
+                "title": title_of(each),
+                "fits": each.path is not None,
+                "largest_mm": largest,
+            }
+            for each, largest in zip(report.runs, radii, strict=True)
+        ],
+        "largest_mm": min(limits, default=None),
+    }
+
+
+def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
+    program = view.program
+    language = program.dialect.modes.language if program.dialect is not None else None
+    values = read_field(action, "values", dict, {})
+    if not all(isinstance(each, int | float) and not isinstance(each, bool) for each in values.values()):
+        raise ActionError("values of variables are numbers")
+    found = named_variables(language, view.lines()) if language is not None else []
+    result = contoursolve.solve(program.text, control=program.dialect, name=program.name, variables=values)
+    return {
+        **_drawn(result, None),
+        "fields": [
+            {"name": each.name, "line": each.line, "set_on": each.set_on, "value": values.get(each.name)}
+            for each in found[:MOST_VARIABLES]
+        ],
+        "left_out": max(len(found) - MOST_VARIABLES, 0),
+        "findings": _told(view, result),
+        "contours": [
+            {"line": each.lines[0], "last": each.lines[-1], "status": each.status.value, "title": each.claim.form.name}
+            for each in result.answers
+        ],
+    }
+
+
+def _told(view: ProgramView, result: Result) -> Sequence[Data]:
+    """The findings of another result of the same text. Their fixes are those of the program as it is, and not here."""
+    return [{**view.told(each, result.lines_of(each)), "fixes": []} for each in result.diagnostics]
+
+
+# Files ---------------------------------------------------------------------------------------------------------------
+
+
+def _expand(view: ProgramView, action: Mapping[str, Any]) -> Data:
+    options = {
+        name: read_field(action, name, kind, None)
+        for name, kind in (("post", str), ("arcs", str), ("decimals", int))
+        if action.get(name) is not None
+    }
+    options |= {
+        name: read_field(action, name, bool, False)
+        for name in ("comments", "inline", "keep_going", "keep_untranslated")
+        if name in action
+    }
+    return _program(view, expanded(view.program, **options), "plain")
+
+
+def _convert(view: ProgramView, action: Mapping[str, Any]) -> Data:
+    control = read_field(action, "to", str)
+    if control not in DIALECTS:
+        raise ActionError(f"{control!r} is no control here")
+    settings = {name: value for name, value in view.settings.items() if name != CONTROL}
+    return _program(view, converted(view.program, control, settings), control)
+
+
+def _program(view: ProgramView, made: Product, what: str) -> Data:
+    """Another program in the encoding of the first one."""
+    if made.text is None:
+        raise ActionError(made.message or "nothing was written: a contour is not solved; mend its findings first")
+    return {**_file(view, f"-{what}{_suffix(view)}", view.file.encode(made.text), made.message), "text": made.text}
+
+
+def _report(view: ProgramView, _: Mapping[str, Any]) -> Data:
+    with importing("report", "a report"):
+        made = page_about(
+            view.program, view.program.name, stated_tool(view.program, view.path), contoursolve.__version__
+        )
+    if made.text is None:
+        raise ActionError(made.message)
+    return _file(view, ".html", made.text.encode("utf-8", "replace"))
+
+
+def _dxf(view: ProgramView, _: Mapping[str, Any]) -> Data:
+    with importing("dxf", "a DXF drawing"):
+        from contoursolve.output import drawing_for_cad  # noqa: PLC0415 - needs an extra
+
+        drawn = drawing_for_cad(view.program.result(), _stated(view))
+    if drawn is None:
+        raise ActionError("no contour is solved, so that there is nothing to draw")
+    return _file(view, ".dxf", *drawn)
+
+
+def _png(view: ProgramView, _: Mapping[str, Any]) -> Data:
+    picture = draw_result(view.program.result(), beside=beside_of(_stated(view)))
+    return _file(view, ".png", picture.png(), picture.title)
+
+
+def _verify(view: ProgramView, _: Mapping[str, Any]) -> Data:
+    """The result of the program, checked against its words without the solver."""
+    result = view.program.result()
+    program = Document(view.file.name, view.file.encode(view.text))
+    receipt = verify(program, Document("result", to_json(result).encode()), control=view.program.dialect)
+    return {"verdict": receipt.verdict.value, "text": "\n".join(receipt_lines(receipt))}
+
+
+def _suffix(view: ProgramView) -> str:
+    return PurePath(view.file.name).suffix or ".nc"
+
+
+def _file(view: ProgramView, ending: str, data: bytes, message: str = "") -> Data:
+    """A file that a page may save, named after the program."""
+    stem = PurePath(view.file.name).stem or "program"
+    return {"name": f"{stem}{ending}", "base64": base64.b64encode(data).decode("ascii"), "message": message}
+
+
+PRODUCTS: Mapping[str, Callable[[ProgramView, Mapping[str, Any]], Data]] = {
+    "drawing": _drawing,
+    "tool": _with_tool,
+    "variables": _with_values,
+    "expand": _expand,
+    "convert": _convert,
+    "report": _report,
+    "dxf": _dxf,
+    "png": _png,
+    "verify": _verify,
+}
+"""Functions that make something of a program, by the name of the action."""
