@@ -329,10 +329,12 @@ class _Stock:
         table = {_key(name): tool for name, tool in asked.table.items()}
         self.tools: list[tuple[int, Tool | Word]] = []
         self.voids: list[tuple[int, Word | None]] = []
+        self.moved = list[int]()
         self.changes, self.ends, self.switches = list[int](), list[int](), list[tuple[int, int]]()
         # D is another word in some contours.
         addresses = [each for each in "TD" if each not in dialect.modes.lexicon.addresses]
         has_change, ready = any(_is_change(block) for block in blocks), dict[str, Word]()
+        last: Decimal | None = None
         for place, block in enumerate(blocks):
             called = {
                 word.address: word for word in block.words if word.address in addresses and word.number is not None
@@ -349,7 +351,9 @@ class _Stock:
             letters = [address for address, _ in table]
             unknown = [word for word in called.values() if word.address in letters and word.number]
             self.tools += [(place, each) for each in [*known, *unknown][:1]]
-            if "T" in called or found:
+            is_other = "D" in called and last not in (None, called["D"].number)
+            last = called["D"].number if "D" in called else last
+            if "T" in called or found or is_other:
                 self.changes.append(place)
             if called:
                 self.voids.append((place, next((word for word in called.values() if not word.number), None)))
@@ -357,6 +361,8 @@ class _Stock:
             is_home = any(row.effect is Effect.SINGLE for row in rows)
             if "T" in called or is_home or any(word.address == "M" and word.number in _ENDS for word in block.words):
                 self.ends.append(place)
+            elif any(row.axis for word in block.words if (row := dialect.modes.lexicon.addresses.get(word.address))):
+                self.moved.append(place)
             codes = {row.number: row.text for row in rows if row.effect is Effect.COMPENSATION}
             if len(codes) > 1:
                 told = " and ".join(text for _, text in sorted(codes.items()))
@@ -374,7 +380,7 @@ class _Stock:
 
     def left(self, run: CuttingRun, found: Sequence[CuttingRun]) -> CuttingRun:
         """A run that knows where G40 is missing behind it: before another tool, or a way home, or the end, where no
-        other run comes first. Where none comes at all, a way home interrupts nothing."""
+        other run comes first. Where no move comes before G40, a way home interrupts nothing."""
         first, last, never = run.travels[0].number, run.travels[-1].number, len(self.blocks)
         offs = [place for place, code in self.switches if code not in SIDES]
         if any(run.broken < self.blocks[place].line and place <= first for place in offs):
@@ -382,8 +388,8 @@ class _Stock:
         off = next((place for place in offs if place > last), never)
         following = min((other.travels[0].number for other in found if other.travels[0].number > last), default=never)
         end = next((place for place in self.ends if place > last), never - 1)
-        line = self.blocks[end].line
-        if end >= min(off, following) or (run.broken and (run.broken != line or off > following)):
+        line, beyond = self.blocks[end].line, bisect_right(self.moved, end) < bisect_right(self.moved, off - 1)
+        if end >= min(off, following) or (run.broken and (run.broken != line or beyond)):
             return run
         return replace(run, broken=0, still_on=line)
 
