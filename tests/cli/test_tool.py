@@ -389,7 +389,9 @@ def test_run_in_and_run_off_that_cross_are_no_walls(tmp_path: Path):
     assert found.exit_code == 0
 
 
-@pytest.mark.parametrize("midst", ["G55", "G68 X0 Y0 R10.", "G28 Z0.", "G91 Z-1.", "G81 X45. Y45. Z-5. R2.", "T2 M6", "D2", "G53 Z0."])
+@pytest.mark.parametrize(
+    "midst", ["G55", "G68 X0 Y0 R10.", "G28 Z0.", "G91 Z-1.", "G81 X45. Y45. Z-5. R2.", "T2 M6", "D2", "G53 Z0."]
+)
 def test_what_interrupts_a_contour_is_an_error_and_nothing_is_written(midst: str, tmp_path: Path):
     (tmp_path / "a.nc").write_text(PLATE.replace(" ,C2.", "").replace("<<MIDST>>", midst))
     done = call("expand", *MILL, "--tool", "R5", tmp_path / "a.nc")
