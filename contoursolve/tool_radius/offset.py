@@ -201,7 +201,9 @@ class OffsetPath:
         found = list[OffsetElement]()
         for number, element in enumerate(self.elements):
             around: list[Segment] = []
-            if number < len(self.joints) and (is_trimmed or self.joints[number].turn <= 0):
+            turn = self.joints[number].turn if number < len(self.joints) else 0.0
+            # Beyond an inside corner that hardly turns, the offsets are no gouge.
+            if number < len(self.joints) and (is_trimmed or turn <= 0 or self.radius * turn * turn <= 100 * GOUGE):
                 moved[number], around, moved[number + 1] = self._joined(number, moved[number], moved[number + 1])
             own = moved[number]
             is_full = isinstance(own, ArcSegment) and own.radius > LENGTH and dist(element.start, element.end) <= LENGTH
@@ -255,9 +257,11 @@ class OffsetPath:
         crossing to crossing; None where that is no way from the first to the last."""
         whole = self._offsets(is_trimmed=False)
         segments = [each.segment for each in whole]
+        back = OffsetPath(self.elements, self.radius, -self.side, self.settings)._offsets(is_trimmed=False)
+        bounds = [*segments, *(each.segment for each in back), *self._circles()]
         parts = list[tuple[int, Segment]]()
         for number, segment in enumerate(segments):
-            near = (segments[gap.wall] for gap in gaps_below([segment], segments, AGREEMENT) if gap.wall != number)
+            near = (bounds[gap.wall] for gap in gaps_below([segment], bounds, AGREEMENT) if gap.wall != number)
             cuts = (at for other in near for at in crossings(segment, other) if is_on(segment, at) and is_on(other, at))
             parts += [(number, part) for part in split(segment, cuts)]
         middles = [replace(whole[number], segment=middle_of(part)) for number, part in parts]
@@ -273,6 +277,12 @@ class OffsetPath:
                 found.append(replace(own, segment=part))
         is_whole = bool(found) and dist(here, segments[-1].end) <= STRAY
         return None if not is_whole or any(self._cuts(found)) or any(self._unverified(found)) else tuple(found)
+
+    def _circles(self) -> Iterator[ArcSegment]:
+        """The places from which the tool touches an end of the contour."""
+        for center in (self.elements[0].start, self.elements[-1].end):
+            begin = ahead(center, (1.0, 0.0), self.radius)
+            yield ArcSegment("", begin, begin, center, self.radius, Turn.CCW)
 
     def rests(self, pieces: Sequence[OffsetElement]) -> Iterator[Rest]:
         """The rests in the inside corners of a path, and beside what it leaves out."""

@@ -1,6 +1,7 @@
 """The tool: worked examples by hand, and random contours against an oracle of points."""
 
 import re
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,7 @@ import numpy
 import pytest
 from click.testing import CliRunner
 from examples import few_and_many
-from oracle_tool import TIPS, Part, clearance, draw, is_cut, parts_of, program_of, run
+from oracle_tool import SPELLINGS, TIPS, Part, Spelling, clearance, draw, is_cut, parts_of, run
 
 from contoursolve.cli import main
 
@@ -72,56 +73,81 @@ def test_a_tip_that_points_away_is_told():
 # Random contours --------------------------------------------------------------------------------------------------
 
 
-def expanded(contours: list[list[Part]], options: list[str], folder: Path, *, is_lathe: bool) -> list[list[Part]]:
+def expanded(contours: list[list[Part]], about: "Drawn", folder: Path) -> list[list[Part]]:
     """The paths that are written for contours that a tool cuts, read as contours for a tool without a radius."""
-    (folder / "drawn.nc").write_text(program_of(contours, is_lathe=is_lathe))
+    (folder / "drawn.nc").write_text(about.spelling.program(contours, about.stated))
     output = folder / "written.nc"
-    done = CliRunner().invoke(main, ["expand", *options, str(folder / "drawn.nc"), "-o", str(output), "--force"])
+    done = CliRunner().invoke(main, ["expand", *about.options, str(folder / "drawn.nc"), "-o", str(output), "--force"])
     assert done.exit_code == 0 or not contours, done.output
-    words = [
-        word for name in ("--control", "--tip") if name in options for word in (name, options[options.index(name) + 1])
-    ]
-    found = run("solve", "--format", "json", "--tool", "0", "--side", "left", *words, str(output)) if contours else {}
-    return [parts_of(each["elements"]) for each in found.get("contours", [])]
+    plain = ["solve", "--format", "json", "--tool", "0", "--side", "left", *about.reading, str(output)]
+    return [parts_of(each["elements"]) for each in run(*plain)["contours"]] if contours else []
 
 
-@few_and_many(20, 2000)
+@dataclass
+class Drawn:
+    """How contours are spelled, and the tool beside them."""
+
+    spelling: Spelling
+    radius: float
+    side: int
+    stated: int
+    """The side, if the program says it; else 0."""
+    outside: str
+    tip: int
+
+    @property
+    def reading(self) -> list[str]:
+        tip = ["--tip", str(self.tip)] if self.spelling.is_lathe else []
+        return ["--control", self.spelling.control, *self.spelling.options, *tip, "--rules", "off"]
+
+    @property
+    def options(self) -> list[str]:
+        side = [] if self.stated else ["--side", "left" if self.side > 0 else "right"]
+        return ["--tool", f"R{self.radius}", *side, "--outside", self.outside, *self.reading]
+
+    @property
+    def shift(self) -> complex:
+        """From the centre to the programmed point."""
+        return self.radius * TIPS[self.tip] if self.spelling.is_lathe else 0j
+
+
+@few_and_many(28, 2016)
 def test_random_contours(count: int, tmp_path: Path):
     """No path comes nearer to any wall than the radius; each stays at it; what fits is not refused."""
     random = numpy.random.default_rng(41)
-    refused, undecided = 0, 0
-    for number in range(0, count, 10):
-        contours, radius = [draw(random) for _ in range(10)], round(random.uniform(0.2, 4), 2)
-        side, outside = str(random.choice(["left", "right"])), str(random.choice(["roll", "intersect"]))
-        is_lathe, tip = number % 20 == 0, number // 20 % 10
-        (tmp_path / "drawn.nc").write_text(program_of(contours, is_lathe=is_lathe))
-        options = ["--tool", f"R{radius}", "--side", side, "--outside", outside, "--rules", "off"]
-        options += ["--control", "fanuc-lathe", "--tip", str(tip)] if is_lathe else ["--control", "fanuc-mill"]
-        found = run("solve", "--format", "json", *options, str(tmp_path / "drawn.nc"))["contours"]
-        assert len(found) == len(contours)
+    refused, undecided, in_each = 0, 0, count // len(SPELLINGS)
+    for number, spelling in enumerate(SPELLINGS * max(in_each // 10, 1)):
+        contours = [draw(random) for _ in range(min(in_each, 10))]
+        side = int(random.choice([-1, 1]))
+        outside = str(random.choice(["roll", "intersect"]))
+        stated = side if random.random() < 0.5 and spelling.control != "yasnac-lx3" else 0
+        radius = round(random.uniform(0.2, 4), 2)
+        about = Drawn(spelling, radius, side, stated, outside, number % 10)
+        (tmp_path / "drawn.nc").write_text(spelling.program(contours, stated))
+        found = run("solve", "--format", "json", *about.options, str(tmp_path / "drawn.nc"))["contours"]
+        assert len(found) == len(contours), (about, found)
         fitting = [parts for parts, each in zip(contours, found, strict=True) if each["tool"]["elements"]]
-        written = expanded(fitting, options, tmp_path, is_lathe=is_lathe)
-        for parts, path in zip(fitting, written, strict=True):
-            shift = radius * TIPS[tip] if is_lathe else 0j
-            places = [each.at(numpy.linspace(0, 1, 200))[0] - shift for each in path]
-            assert min(clearance(each, parts).min() for each in places) > radius - 0.002
+        made = expanded(fitting, about, tmp_path) if spelling.control != "heidenhain" else ()
+        for parts, path in zip(fitting, made, strict=bool(made)):
+            places = [each.at(numpy.linspace(0, 1, 200))[0] - about.shift for each in path]
+            assert min(clearance(each, parts).min() for each in places) > radius - 0.002, about
         for parts, contour in zip(contours, found, strict=True):
-            tool = contour["tool"]
-            says = is_cut(parts, radius, 1 if side == "left" else -1)
+            tool, read = contour["tool"], parts_of(contour["elements"])
+            assert max(abs(one.end - two.end) for one, two in zip(parts, read, strict=True)) < 1e-9
+            says = is_cut(parts, radius, side)
             if tool["elements"] is None:
                 refused += 1
                 undecided += says is None
                 kinds = {each["kind"] for each in tool["faults"]} - {"tip_against_side"}
                 # Prolonged, a path comes to walls that it would not reach around the corner.
                 is_prolonged = outside == "intersect" and kinds == {"interference"}
-                assert says is not True or is_prolonged, (kinds, parts, radius, side)
+                assert says is not True or is_prolonged, (about, kinds, parts)
                 continue
-            assert says is not False, (parts, radius, side)
+            assert says is not False, (about, parts)
             path = parts_of(tool["elements"])
             assert all(abs(one.end - two.start) < 1e-8 for one, two in pairwise(path))
-            shift = radius * TIPS[tip] if is_lathe else 0j
             for piece in path:
-                off = clearance(piece.at(numpy.linspace(0, 1, 1000))[0] - shift, parts) - radius
+                off = clearance(piece.at(numpy.linspace(0, 1, 1000))[0] - about.shift, parts) - radius
                 # Elements that turn by less than 0.01 degrees are taken for tangent.
                 assert off.min() > -1e-5
                 assert outside == "intersect" or abs(off).max() < 1e-5

@@ -144,22 +144,96 @@ def run(*words: str) -> Any:
     return json.loads(done.stdout)
 
 
+@dataclass
+class Spelling:
+    """The words of a control for a contour in a plane: its axes, those of the centre of an arc, counted from where the
+    arc begins, how many times the second axis counts, what stands first, and the codes of both sides."""
+
+    control: str
+    axes: str = "XY"
+    centers: str = "IJ"
+    factor: int = 1
+    head: str = "G17 G90"
+    sides: tuple[str, str] = ("G41 ", "G42 ")
+    options: tuple[str, ...] = ()
+
+    @property
+    def is_lathe(self) -> bool:
+        return self.axes == "ZX"
+
+    def place(self, at: complex) -> str:
+        """The words of a place, each number with twelve decimals."""
+        return f"{self.axes[0]}{at.real:.12f} {self.axes[1]}{at.imag * self.factor:.12f}"
+
+    def move(self, part: Part) -> list[str]:
+        """The blocks of a part."""
+        center = part.center - part.start
+        words = f" {self.centers[0]}{center.real:.12f} {self.centers[1]}{center.imag:.12f}" if part.turn else ""
+        return [f"G0{1 + (part.turn < 0) + 2 * (part.turn > 0)} {self.place(part.end)}{words}"]
+
+    def program(self, contours: list[list[Part]], side: int = 0) -> str:
+        """Contours with rapids between them; a side (+1 left, -1 right) is said in a move of 50 that leads to each."""
+        lines = [self.head] if self.head else []
+        for parts in contours:
+            _, way = parts[0].at(numpy.array([0.0]))
+            begin = parts[0].start - 50 * way[0] * (1 if side else 0)
+            lines.append(f"G00 {self.place(begin)}")
+            if side:
+                lines.append(f"{self.sides[side < 0]}G00 {self.place(parts[0].start)}")
+            lines += [line for part in parts for line in self.move(part)]
+            if side:
+                _, way = parts[-1].at(numpy.array([1.0]))
+                lines.append(f"G40 G00 {self.place(parts[-1].end + 50j * side * way[0])}")
+        return "\n".join(lines)
+
+
+_RL = {"G41 ": "RL", "G42 ": "RR"}
+
+
+class Klartext(Spelling):
+    """Blocks of HEIDENHAIN."""
+
+    def place(self, at: complex) -> str:
+        return f"X{at.real:+.12f} Y{at.imag:+.12f}"
+
+    def move(self, part: Part) -> list[str]:
+        if not part.turn:
+            return [f"L {self.place(part.end)} F300"]
+        return [f"CC {self.place(part.center)}", f"C {self.place(part.end)} DR{'-+'[part.turn > 0]}"]
+
+    def program(self, contours: list[list[Part]], side: int = 0) -> str:
+        lines = super().program(contours, side).splitlines()
+        for number, line in enumerate(lines):
+            code, rapid, place = line.rpartition("G00")
+            if rapid:
+                lines[number] = f"L{place} {_RL.get(code, 'R0')} FMAX"
+        return "\n".join(["BEGIN PGM T MM", *lines, "END PGM T MM"])
+
+
+_LATHE = ("ZX", "KI", 2, "G18")
+SPELLINGS = (
+    Spelling("fanuc-lathe", *_LATHE),
+    Spelling("fanuc-mill"),
+    Spelling("haas-lathe", *_LATHE),
+    Spelling("haas-mill"),
+    Spelling("yasnac-lx3", *_LATHE),
+    Spelling("nct-99m"),
+    Spelling("siemens-840d", head="G17 G90 G71"),
+    Spelling("siemens-840d", "ZX", "KI", 2, "G18 G90 G71 DIAMON", options=("--set", "siemens-840d.machine=lathe")),
+    Spelling("siemens-808d", head="G17 G90 G71"),
+    Spelling("siemens-808d", "ZX", "KI", 1, "G18 G90 DIAMOF", options=("--set", "siemens-808d.machine=lathe")),
+    Spelling("isg"),
+    Spelling("isg", "ZX", "KI", 1, "G18 G90", options=("--set", "isg.machine=lathe")),
+    Spelling("mitsubishi"),
+    Klartext("heidenhain", head=""),
+)
+"""Every control; some turn and mill."""
+
+
 def program_of(contours: list[list[Part]], *, is_lathe: bool, factor: int = 2) -> str:
-    """Contours with rapids between them, each number with twelve decimals; X of a lathe counts so many times."""
-    axes, factor = ("ZX", factor) if is_lathe else ("XY", 1)
-
-    def place(at: complex) -> str:
-        return f"{axes[0]}{at.real:.12f} {axes[1]}{at.imag * factor:.12f}"
-
-    lines = ["G18" if is_lathe else "G17"]
-    for parts in contours:
-        lines.append(f"G00 {place(parts[0].start)}")
-        for part in parts:
-            center = part.center - part.start
-            names = ("K", "I") if is_lathe else ("I", "J")
-            words = f" {names[0]}{center.real:.12f} {names[1]}{center.imag:.12f}" if part.turn else ""
-            lines.append(f"G0{1 + (part.turn < 0) + 2 * (part.turn > 0)} {place(part.end)}{words}")
-    return "\n".join(lines)
+    """Contours with rapids between them, as Fanuc controls read them; X of a lathe counts so many times."""
+    spelling = Spelling("fanuc-lathe", "ZX", "KI", factor, "G18") if is_lathe else Spelling("fanuc-mill", head="G17")
+    return spelling.program(contours)
 
 
 def parts_of(elements: list[dict[str, Any]]) -> list[Part]:
