@@ -112,6 +112,7 @@ from .sketches import (
     SketchCorner as SketchCorner,
     SketchElement as SketchElement,
     read_sketch as read_sketch,
+    solve_sketch as solve_sketch,
     write_sketch as write_sketch,
 )
 from .solving import (

@@ -46,6 +46,7 @@ from .examine import (
 )
 from .explain import (
     Context as Context,
+    absent_words as absent_words,
     context_of as context_of,
     report as report,
     spans_of as spans_of,
@@ -75,6 +76,10 @@ from .references import (
 )
 from .repairs import (
     find_repairs as find_repairs,
+)
+from .sample_drawing import (
+    Equations as Equations,
+    helping_words as helping_words,
 )
 from .slip_kinds import mistyped_codes as mistyped_codes
 from .solutions import (
@@ -128,6 +133,7 @@ from .window import (
     WindowPart as WindowPart,
 )
 from .wording import (
+    NUMBERS as NUMBERS,
     SHOWN as SHOWN,
     angle_text as angle_text,
     axis_labels as axis_labels,

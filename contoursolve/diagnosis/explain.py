@@ -291,17 +291,10 @@ def explain_missing(
     """Unknowns that no word determines, and the words that do, without those that are known to help nothing (`unable`);
     a brief one does not name them."""
     free = set(verdict.free)
-    stated = {fact.given for fact in profile.facts}
-    able = [
-        row.fact.given
-        for row in claim.form.outline.facts
-        if row.fact.given and row.fact.given not in stated and free & set(row.fact.reads())
-    ]
+    absent = absent_words(claim, profile, free)
     # Of a corner whose size is not determined, nothing is.
     corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
     shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
-    usual = claim.form.free.usual if claim.form.is_general else able
-    absent = [name for name in dict.fromkeys(usual) if name in able and name in claim.vocabulary]
     open_count = len(assemble(profile).unknowns) - verdict.rank
     ways = [] if is_brief else list(_adding(absent, claim, profile, unable))
     open_sizes = [question.word.text for question in profile.questions if question.fact.sizes in free]
@@ -310,13 +303,12 @@ def explain_missing(
     told = open_text(shown, profile)
     if claim.form.is_general:
         from contoursolve.diagnosis.missing_words import partners_of  # noqa: PLC0415 - few blocks lack words
-        from contoursolve.diagnosis.sample_drawing import sample_drawing  # noqa: PLC0415 - nor such
+        from contoursolve.diagnosis.sample_drawing import helping_words  # noqa: PLC0415 - nor such
 
         told, first = _open_elements(free, open_count, profile)
         blocks = zip(claim.blocks, claim.makes, strict=True)
         context = replace(context, place=next((block.span for block, names in blocks if first in names), context.place))
-        drawing = None if is_brief else sample_drawing(claim, profile, absent)
-        helping = [name for name in absent if drawing is None or drawing.helps(name)]
+        helping = absent if is_brief else helping_words(claim, profile, absent)
         usual_words = [claim.vocabulary[name] for name in helping[:_MOST_NAMED]]
         ways = [_adding_by_line(usual_words, open_count, claim)] if usual_words else valued
         partners, halves = partners_of(claim)
@@ -327,6 +319,18 @@ def explain_missing(
             told, ways = told.partition(", so ")[2], [f"{asked}, without which {words} {says} nothing"]
     completions = "; or ".join(ways) or f"state a fact about {'them' if told.endswith('are still open') else 'it'}"
     return report(context, ReadIssue.UNDERDETERMINED, Basis.SYMBOLIC, [], open=told, completions=completions)
+
+
+def absent_words(claim: ParsedContour, profile: Profile, free: Collection[str]) -> list[str]:
+    """The usual words that a contour does not state, and that say something of what is free, by their names."""
+    stated = {fact.given for fact in profile.facts}
+    able = [
+        row.fact.given
+        for row in claim.form.outline.facts
+        if row.fact.given and row.fact.given not in stated and {*free}.intersection(row.fact.reads())
+    ]
+    usual = claim.form.free.usual if claim.form.is_general else able
+    return [name for name in dict.fromkeys(usual) if name in able and name in claim.vocabulary]
 
 
 _MOST_NAMED = 8

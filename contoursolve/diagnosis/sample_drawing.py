@@ -5,13 +5,14 @@ known points is one that it has already.
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from math import cos, radians, sin
+from math import cos, hypot, radians, sin
 
 import numpy
 from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.geometry import FIRST, SECOND, Fact, Profile, System, Unit, Values, assemble, scalar
+from contoursolve.geometry import FIRST, SECOND, Fact, Line, Profile, System, Unit, Values, assemble, scalar
 from contoursolve.numeric import Created, pinv, svd
 from contoursolve.reading import ParsedContour, read, stating
 
@@ -25,6 +26,9 @@ TRIES, STEPS = 3, 40
 
 ARRIVED, STEP = 1e-8, 1e-6
 """mm. How well a drawing has what is stated, and how far unknowns are moved for a derivative."""
+
+SHORTEST = 1e-4
+"""Share of the size of a drawing that every line of it is longer than."""
 
 RANK = 1e-6
 """Share of the largest singular value below which one counts as zero: derivatives are good to about 1e-9."""
@@ -65,11 +69,11 @@ def sample_drawing(claim: ParsedContour, profile: Profile, names: Sequence[str])
     if not {*own} <= {*system.unknowns}:
         return None  # with those words some corner is none
     stated = [fact for fact in system.facts if fact in profiled or not fact.given]
-    equations = _Equations(whole, system)
+    equations = Equations(whole, system)
     for number in range(TRIES):
         try:
-            place = equations.solve(stated, number)
-            if place is None:
+            place = equations.solve(stated, equations.random_place(number))
+            if place is None or not equations.has_lengths(place):
                 continue
             told = {name: [fact for fact in system.facts if fact.given == name] for name in names}
             rows = {name: equations.rows_at(facts, place) for name, facts in told.items() if facts}
@@ -81,10 +85,18 @@ def sample_drawing(claim: ParsedContour, profile: Profile, names: Sequence[str])
     return None
 
 
-class _Equations:
+def helping_words(claim: ParsedContour, profile: Profile, absent: Sequence[str]) -> list[str]:
+    """Those of some absent words that determine anything that is open; all where no drawing tells."""
+    drawing = sample_drawing(claim, profile, absent)
+    return [name for name in absent if drawing is None or drawing.helps(name)]
+
+
+class Equations:
     """The facts of a system as functions of its unknowns."""
 
-    def __init__(self, profile: Profile, system: System) -> None:
+    def __init__(self, profile: Profile, system: System, side: int = 1) -> None:
+        self.side = side
+        """The side on which elements lie beside others, where nothing says it: 1 is the left."""
         self.system, self.number = system, {name: place for place, name in enumerate(system.unknowns)}
         starts = [float(value or 0) for value in profile.start.values]
         self.known = {scalar(profile.figure.start, axis): starts[axis] for axis in (FIRST, SECOND)}
@@ -97,9 +109,8 @@ class _Equations:
 
     def at(self, place: Array) -> Values:
         """A lookup at these values of the unknowns, each in its scale."""
-        values = dict(zip(self.number, (place * self.scales).tolist(), strict=True))
-        signs = Created(lambda _: 1)
-        return Values({**self.known, **values}, self.amounts, self.directions, self.system.headed, signs)
+        values = {**self.known, **dict(zip(self.number, (place * self.scales).tolist(), strict=True))}
+        return Values(values, self.amounts, self.directions, self.system.headed, Created(lambda _: self.side))
 
     def residuals(self, facts: Sequence[Fact], place: Array) -> Array:
         """By how much facts are off, in the scale."""
@@ -108,24 +119,38 @@ class _Equations:
 
     def slopes(self, facts: Sequence[Fact], place: Array) -> Array:
         """The derivatives of facts by the unknowns."""
-        found = numpy.zeros((len(facts), place.size))
+        found, here = numpy.zeros((len(facts), place.size)), (place * self.scales).tolist()
+        ends = [((place + way) * self.scales).tolist() for way in (STEP, -STEP)]
+        # One lookup serves all: an unknown is moved in it and back.
+        values = {**self.known, **dict(zip(self.number, here, strict=True))}
+        at = replace(self.at(place), scalars=values)
         for row, fact in enumerate(facts):
             for name in self.system.unknowns_of(fact):
-                number, ends = self.number[name], []
-                for way in (STEP, -STEP):
-                    moved = place.copy()
-                    moved[number] += way
-                    ends.append(self.residuals([fact], moved)[0])
-                found[row, number] = (ends[0] - ends[1]) / (2 * STEP)
+                number, off = self.number[name], []
+                for moved in ends:
+                    values[name] = moved[number]
+                    off.append(float(fact.residual(at)) / self.size)
+                values[name] = here[number]
+                found[row, number] = (off[0] - off[1]) / (2 * STEP)
         return found
 
-    def solve(self, facts: Sequence[Fact], seed: int) -> Array | None:
-        """A place at which all facts are true, from a random one; None if there is none near it."""
-        random = numpy.random.default_rng(seed)
-        place = random.uniform(-1, 1, len(self.number))
+    def has_lengths(self, place: Array) -> bool:
+        """Whether every line of the path has a length at a place: of one without, the direction says nothing."""
+        at, least = self.at(place), self.size * SHORTEST
+        lines = [each for each in self.system.figure.path if isinstance(each, Line) and each.tail and each.head]
+        steps = [[at.coordinate(each.head, axis) - at.coordinate(each.tail, axis) for axis in (0, 1)] for each in lines]
+        return all(hypot(*step) > least for step in steps)
+
+    def random_place(self, seed: int) -> Array:
+        """A place at random, with positive radii."""
+        place = numpy.random.default_rng(seed).uniform(-1, 1, len(self.number))
         for name, number in self.number.items():
             place[number] = abs(place[number]) if name in self.system.figure.radii else place[number]
-        for _ in range(STEPS):
+        return place
+
+    def solve(self, facts: Sequence[Fact], place: Array, steps: int = STEPS) -> Array | None:
+        """The place at which all facts are true that is found from a place; None if there is none near it."""
+        for _ in range(steps):
             off = self.residuals(facts, place)
             if not numpy.isfinite(off).all():
                 return None

@@ -76,10 +76,10 @@ _ADDRESS = re.compile(
 
 
 _BEFORE_NUMBER = {
-    **{f"{axis}{name}": f"{axis}{name}" for axis in ("", "I") for name in ("CCX", "CCY", "CCPR", "CCPA", "AN")},
+    **{f"{axis}{name}": f"{axis}{name}" for axis in ("", "I") for name in ("CCX", "CCY", "CCZ", "CCPR", "CCPA", "AN")},
     **{f"I{name}": f"I{name}" for name in ("X", "Y", "Z", "A", "B", "C", "PR", "PA")},
-    **{f"P{point}{axis}": f"P{point}{axis}" for point in "123D" for axis in "XY"},
-    **{f"R{name}": f"R{name} " for name in ("X", "Y", "PR", "PA", "AN", "CCX", "CCY", "CCPR", "CCPA")},
+    **{f"P{point}{axis}": f"P{point}{axis}" for point in "123D" for axis in "XYZ"},
+    **{f"R{name}": f"R{name} " for name in ("X", "Y", "Z", "PR", "PA", "AN", "CCX", "CCY", "CCZ", "CCPR", "CCPA")},
     "PR": "PR",
     "PA": "PA",
     "LEN": "LEN",
@@ -90,7 +90,8 @@ _BEFORE_NUMBER = {
     "ROUNDING": "RND R",
     "CHAMFER": "CHF ",
 }
-"""Text that Klartext writes before the numbers of words with several letters; there is no equals sign."""
+"""Text that Klartext, and a drawing, writes before the numbers of words with several letters; there is no equals
+sign."""
 
 _SIGN_ALONE = frozenset({"DR", "CLSD"})
 """Words of Klartext that are a sign and no number."""

@@ -2,6 +2,17 @@ from .as_program import (
     SketchProgram as SketchProgram,
     as_program as as_program,
 )
+from .known_part import (
+    EntryRange as EntryRange,
+    PartState as PartState,
+    SketchAnswer as SketchAnswer,
+    SketchEntry as SketchEntry,
+    SketchFinding as SketchFinding,
+    SketchFix as SketchFix,
+    SketchPart as SketchPart,
+    SketchSolution as SketchSolution,
+    solve_sketch as solve_sketch,
+)
 from .sketch import (
     ASKED as ASKED,
     ContourSketch as ContourSketch,

@@ -2,15 +2,23 @@
 
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
+from typing import Literal
 
 from msgspec import Struct
 
 from contoursolve.controls import words_of_drawing
 from contoursolve.diagnostics import Span
-from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchElement, Value
+from contoursolve.gcode import parse, spelled
+from contoursolve.reading import Dialect
+from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchCorner, SketchElement, Value
 
-FUNCTIONS = {("line", False): "FL", ("line", True): "FLT", ("arc", False): "FC", ("arc", True): "FCT"}
-SENSES = {"cw": "DR-", "ccw": "DR+"}
+FUNCTIONS: Mapping[tuple[Literal["line", "arc"], bool], str] = {
+    ("line", False): "FL",
+    ("line", True): "FLT",
+    ("arc", False): "FC",
+    ("arc", True): "FCT",
+}
+SENSES: Mapping[Literal["cw", "ccw"], str] = {"cw": "DR-", "ccw": "DR+"}
 CORNERS = {"rounding": "RND R", "chamfer": "CHF "}
 _FACT = " ; contoursolve: "
 
@@ -83,3 +91,31 @@ def _start(sketch: ContourSketch) -> str | None:
     begins = " ".join(f"{axis}{_number(sketch.start[axis])}" for axis in sketch.axes)
     pole = " ".join(f"{axis}{_number(value)}" for axis, value in sketch.pole.items())
     return f"{begins}\nFPOL {pole}" if pole else begins
+
+
+def element_of(line: str, control: Dialect) -> SketchElement | None:
+    """The element that a line of such a program has; None where it is none, or has what no element has."""
+    ((block,), facts) = (
+        spelled(parse(line.partition(";")[0]), control.modes.syntax).blocks[:1],
+        line.partition(_FACT)[2],
+    )
+    words, corner, turn, kind = dict[str, Value](), None, None, None
+    for word in block.words:
+        value: Value = ASKED if word.is_asked else Decimal(word.number or 0)
+        match word.address:
+            case "G":
+                kind = next((key for key, name in FUNCTIONS.items() if name == word.text.strip().upper()), None)
+            case "N" | "CLSD":
+                pass
+            case "DR":
+                turn = next(sense for sense, text in SENSES.items() if text[-1] == word.text.strip()[-1])
+            case "ROUNDING" | "CHAMFER":
+                corner = SketchCorner("rounding" if word.address == "ROUNDING" else "chamfer", value)
+            case "FSELECT":
+                return None
+            case _:
+                words[word.address] = value
+    if kind is None or block.faults:
+        return None
+    told = tuple(each.strip() for each in facts.split(";") if each.strip())
+    return SketchElement(kind[0], words, turn, kind[1], corner, facts=told)
