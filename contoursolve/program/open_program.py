@@ -54,6 +54,9 @@ _LONGEST = 16
 _MOST_BLOCKS = 20_000
 """Blocks that are kept; one takes 50 times the memory of its line."""
 
+_MOST_RENEWED = 16
+"""Contours on lines that have moved that are found anew one by one; more are solved together."""
+
 _MOST_MOVES = 64
 """Edits that moved lines that are kept, before all parts are brought up to date with them."""
 
@@ -266,14 +269,8 @@ class OpenProgram:
             self._begin()
 
     def replace(self, text: str) -> None:
-        """Put another text in the place of the whole; lines that are the same at the beginning and the end are not
-        touched."""
-        old, new = self._lines.texts, _split(text)
-        most = min(len(old), len(new))
-        first = next((index for index in range(most) if old[index] != new[index]), most)
-        most -= first
-        same = next((index for index in range(most) if old[-1 - index] != new[-1 - index]), most)
-        self._change(first, len(old) - same, new[first : len(new) - same])
+        """Put another text in the place of the whole."""
+        self._change(0, len(self._lines), _split(text))
 
     def edit(self, begin: Place, end: Place, text: str) -> None:
         """Put a text in the place of what stands from one place to another, the second one not included. A place behind
@@ -298,9 +295,15 @@ class OpenProgram:
         return max(line, 1) - 1, min(max(column, 1) - 1, len(lines[max(line, 1) - 1].rstrip("\r\n")))
 
     def _change(self, first: int, last: int, new: Sequence[str]) -> None:
-        """Put other lines in the place of some, and make stale what rests on them."""
-        gone = self._lines.texts[first:last]
-        if list(new) == gone:
+        """Put other lines in the place of some, and make stale what rests on them. Lines that are the same at the
+        beginning and the end are not touched: an edit may begin or end in one."""
+        lines, most = self._lines.texts, min(last - first, len(new))
+        head = next((at for at in range(most) if lines[first + at] != new[at]), most)
+        most -= head
+        tail = next((at for at in range(most) if lines[last - 1 - at] != new[-1 - at]), most)
+        first, last, new = first + head, last - tail, new[head : len(new) - tail]
+        gone = lines[first:last]
+        if not (gone or new):
             return
         self._lines.change(first, last, new)
         self._diagnostics = self._walk = self._unread = None
@@ -541,11 +544,18 @@ class OpenProgram:
 
     def result(self) -> Result:
         """The program with all that is found in it, once `check` has returned True."""
-        if self._examination is None:
+        if self._examination is None or self.dialect is None:
             return self._whole()
-        frame = Run(parse(self.text, self.name), self._examination.asked).frame
+        from contoursolve.program.batch import Batch  # noqa: PLC0415 - an editor asks for findings alone
+
+        asked, now = self._examination.asked, len(self._moves)
+        run = Run(parse(self.text, self.name), asked, Batch(self.dialect, asked.policy, is_proven=True))
+        parts = [part for part in self._parts if part.answer is not None]
+        if sum(part.answer_age != now for part in parts) > _MOST_RENEWED:
+            for part, answer in zip(parts, run.collect().answers, strict=True):
+                part.answer, part.answer_age = answer, now
         answers = (self.contour_at(each.first) for each in [*self.contours])
-        return replace(frame, answers=tuple(filter(None, answers)), diagnostics=self.diagnostics)
+        return replace(run.frame, answers=tuple(filter(None, answers)), diagnostics=self.diagnostics)
 
     @property
     def contours(self) -> Iterator[OpenContour]:

@@ -57,6 +57,13 @@ def compare(program: OpenProgram, text: str, control: str | None) -> None:
             answer.contour,
             answer.diagnostics,
         )
+    whole = program.result()
+    assert (whole.control, whole.diagnostics, len(whole.answers)) == (
+        fresh.control,
+        fresh.diagnostics,
+        len(fresh.answers),
+    )
+    assert [each.contour for each in whole.answers] == [each.contour for each in fresh.answers]
     for finding, lines in program.found():
         if finding.fixes:
             assert lines == fresh.lines_of(finding)
@@ -82,6 +89,22 @@ def edit_at_random(path: Path, seed: int, edits: int, *, is_named: bool) -> None
                 raise AssertionError(f"{path.name}, seed {seed}, edit {number}: {begin} {end} {new!r}") from error
         else:
             program.check(draw.randrange(1, 5))
+
+
+def test_the_result_of_many_contours_on_lines_that_have_moved_is_that_of_the_text(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    program = OpenProgram("G00 X40. Z0.\nG111 A180. K-30. B120. P5. X100.\nG01 Z-60.\n" * 40)
+    assert program.check()
+    program.edit((1, 1), (1, 1), "(NEW)\n")
+    assert program.check(2)
+    fresh = contoursolve.solve(program.text)
+    for most in (0, 1_000):
+        monkeypatch.setattr(open_program, "_MOST_RENEWED", most)
+        assert program.result().answers == fresh.answers
+        program.edit((1, 1), (2, 1), "")
+        program.edit((1, 1), (1, 1), "(NEW)\n")
+        assert program.check()
 
 
 def test_what_is_found_so_far_is_found_in_the_end() -> None:
