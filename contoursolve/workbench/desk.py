@@ -18,6 +18,7 @@ import contoursolve
 from contoursolve.controls import DIALECTS, ChainFinder
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import Blocks
+from contoursolve.output import notebook_style
 from contoursolve.program import find_settings, likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import ActionError, Data, read_field
@@ -133,6 +134,7 @@ def _hello(desk: Desk, window: PageWindow, _action: Mapping[str, Any]) -> Data:
         "may_write": window.may_write and desk.folder is not None,
         "can_unlock": desk.can_unlock and not window.may_write,
         "open": desk.first,
+        "style": notebook_style(has_tool=True),
         "examples": [{"control": name, "title": each.title} for name, each in DIALECTS.items()],
     }
 

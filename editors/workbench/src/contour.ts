@@ -2,14 +2,14 @@
 import explorer from "../../../contoursolve/notebook/explorer.js";
 
 import { make } from "./dom";
-import type { Looked } from "./protocol";
+import type { Looked, Words } from "./protocol";
 
 export interface Acted {
   changed?: Record<string, unknown>;
   state?: Record<string, unknown>; // all of it, where the text was changed meanwhile
   line: number | null;
   last: number | null;
-  words?: Record<string, [number, number]>;
+  words?: Words;
 }
 
 // What the explorer takes for the widget of a notebook.
@@ -50,12 +50,12 @@ class Model {
 export interface ContourPanel {
   node: HTMLElement;
   open(looked: Looked | null): void;
-  changed(news: Record<string, unknown>, words?: Record<string, [number, number]>): void;
-  light(at: number): void;
-  words: Record<string, [number, number]>;
+  changed(news: Record<string, unknown>, words?: Words): void;
+  light(line: number, column: number): void;
+  words: Words;
 }
 
-export function contourPanel(act: (action: Record<string, unknown>) => void, point: (range: [number, number] | null) => void): ContourPanel {
+export function contourPanel(act: (action: Record<string, unknown>) => void, point: (place: [number, number, number] | null) => void): ContourPanel {
   const place = make("div", {});
   const empty = make("p", { class: "empty" });
   const node = make("div", { class: "contour" }, empty, place);
@@ -81,8 +81,8 @@ export function contourPanel(act: (action: Record<string, unknown>) => void, poi
       model?.tell(news);
     },
     // The word at the cursor is lit here.
-    light(at) {
-      const keys = Object.keys(panel.words).filter((key) => panel.words[key]![0] <= at && at <= panel.words[key]![1]);
+    light(line, column) {
+      const keys = Object.entries(panel.words).flatMap(([key, [own, from, to]]) => (own === line && from <= column && column <= to ? [key] : []));
       for (const each of place.querySelectorAll<HTMLElement>("[data-word]")) {
         each.classList.toggle("lit", (each.dataset["word"] ?? "").split(" ").some((key) => keys.includes(key)));
       }

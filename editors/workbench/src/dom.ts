@@ -47,7 +47,7 @@ export interface Entry {
 
 export function menu(text: string, entries: () => Entry[]): HTMLElement {
   const list = make("div", { role: "menu", class: "menu", hidden: true, "aria-label": text });
-  const opener = button(text, () => (list.hidden ? open() : close()), { "aria-haspopup": "menu", "aria-expanded": "false" });
+  const opener = button(text, () => (list.hidden ? open() : close()), { "aria-haspopup": "menu", "aria-expanded": "false", "aria-label": text });
   const whole = make("div", { class: "dropdown" }, opener, list);
   const items = () => [...list.children] as HTMLElement[];
 

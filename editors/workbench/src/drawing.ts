@@ -6,6 +6,24 @@ import type { ContourRow } from "./protocol";
 const ZOOMS = [1, 1.5, 2, 3, 4, 6, 8];
 const MOST = 200; // buttons under the drawing
 
+const NEAR = 22; // px from a line that a finger means
+
+// How far a part of the drawing is from a place on the screen.
+function distance(part: SVGGraphicsElement, x: number, y: number): number {
+  const box = part.getBoundingClientRect();
+  const beside = Math.hypot(Math.max(box.left - x, 0, x - box.right), Math.max(box.top - y, 0, y - box.bottom));
+  const matrix = part.getScreenCTM();
+  if (beside > NEAR || !(part instanceof SVGGeometryElement) || !matrix) return beside;
+  const length = part.getTotalLength();
+  const gaps = Array.from({ length: STEPS + 1 }, (_, step) => {
+    const at = part.getPointAtLength((length * step) / STEPS).matrixTransform(matrix);
+    return Math.hypot(at.x - x, at.y - y);
+  });
+  return Math.min(...gaps);
+}
+
+const STEPS = 60; // places of a line that are looked at
+
 export interface DrawingPanel {
   node: HTMLElement;
   show(svg: string | null): void;
@@ -46,9 +64,22 @@ export function drawingPanel(go: (line: number) => void, open: (line: number) =>
     },
     { passive: false },
   );
-  const lineOf = (event: Event) => Number((event.target as Element).closest?.("[data-line]")?.getAttribute("data-line") ?? 0);
-  paper.addEventListener("click", (event) => lineOf(event) && go(lineOf(event)));
-  paper.addEventListener("dblclick", (event) => lineOf(event) && open(lineOf(event)));
+  const lineOf = (event: MouseEvent) => {
+    const parts = [...paper.querySelectorAll<SVGGraphicsElement>("[data-line]")];
+    // The drawing of a single contour names no line.
+    if (!parts.length) return listed?.length === 1 ? listed[0]!.line : 0;
+    const near = parts.map((part) => [distance(part, event.clientX, event.clientY), Number(part.getAttribute("data-line"))] as const);
+    const [gap, line] = near.reduce((best, each) => (each[0] < best[0] ? each : best));
+    return gap <= NEAR ? line : 0;
+  };
+  paper.addEventListener("click", (event) => {
+    const line = lineOf(event);
+    if (line) go(line);
+  });
+  paper.addEventListener("dblclick", (event) => {
+    const line = lineOf(event);
+    if (line) open(line);
+  });
 
   function relight(): void {
     for (const each of paper.querySelectorAll("[data-line]")) each.classList.toggle("lit", Number(each.getAttribute("data-line")) === isLit);

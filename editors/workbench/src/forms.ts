@@ -1,6 +1,6 @@
 // The tool, and the variables of a subprogram, as fields.
-import { button, labelled, make, newId } from "./dom";
-import type { VariableField } from "./protocol";
+import { button, labelled, make, newId, picture } from "./dom";
+import type { ContourRow, Finding } from "./protocol";
 
 export interface ToolState {
   radius: string;
@@ -8,6 +8,22 @@ export interface ToolState {
   side: string;
 }
 
+export interface Tooled {
+  svg: string;
+  findings: Finding[];
+  runs: { line: number; last: number; title: string; fits: boolean; largest_mm: number | null }[];
+  largest_mm: number | null;
+}
+
+export interface Varied {
+  svg: string;
+  fields: { name: string; line: number; set_on: number | null; value: number | null }[];
+  left_out: number;
+  findings: Finding[];
+  contours: ContourRow[];
+}
+
+export const PROGRAM = "program"; // the tool that the program states
 const TIPS = ["", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
 const SIDES: [string, string][] = [
   ["", "as the program says"],
@@ -17,41 +33,60 @@ const SIDES: [string, string][] = [
 
 export const decimal = (text: string): string => text.trim().replace(",", ".");
 
-export interface ToolPanel {
-  node: HTMLElement;
-  show(tool: ToolState, unit: string, note: string): void;
+// A list of places in the program, each a button.
+function places(title: string, go: (line: number) => void): { node: HTMLElement; show: (rows: { line: number; text: string; kind: string }[]) => void } {
+  const node = make("ul", { class: "contours", "aria-label": title });
+  const row = (each: { line: number; text: string; kind: string }) =>
+    make("li", {}, make("button", { type: "button", class: each.kind, onclick: () => go(each.line) }, make("span", { class: "line", text: `line ${each.line}` }), ` ${each.text}`));
+  return { node, show: (rows) => node.replaceChildren(...rows.slice(0, MOST).map(row)) };
 }
 
-export function toolPanel(set: (tool: ToolState, isHeld: boolean) => void): ToolPanel {
+const MOST = 100; // places that are listed
+const placesOf = (findings: Finding[]) => findings.map((each) => ({ line: each.line, text: each.message, kind: each.severity === "error" ? "unsolved" : "several" }));
+const drawn = (svg: string) => [picture(svg)].filter((each) => each !== null);
+
+export interface ToolPanel {
+  node: HTMLElement;
+  show(tool: ToolState, unit: string, tooled: Tooled | null, trouble: string): void;
+}
+
+export function toolPanel(set: (tool: ToolState) => void, go: (line: number) => void): ToolPanel {
   const radius = make("input", { type: "text", inputmode: "decimal", autocomplete: "off" });
   const slider = make("input", { type: "range", min: 0, max: 25, step: 0.1, "aria-label": "Radius of the tool, slider" });
   const tip = make("select", {}, ...TIPS.map((each) => make("option", { value: each, text: each || "none: a cutter" })));
   const side = make("select", {}, ...SIDES.map(([value, text]) => make("option", { value, text })));
   const unit = make("span", { class: "unit" });
   const said = make("p", { role: "status" });
+  const paper = make("div", { class: "canvas contoursolve" });
+  const list = places("Ways of the tool and what is found about them", go);
   const state = (): ToolState => ({ radius: decimal(radius.value), tip: tip.value, side: side.value });
+  const use = (value: string) => {
+    radius.value = value;
+    set(state());
+  };
   const node = make(
     "form",
     { class: "fields", onsubmit: (event: Event) => event.preventDefault() },
-    make("p", { class: "muted", text: "With a radius, the drawing shows the way of the tool and what it cannot reach." }),
     labelled("Radius of the tool", radius, unit),
     slider,
     labelled("Tip of a turning tool", tip),
     labelled("Side", side),
-    make("div", { class: "answers" }, button("Without tool", () => {
-      radius.value = "";
-      set(state(), false);
-    })),
+    make("div", { class: "answers" }, button("The tool of the program", () => use(PROGRAM)), button("Without tool", () => use(""))),
     said,
+    paper,
+    list.node,
   );
+  let shown: Tooled | null = null;
+  let due = 0;
   slider.addEventListener("input", () => {
     radius.value = slider.value;
-    set(state(), true);
+    cancelAnimationFrame(due);
+    due = requestAnimationFrame(() => set(state()));
   });
-  for (const each of [radius, tip, side]) each.addEventListener("change", () => set(state(), false));
+  for (const each of [radius, tip, side]) each.addEventListener("change", () => set(state()));
   return {
     node,
-    show(tool, isIn, note) {
+    show(tool, isIn, tooled, trouble) {
       const active = (node.getRootNode() as Document).activeElement;
       if (active !== radius) radius.value = tool.radius;
       if (active !== slider) {
@@ -60,45 +95,58 @@ export function toolPanel(set: (tool: ToolState, isHeld: boolean) => void): Tool
         slider.step = isIn === "inch" ? "0.005" : "0.1";
         slider.value = String(value);
       }
-      if (active !== tip) tip.value = tool.tip;
-      if (active !== side) side.value = tool.side;
       unit.textContent = isIn;
-      said.textContent = note;
+      if (tooled === shown && tooled) return;
+      said.classList.toggle("wrong", trouble !== "");
+      shown = tooled;
+      const largest = tooled?.largest_mm;
+      said.textContent = trouble ? trouble : !tooled
+        ? "With a radius, the drawing shows the way of the tool and what it cannot reach."
+        : largest === null || largest === undefined ? "" : `The largest radius that reaches all of it is ${largest.toFixed(3)} mm.`;
+      paper.replaceChildren(...(tooled ? drawn(tooled.svg) : []));
+      const runs = tooled?.runs.map((each) => ({ line: each.line, text: each.title, kind: each.fits ? "fine" : "unsolved" })) ?? [];
+      list.show([...runs, ...placesOf(tooled?.findings ?? [])]);
     },
   };
 }
 
 export interface VariablesPanel {
   node: HTMLElement;
-  show(fields: VariableField[], results: { line: number; text: string }[], note: string): void;
+  show(varied: Varied): void;
 }
 
-export function variablesPanel(set: (values: Record<string, string>) => void, go: (line: number) => void): VariablesPanel {
+export function variablesPanel(set: (values: Record<string, number>) => void, go: (line: number) => void): VariablesPanel {
   const list = make("div", { class: "variables" });
   const said = make("p", { role: "status" });
-  const rows = make("ul", { class: "contours", "aria-label": "What it comes to" });
-  const node = make("form", { class: "fields", onsubmit: (event: Event) => event.preventDefault() }, said, list, rows);
+  const paper = make("div", { class: "canvas contoursolve" });
+  const rows = places("What it comes to", go);
+  const node = make("form", { class: "fields", onsubmit: (event: Event) => event.preventDefault() }, said, list, paper, rows.node);
   let names = "";
   const inputs = new Map<string, HTMLInputElement>();
-  const send = () => set(Object.fromEntries([...inputs].filter(([, input]) => input.value.trim()).map(([name, input]) => [name, decimal(input.value)])));
-  list.addEventListener("change", send);
+  list.addEventListener("change", () => {
+    const values = [...inputs].map(([name, input]) => [name, decimal(input.value)] as const).filter(([, value]) => value);
+    const wrong = values.find(([, value]) => !Number.isFinite(Number(value)));
+    for (const [name, input] of inputs) input.setAttribute("aria-invalid", String(name === wrong?.[0]));
+    if (wrong) said.textContent = `${wrong[0]}: ${wrong[1]} is no number; write one such as 12.5.`;
+    else set(Object.fromEntries(values.map(([name, value]) => [name, Number(value)])));
+  });
   return {
     node,
-    show(fields, results, note) {
-      said.textContent = note || (fields.length ? "Values with which the subprogram is called:" : "This program takes no variables from outside.");
+    show(varied) {
+      const { fields, left_out } = varied;
+      const more = left_out ? ` ${left_out} more are not shown.` : "";
+      said.textContent = fields.length ? `Give values, and the contours follow. The text stays as it is.${more}` : "This program has no variables.";
       const now = fields.map((each) => each.name).join(" ");
       if (now !== names) {
         names = now;
         inputs.clear();
         for (const { name } of fields) inputs.set(name, make("input", { type: "text", inputmode: "decimal", autocomplete: "off", id: newId() }));
-        list.replaceChildren(...fields.map(({ name, meaning }) => labelled([name, meaning].filter(Boolean).join(": "), inputs.get(name)!)));
+        const told = (each: Varied["fields"][number]) => `${each.name}: ${each.set_on === null ? "given by the call" : `set on line ${each.set_on}`}`;
+        list.replaceChildren(...fields.map((each) => labelled(told(each), inputs.get(each.name)!)));
       }
-      const active = (node.getRootNode() as Document).activeElement;
-      for (const { name, value } of fields) {
-        const input = inputs.get(name)!;
-        if (active !== input && value) input.value = value;
-      }
-      rows.replaceChildren(...results.map((each) => make("li", {}, make("button", { type: "button", onclick: () => go(each.line) }, make("span", { class: "line", text: `line ${each.line}` }), ` ${each.text}`))));
+      paper.replaceChildren(...(fields.length ? drawn(varied.svg) : []));
+      const contours = fields.length ? varied.contours.map((each) => ({ line: each.line, text: `${each.title}: ${each.status}`, kind: each.status === "solved" ? "fine" : "unsolved" })) : [];
+      rows.show([...contours, ...(fields.length ? placesOf(varied.findings) : [])]);
     },
   };
 }

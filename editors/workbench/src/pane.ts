@@ -7,9 +7,9 @@ import { dialog, type Entry, labelled, make, newId, showTabs } from "./dom";
 import { drawingPanel } from "./drawing";
 import { contourAt, litEffect, marksOf, touches } from "./editor";
 import { findingsList } from "./findings";
-import { decimal, toolPanel, type ToolState, variablesPanel } from "./forms";
+import { decimal, PROGRAM, type Tooled, toolPanel, type ToolState, type Varied, variablesPanel } from "./forms";
 import { Program } from "./program";
-import { type Change, type ControlName, type Looked, type Made, type Transport, type Trouble, type VariableField, type View } from "./protocol";
+import { type Change, type ControlName, type Looked, type Made, type Transport, type Trouble, type View } from "./protocol";
 import { resultPanel } from "./result";
 
 const VIEWS = { program: "Program", drawing: "Drawing", contour: "Contour", tool: "Tool", variables: "Variables", result: "Result" };
@@ -23,8 +23,11 @@ interface Beside {
   svg: string | null;
   looked: [number, number, number] | null; // first line, last line, seq
   tool: ToolState;
-  toolNote: string;
-  values: Record<string, string>;
+  tooled: Tooled | null;
+  values: Record<string, number>;
+  toolTrouble: string;
+  varied: number; // seq of the text for which the variables are shown
+  toolSeq: number; // and the tool
   made: Made | null;
 }
 
@@ -62,9 +65,12 @@ export class ProgramPane {
   );
   private readonly contour = contourPanel(
     (action) => void this.act(action),
-    (range) => this.editor.dispatch({ effects: litEffect(range) }),
+    (place) => this.lightWord(place),
   );
-  private readonly tool = toolPanel((tool) => void this.setTool(tool));
+  private readonly tool = toolPanel(
+    (tool) => void this.setTool(tool),
+    (line) => this.go(line),
+  );
   private readonly variables = variablesPanel(
     (values) => void this.setVariables(values),
     (line) => this.go(line),
@@ -112,7 +118,7 @@ export class ProgramPane {
     this.program?.show(null);
     this.program = program;
     if (!this.beside.has(program)) {
-      this.beside.set(program, { seq: -1, svg: null, looked: null, tool: { radius: "", tip: "", side: "" }, toolNote: "", values: {}, made: null });
+      this.beside.set(program, { seq: -1, svg: null, looked: null, tool: { radius: "", tip: "", side: "" }, tooled: null, toolTrouble: "", values: {}, varied: -1, toolSeq: -1, made: null });
     }
     program.show(this.editor);
     const { svg, made } = this.own;
@@ -131,7 +137,7 @@ export class ProgramPane {
   }
 
   entries(): Entry[] {
-    const run = (what: string, options: Record<string, unknown> = {}) => () => void this.command(what, options);
+    const run = (what: string) => () => void this.command(what, {});
     return [
       { text: "Convert for another control…", act: () => void this.convert() },
       { text: "Expand into G01, G02, G03", act: run("expand") },
@@ -190,10 +196,24 @@ export class ProgramPane {
     this.findings.show(findings, program.view.more_findings ?? 0, (place) => program.state.doc.lineAt(Math.min(place, program.state.doc.length)).number, here);
     this.drawing.list(program.contours);
     this.drawing.light(this.here?.line ?? null);
-    this.contour.light(at);
-    this.tool.show(this.own.tool, program.view.unit ?? "mm", this.own.toolNote);
+    this.lightRow();
+    this.tool.show(this.own.tool, program.view.unit ?? "mm", this.own.tooled, this.own.toolTrouble);
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.settle(), REST);
+  }
+
+  private lightRow(): void {
+    const { state } = this.program!;
+    const at = state.selection.main.head;
+    const line = state.doc.lineAt(at);
+    this.contour.light(line.number, at - line.from);
+  }
+
+  private lightWord(place: [number, number, number] | null): void {
+    const { doc } = this.editor.state;
+    const line = place && place[0] <= doc.lines ? doc.line(place[0]) : null;
+    const range = line && place ? ([line.from + place[1], Math.min(line.from + place[2], line.to)] as const) : null;
+    this.editor.dispatch({ effects: litEffect(range) });
   }
 
   private get line(): number {
@@ -223,7 +243,11 @@ export class ProgramPane {
     if (!program) return;
     if (this.isShown("drawing") && this.own.seq !== program.view.seq) void this.draw(program);
     if (this.isShown("contour") && !this.isActing && !this.isHeld) void this.look(program);
-    if (this.isShown("variables")) void this.setVariables(this.own.values);
+    if (this.isShown("variables") && this.own.varied !== program.view.seq) {
+      this.own.varied = program.view.seq;
+      void this.setVariables(this.own.values);
+    }
+    if (this.isShown("tool") && this.own.tooled && this.own.toolSeq !== program.view.seq) void this.setTool(this.own.tool);
   }
 
   private async draw(program: Program): Promise<void> {
@@ -244,7 +268,7 @@ export class ProgramPane {
     const looked = now ? await program.ask<Looked>(() => ({ do: "look", line: now[0] })) : null;
     if (program !== this.program || beside.looked !== now) return;
     this.contour.open(looked?.state ? looked : null);
-    this.contour.light(program.state.selection.main.head);
+    this.lightRow();
   }
 
   private async act(action: Record<string, unknown>): Promise<void> {
@@ -306,31 +330,39 @@ export class ProgramPane {
     if (!program) return;
     const own = this.own;
     own.tool = { ...tool, radius: decimal(tool.radius) };
-    const reply = await program.ask<View & { note?: string }>(() => ({ do: "tool", tool: own.tool.radius, tip: tool.tip, side: tool.side }));
-    own.toolNote = reply?.note ?? "";
-    own.seq = -1;
-    own.looked = null;
-    if (program === this.program) this.follow();
+    own.tooled = null;
+    if (own.tool.radius) {
+      const { radius, tip, side } = own.tool;
+      const asked = () => ({ do: "tool", tool: radius === PROGRAM ? radius : `R${radius}`, ...(tip ? { tip: Number(tip) } : {}), ...(side ? { side } : {}) });
+      own.toolTrouble = "";
+      own.tooled = await program.ask<Tooled>(asked, false, (why) => {
+        if (why.reply) own.toolTrouble = why.message.replace(/--(side|tip)/g, "$1");
+        return why.reply !== null;
+      });
+      own.toolSeq = program.view.seq;
+    }
+    if (program === this.program) this.tool.show(own.tool, program.view.unit ?? "mm", own.tooled, own.toolTrouble);
   }
 
-  private async setVariables(values: Record<string, string>): Promise<void> {
+  private async setVariables(values: Record<string, number>): Promise<void> {
     const program = this.program;
     if (!program) return;
     this.own.values = values;
-    const reply = await program.ask<{ fields: VariableField[]; results?: { line: number; text: string }[]; note?: string }>(() => ({ do: "variables", values }));
-    if (reply && program === this.program) this.variables.show(reply.fields, reply.results ?? [], reply.note ?? "");
+    const reply = await program.ask<Varied>(() => ({ do: "variables", values }));
+    if (reply && program === this.program) this.variables.show(reply);
   }
 
   private async convert(): Promise<void> {
-    const control = make("select", {}, ...this.around.controls().map((each) => make("option", { value: each.name, text: each.title })));
+    const control = make("select", {}, ...this.around.controls().filter((each) => each.may_be_target !== false).map((each) => make("option", { value: each.name, text: each.title })));
     const answer = await dialog(this.around.root, "Convert for another control", [labelled("Control", control)], "Convert");
-    if (answer) await this.command("convert", { control: control.value });
+    if (answer) await this.command("convert", { to: control.value });
   }
 
   private async command(what: string, options: Record<string, unknown>): Promise<void> {
     const program = this.program;
-    const made = await program?.ask<Made>(() => ({ do: what, options }));
-    if (!program || !made) return;
+    const reply = await program?.ask<Made & { verdict?: string }>(() => ({ do: what, ...options }));
+    if (!program || !reply) return;
+    const made = reply.verdict === undefined ? reply : { name: "", message: `${reply.verdict}\n${reply.text ?? ""}` };
     this.beside.get(program)!.made = made;
     if (program !== this.program) return;
     this.result.show(made);

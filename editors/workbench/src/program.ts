@@ -4,17 +4,20 @@ import type { EditorView } from "@codemirror/view";
 
 import { changesOf, editsOf, type Heard, markEffect, moveMarks, newState, placed, pythonEdits } from "./editor";
 import { type Change, type ContourRow, type Finding, type Transport, Trouble, type View } from "./protocol";
+import type { Work } from "./work";
 
 const PAUSE = 40; // ms in which keys are gathered
 
 export type Question = Record<string, unknown>;
 
-export class Program {
+export class Program implements Work {
+  readonly ending = "nc";
   view: View;
   findings: Finding[] = []; // as they came last
   contours: ContourRow[] = [];
   state: EditorState;
   saved: Text | null; // null where no file has it
+  private saving: Text | null = null; // what is being saved
   private editor: EditorView | null = null;
   private acknowledged: Text; // the text that the Desk has
   private pending: ChangeSet | null = null; // since then
@@ -45,8 +48,37 @@ export class Program {
     return this.state.doc.toString();
   }
 
+  get base(): string {
+    return this.view.base;
+  }
+
+  get isEmpty(): boolean {
+    return this.state.doc.length === 0;
+  }
+
   get isChanged(): boolean {
     return this.saved === null || !this.state.doc.eq(this.saved);
+  }
+
+  async save(options: { name?: string; over?: string }, isKnown: (why: Trouble) => boolean): Promise<{ saved: string; base: string } | null> {
+    const asked = () => {
+      this.saving = this.state.doc;
+      return { do: "save", ...options };
+    };
+    return this.ask(asked, false, isKnown);
+  }
+
+  wasSaved(name: string, base: string): void {
+    this.view = { ...this.view, name, base };
+    this.saved = this.saving;
+  }
+
+  again(): Promise<unknown> {
+    return this.ask(() => ({ do: "view" }));
+  }
+
+  close(): Promise<unknown> {
+    return this.transport.ask({ do: "close", program: this.view.id }).catch(() => null);
   }
 
   // The editor shows one program at a time.

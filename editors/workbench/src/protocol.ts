@@ -39,6 +39,7 @@ export interface ContourRow {
 export interface ControlName {
   name: string;
   title: string;
+  may_be_target?: boolean;
 }
 
 export interface View {
@@ -63,7 +64,7 @@ export interface View {
 
 export interface Hello {
   version: string;
-  controls: (ControlName & { may_be_target?: boolean })[];
+  controls: ControlName[];
   folder: string | null;
   may_write: boolean;
   can_unlock: boolean;
@@ -79,17 +80,14 @@ export interface Made {
   message: string;
 }
 
-export interface VariableField {
-  name: string;
-  meaning: string;
-  value: string;
-}
+// Where words stand: line, and columns.
+export type Words = Record<string, [number, number, number]>;
 
 export interface Looked {
   state: Record<string, unknown> | null;
   line: number | null;
   last: number | null;
-  words?: Record<string, [number, number]>;
+  words?: Words;
 }
 
 // What a Transport gives back where it cannot: one sentence for the reader.

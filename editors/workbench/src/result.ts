@@ -23,7 +23,7 @@ export function resultPanel(open: (name: string, text: string) => void, save: ((
       const isProgram = text !== undefined && !(kind in TYPES);
       const shown =
         kind === "png" ? make("img", { src: `data:image/png;base64,${made.base64 ?? ""}`, alt: `Drawing: ${made.message}` })
-        : kind === "html" ? make("iframe", { sandbox: "", srcdoc: text ?? "", title: made.name })
+        : kind === "html" ? make("iframe", { sandbox: "", srcdoc: typeof content === "string" ? content : new TextDecoder().decode(content), title: made.name })
         : text ? make("pre", { tabindex: 0, text, role: "group", "aria-label": made.name })
         : null;
       node.replaceChildren(
