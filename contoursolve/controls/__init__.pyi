@@ -4,12 +4,17 @@ from .all_controls import (
 from .chain.find import (
     ChainFinder as ChainFinder,
 )
+from .chain.form import (
+    compose as compose,
+    names_of as names_of,
+)
 from .chain.language import (
     AngleWords as AngleWords,
     ArcWords as ArcWords,
     BlockMeeting as BlockMeeting,
     BlockOrder as BlockOrder,
     CornerWords as CornerWords,
+    Element as Element,
     Joining as Joining,
     Language as Language,
     LanguageBasis as LanguageBasis,

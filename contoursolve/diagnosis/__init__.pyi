@@ -65,6 +65,7 @@ from .hand_sheet import (
     Derivation as Derivation,
 )
 from .legality_table import (
+    legal_samples as legal_samples,
     tabulate as tabulate,
 )
 from .line_slips import (

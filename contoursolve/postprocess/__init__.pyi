@@ -40,3 +40,13 @@ from .rewrite import (
 from .translate import (
     language_of as language_of,
 )
+from .wordings import (
+    Rest as Rest,
+    WrittenBlock as WrittenBlock,
+    WrittenWord as WrittenWord,
+)
+from .written import (
+    Candidate as Candidate,
+    Written as Written,
+    write_contour as write_contour,
+)

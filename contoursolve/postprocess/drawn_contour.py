@@ -1,0 +1,239 @@
+"""A solved contour as a drawing has it: elements up to their virtual intersections, corners, and the drawing's numbers.
+
+From it the words of any control are made: each word states a fact about these points, whose value they tell.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal
+from itertools import pairwise
+from math import atan2, cos, degrees, dist, hypot, isclose, radians, sin
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.diagnosis import Answer
+from contoursolve.geometry import CornerShape, Fact, Given, Length, Line, Plane, Unit, Values, scalar
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+
+EXACT = 5e-9
+"""mm or degrees. A value that is off a number by no more is that number."""
+
+SMOOTH = 1e-7
+"""1 (sine of an angle). Elements whose directions differ by less touch each other: a millionth of a degree."""
+
+
+class DrawnCorner(Struct, frozen=True):
+    """The corner behind an element: its shape, its size (mm), how it is cut."""
+
+    shape: CornerShape
+    size: float
+    segment: Segment
+
+
+class DrawnElement(Struct, frozen=True):
+    """A line or arc between virtual intersections, the part of it that is cut, and the corner behind it."""
+
+    segment: Segment
+    cut: Segment | None
+    corner: DrawnCorner | None = None
+
+    @property
+    def ends(self) -> tuple[complex, complex]:
+        """The directions in which it begins and ends."""
+        each, found = self.segment, list[complex]()
+        for at in (each.start, each.end):
+            if isinstance(each, LineSegment):
+                step = complex(each.end[0] - each.start[0], each.end[1] - each.start[1])
+            else:
+                step = complex(at[0] - each.center[0], at[1] - each.center[1]) * 1j * each.turn.sign
+            found.append(step / abs(step))
+        return found[0], found[1]
+
+
+class DrawingNumbers(Struct, frozen=True):
+    """The numbers that a drawing gives: coordinates by axis and lengths in mm (X of a lathe as radius), angles in
+    degrees."""
+
+    coordinates: tuple[frozenset[Decimal], frozenset[Decimal]]
+    lengths: frozenset[Decimal]
+    angles: frozenset[Decimal]
+
+    def find(self, value: float, axis: int | None, unit: Unit) -> Decimal | None:
+        """The number that a value is: a coordinate along an axis, else a length or an angle of the drawing."""
+        if unit is Unit.DEGREE:
+            return next((each for each in sorted(self.angles) if _is_turned(float(each) - value)), None)
+        several = self.lengths if axis is None else self.coordinates[axis]
+        signed = (number for each in sorted(several) for number in ((each, -each) if axis is None else (each,)))
+        return next((each for each in signed if abs(float(each) - value) <= EXACT), None)
+
+
+def _is_turned(angle: float) -> bool:
+    """Whether an angle is a number of whole turns."""
+    return abs((angle + 180) % 360 - 180) <= EXACT
+
+
+class DrawnContour(Struct, frozen=True):
+    """All elements in their order, and the numbers of the drawing."""
+
+    plane: Plane
+    unit: Length
+    elements: tuple[DrawnElement, ...]
+    numbers: DrawingNumbers
+
+    @property
+    def start(self) -> Point:
+        """The begin of the path, mm."""
+        return self.elements[0].segment.start
+
+    @property
+    def path(self) -> Iterator[Segment]:
+        """All that is cut, in order."""
+        for element in self.elements:
+            if element.cut is not None:
+                yield element.cut
+            if element.corner is not None:
+                yield element.corner.segment
+
+
+def draw(answer: Answer) -> DrawnContour:
+    """The drawing of a solved contour. Raises ValueError if it has no path."""
+    contour, profile = answer.contour, answer.profile
+    if contour is None:
+        raise ValueError(f"a contour that is {answer.status.value} has no path")
+    cut = {each.name: each for each in contour.elements}
+    corners = {each.before: each for each in profile.figure.corners if each.name in cut}
+    places = {profile.figure.path[-1].head: contour.end, **contour.places, profile.figure.start: contour.start}
+    elements = list[DrawnElement]()
+    for element in profile.figure.path:
+        own, corner = cut.get(element.name), corners.get(element.name)
+        start, end = places[element.tail], places[element.head]
+        if isinstance(element, Line):
+            segment: Segment = LineSegment(element.name, start, end)
+        elif isinstance(own, ArcSegment):
+            segment = replace(own, start=start, end=end)
+        else:
+            continue
+        if dist(start, end) <= EXACT and own is None:
+            continue
+        size = float(profile.givens[corner.size].value) if corner else 0.0
+        behind = DrawnCorner(corner.shape, size, cut[corner.name]) if corner else None
+        elements.append(DrawnElement(segment, own, behind))
+    return DrawnContour(answer.plane, answer.unit, tuple(elements), _numbers(answer))
+
+
+def _numbers(answer: Answer) -> DrawingNumbers:
+    """The numbers that the words of a contour and its facts state, and those of its start."""
+    profile = answer.profile
+    facts: Mapping[str, Fact] = {fact.given: fact for fact in profile.facts if fact.given}
+    coordinates: tuple[set[Decimal], set[Decimal]] = (set(), set())
+    lengths, angles = set[Decimal](), set[Decimal]()
+    for axis, value in enumerate(profile.start.values):
+        coordinates[axis].update(() if value is None else (value,))
+    for given in (each for each in profile.givens.values() if _is_drawn(each)):
+        placed = facts[given.name].placed if given.name in facts else None
+        if given.unit is Unit.DEGREE:
+            angles.add(given.value)
+        elif placed is not None and placed.is_stepped and not placed.origin:
+            coordinates[placed.axis].add(given.value)
+        else:
+            lengths.add(abs(given.value))
+    return DrawingNumbers((frozenset(coordinates[0]), frozenset(coordinates[1])), frozenset(lengths), frozenset(angles))
+
+
+def _is_drawn(given: Given) -> bool:
+    return given.word is not None and given.unit is not Unit.SIGN
+
+
+def with_roundings(drawn: DrawnContour) -> DrawnContour:
+    """The same, where each arc that touches the lines before and behind it is the rounding of their corner."""
+    elements = list(drawn.elements)
+    for number in reversed(range(1, len(elements) - 1)):
+        before, arc, after = elements[number - 1 : number + 2]
+        vertex = _vertex(before, arc, after)
+        if vertex is None or not isinstance(arc.segment, ArcSegment):
+            continue
+        corner = DrawnCorner(CornerShape.FILLET, arc.segment.radius, arc.segment)
+        elements[number - 1 : number + 2] = [
+            replace(before, segment=replace(before.segment, end=vertex), corner=corner),
+            replace(after, segment=replace(after.segment, start=vertex)),
+        ]
+    return replace(drawn, elements=tuple(elements))
+
+
+def _vertex(before: DrawnElement, arc: DrawnElement, after: DrawnElement) -> Point | None:
+    """The virtual intersection of two lines that an arc rounds; None if it does not."""
+    lines, round_ = (before.segment, after.segment), arc.segment
+    if not (isinstance(round_, ArcSegment) and all(isinstance(each, LineSegment) for each in lines)):
+        return None
+    if before.corner or arc.corner or round_.sweep >= _MOST_ROUNDED:
+        return None
+    one, other = before.ends[1], after.ends[0]
+    if not (_touch(one, arc.ends[0]) and _touch(arc.ends[1], other)):
+        return None
+    setback = round_.radius * abs((other - one) / (other + one))
+    at = complex(*round_.start) + one * setback
+    return at.real, at.imag
+
+
+_MOST_ROUNDED = 170.0
+"""Degrees. The virtual intersection of lines that turn by more lies far away."""
+
+
+def _touch(one: complex, other: complex) -> bool:
+    return abs((one.conjugate() * other).imag) <= SMOOTH and (one.conjugate() * other).real > 0
+
+
+def begins_smoothly(before: DrawnElement, element: DrawnElement) -> bool:
+    """Whether an element begins in the direction in which the one before it ends, without a corner."""
+    return before.corner is None and _touch(before.ends[1], element.ends[0])
+
+
+def without_corners(drawn: DrawnContour, has_word: Sequence[bool]) -> DrawnContour:
+    """The same, where each corner whose element has no word for it is an element itself."""
+    elements, begin = list[DrawnElement](), drawn.start
+    for element, is_said in zip(drawn.elements, has_word, strict=True):
+        corner, segment = element.corner, replace(element.segment, start=begin)
+        begin = segment.end
+        if corner is not None and not is_said:
+            segment, begin = replace(segment, end=corner.segment.start), corner.segment.end
+        if element.cut is not None or is_said:
+            elements.append(DrawnElement(segment, element.cut, corner if is_said else None))
+        if corner is not None and not is_said:
+            elements.append(DrawnElement(corner.segment, corner.segment))
+    return replace(drawn, elements=tuple(elements))
+
+
+def size_as(shape: CornerShape, element: DrawnElement) -> float | None:
+    """The size of the corner behind an element, in mm, if it were stated as a shape; None if it has not that shape."""
+    corner = element.corner
+    if corner is None:
+        return None
+    if isinstance(corner.segment, ArcSegment):
+        return corner.segment.radius if shape is CornerShape.FILLET else None
+    if corner.shape is shape:
+        return corner.size
+    begin, end, at = corner.segment.start, corner.segment.end, element.segment.end
+    face, setbacks = dist(begin, end), (dist(at, begin), dist(at, end))
+    extents = abs(end[0] - begin[0]), abs(end[1] - begin[1])
+    if shape.share:
+        is_45 = isclose(*extents, rel_tol=0, abs_tol=EXACT)
+        return extents[0] / shape.share if is_45 else None
+    if shape is CornerShape.FILLET or not isclose(*setbacks, rel_tol=0, abs_tol=EXACT):
+        return None
+    return setbacks[0] if shape is CornerShape.CHAMFER_SETBACK else face
+
+
+def value_of(fact: Fact, places: Mapping[str, Point], radii: Mapping[str, float]) -> float | None:
+    """The value of the word that states a fact, where its points are known; mm (radius) or degrees."""
+    scalars = {scalar(name, axis): at for name, place in places.items() for axis, at in enumerate(place)} | dict(radii)
+    try:
+        return fact.implied(Values(scalars, {}, {}))
+    except KeyError:
+        return None
+
+
+def turned(angle: float, length: float) -> float:
+    """The distance by which the end of a line of a length moves with an angle, mm."""
+    return 2 * length * abs(sin(radians(angle) / 2))
+
+
