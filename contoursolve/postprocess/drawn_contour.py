@@ -3,10 +3,9 @@
 From it the words of any control are made: each word states a fact about these points, whose value they tell.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from itertools import pairwise
-from math import atan2, cos, degrees, dist, hypot, isclose, radians, sin
+from math import dist, isclose
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -36,6 +35,8 @@ class DrawnElement(Struct, frozen=True):
     segment: Segment
     cut: Segment | None
     corner: DrawnCorner | None = None
+    place: int = -1
+    """Its place on the path of the profile."""
 
     @property
     def ends(self) -> tuple[complex, complex]:
@@ -104,7 +105,7 @@ def draw(answer: Answer) -> DrawnContour:
     corners = {each.before: each for each in profile.figure.corners if each.name in cut}
     places = {profile.figure.path[-1].head: contour.end, **contour.places, profile.figure.start: contour.start}
     elements = list[DrawnElement]()
-    for element in profile.figure.path:
+    for place, element in enumerate(profile.figure.path):
         own, corner = cut.get(element.name), corners.get(element.name)
         start, end = places[element.tail], places[element.head]
         if isinstance(element, Line):
@@ -117,7 +118,7 @@ def draw(answer: Answer) -> DrawnContour:
             continue
         size = float(profile.givens[corner.size].value) if corner else 0.0
         behind = DrawnCorner(corner.shape, size, cut[corner.name]) if corner else None
-        elements.append(DrawnElement(segment, own, behind))
+        elements.append(DrawnElement(segment, own, behind, place))
     return DrawnContour(answer.plane, answer.unit, tuple(elements), _numbers(answer))
 
 
@@ -188,21 +189,6 @@ def begins_smoothly(before: DrawnElement, element: DrawnElement) -> bool:
     return before.corner is None and _touch(before.ends[1], element.ends[0])
 
 
-def without_corners(drawn: DrawnContour, has_word: Sequence[bool]) -> DrawnContour:
-    """The same, where each corner whose element has no word for it is an element itself."""
-    elements, begin = list[DrawnElement](), drawn.start
-    for element, is_said in zip(drawn.elements, has_word, strict=True):
-        corner, segment = element.corner, replace(element.segment, start=begin)
-        begin = segment.end
-        if corner is not None and not is_said:
-            segment, begin = replace(segment, end=corner.segment.start), corner.segment.end
-        if element.cut is not None or is_said:
-            elements.append(DrawnElement(segment, element.cut, corner if is_said else None))
-        if corner is not None and not is_said:
-            elements.append(DrawnElement(corner.segment, corner.segment))
-    return replace(drawn, elements=tuple(elements))
-
-
 def size_as(shape: CornerShape, element: DrawnElement) -> float | None:
     """The size of the corner behind an element, in mm, if it were stated as a shape; None if it has not that shape."""
     corner = element.corner
@@ -230,10 +216,3 @@ def value_of(fact: Fact, places: Mapping[str, Point], radii: Mapping[str, float]
         return fact.implied(Values(scalars, {}, {}))
     except KeyError:
         return None
-
-
-def turned(angle: float, length: float) -> float:
-    """The distance by which the end of a line of a length moves with an angle, mm."""
-    return 2 * length * abs(sin(radians(angle) / 2))
-
-

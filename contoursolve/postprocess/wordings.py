@@ -27,6 +27,10 @@ from contoursolve.reading import ContourForm, Dialect, State, WithoutPoint, chec
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 
 
+REFERENCE = "@"
+"""Stands on both sides of the place of an element, for the number of its block."""
+
+
 class Rest(Enum):
     """The ground on which the number of a word rests."""
 
@@ -52,6 +56,8 @@ class WrittenBlock(Struct, frozen=True):
     motion: int | None
     code: str
     words: tuple[WrittenWord, ...]
+    place: int = -1
+    """The place of its element on the path, where other blocks may speak of it."""
 
 
 class Wording(Struct, frozen=True):
@@ -69,8 +75,8 @@ class Wording(Struct, frozen=True):
     """Whether they are lines and arcs by their ends."""
 
 
-class Wordings:
-    """The words of a control for elements of a contour; `state` is that behind its opening."""
+class Speller:
+    """The words of a control for numbers of a contour; `state` is that behind its opening."""
 
     def __init__(self, drawn: DrawnContour, dialect: Dialect, state: State) -> None:
         self.drawn, self.dialect, self.modes = drawn, dialect, dialect.modes
@@ -85,8 +91,6 @@ class Wordings:
         ]
         rows = self.lexicon.addresses.values()
         self.steps = {row.axis: row.address for row in rows if row.is_increment and row.axis}
-        self.language = dialect.find.language if isinstance(dialect.find, ChainFinder) else None
-        self.uses = () if self.language else _uses(dialect)
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:
         """The word for a value, mm (radius) or degrees: a coordinate along an axis, a length or an angle; or what a text
@@ -101,37 +105,28 @@ class Wordings:
         rest = Rest.COMPUTED if off > EXACT else Rest.ROUND if own is None else Rest.DRAWING
         return WrittenWord(text, rest, off if off > EXACT else 0.0, bool(row.axis and row.is_increment))
 
-    def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
-        """All wordings of the elements from one on, which begins behind a corner that is cut or at its virtual end; or
-        only lines and arcs by their ends."""
-        own = self._plain(index, is_cut=is_cut)
-        yield from (each for each in own if each.is_plain or not is_plain)
-        if is_plain:
-            return
-        if self.language is not None:
-            yield from self._of_language(self.language, index, is_cut=is_cut)
-        for form, names in self.uses:
-            yield from self._of_form(form, names, index, is_cut=is_cut)
-
-    def _begin(self, index: int, *, is_cut: bool) -> Point:
+    def begin(self, index: int, *, is_cut: bool) -> Point:
+        """The place where an element begins."""
         before = self.drawn.elements[index - 1].corner if index else None
         return before.segment.end if is_cut and before else self.drawn.elements[index].segment.start
 
-    # Lines and arcs by their ends
+    def is_last(self, element: DrawnElement) -> bool:
+        """Whether nothing follows an element."""
+        return element is self.drawn.elements[-1]
 
-    def _plain(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
+
+    def plain(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
         """Ends, as coordinates or increments; arcs about their centre, or by their radius. A corner is written out, or
         has the control's word."""
-        element, begin = self.drawn.elements[index], self._begin(index, is_cut=is_cut)
-        for said, end, behind in self._corners(element):
+        element, begin = self.drawn.elements[index], self.begin(index, is_cut=is_cut)
+        for said, end, behind in self.corners(element):
             segment = replace(element.segment, start=begin, end=end)
-            more = (said,) if said else ()
-            for moves in self._moves(segment):
-                own = (*moves[:-1], replace(moves[-1], words=(*moves[-1].words, *more))) if moves else ()
+            for moves in self.moves(segment):
+                own = self.attach(moves, said) if moves else ()
                 if own or behind:
                     yield Wording(1, (*own, *behind), bool(behind), writes_corner=bool(behind), is_plain=not said)
 
-    def _corners(
+    def corners(
         self, element: DrawnElement
     ) -> Iterator[tuple[WrittenWord | None, Point, tuple[WrittenBlock, ...]]]:
         """The ways to make the corner behind an element: its word, where the element ends then, and the blocks behind it,
@@ -140,17 +135,54 @@ class Wordings:
         if corner is None:
             yield None, element.segment.end, ()
             return
-        yield from ((word, element.segment.end, ()) for word in self._corner_words(element))
-        yield from ((None, corner.segment.start, blocks) for blocks in self._moves(corner.segment))
+        yield from ((word, element.segment.end, ()) for word in self.corner_words(element))
+        yield from ((None, corner.segment.start, blocks) for blocks in self.moves(corner.segment))
 
-    def _corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
-        is_last = element is self.drawn.elements[-1]
-        for address, shape in (self.language.corner.words if self.language and not is_last else {}).items():
+    def attach(self, moves: tuple[WrittenBlock, ...], corner: WrittenWord | None) -> tuple[WrittenBlock, ...]:
+        """The blocks of an element with the word that makes the corner behind it, if there is one."""
+        if corner is None:
+            return moves
+        return (*moves[:-1], replace(moves[-1], words=(*moves[-1].words, corner)))
+
+    def moves(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
+        """An element by its end, in each way that the control has."""
+        raise NotImplementedError
+
+    def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
+        """The words that make the corner behind an element."""
+        raise NotImplementedError
+
+
+class Wordings(Speller):
+    """The words of a control with G codes for elements of a contour."""
+
+    def __init__(self, drawn: DrawnContour, dialect: Dialect, state: State) -> None:
+        super().__init__(drawn, dialect, state)
+        self.language = dialect.find.language if isinstance(dialect.find, ChainFinder) else None
+        self.uses = () if self.language else _uses(dialect)
+
+    def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
+        """All wordings of the elements from one on, which begins behind a corner that is cut or at its virtual end; or
+        only lines and arcs by their ends."""
+        own = self.plain(index, is_cut=is_cut)
+        yield from (each for each in own if each.is_plain or not is_plain)
+        if is_plain:
+            return
+        if self.language is not None:
+            yield from self._of_language(self.language, index, is_cut=is_cut)
+        for form, names in self.uses:
+            yield from self._of_form(form, names, index, is_cut=is_cut)
+
+    # Lines and arcs by their ends
+
+    def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
+        has_words = self.language is not None and not self.is_last(element)
+        for address, shape in (self.language.corner.words if self.language and has_words else {}).items():
             size = size_as(shape, element)
             if size is not None:
                 yield self.word(self.language.address_of(address) if self.language else address, size)
 
-    def _moves(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
+    def moves(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
         """An element by its end: as coordinates or as increments, an arc about its centre or by its radius."""
         axes = self.plane.axes
         if isinstance(segment, ArcSegment):
@@ -227,10 +259,10 @@ class Wordings:
         row = self.drawn.elements[index : index + len(kinds)]
         form, names = compose(language, kinds, self.modes), names_of(kinds)
         is_open = len(kinds) > 1
-        for corners in product(*(self._corners(each) for each in row)):
+        for corners in product(*(self.corners(each) for each in row)):
             if any(behind for *_, behind in corners[:-1]):
                 continue
-            places, radii = {names[0].tail: self._begin(index, is_cut=is_cut)}, dict[str, float]()
+            places, radii = {names[0].tail: self.begin(index, is_cut=is_cut)}, dict[str, float]()
             for each, named, (_, end, _) in zip(row, names, corners, strict=True):
                 places[named.head] = end
                 if isinstance(each.segment, ArcSegment):
@@ -313,7 +345,7 @@ class Wordings:
         code = self._code_of(form, row[-1])
         if code is None:
             return
-        places, radii = {path[0].tail: self._begin(index, is_cut=is_cut)}, dict[str, float]()
+        places, radii = {path[0].tail: self.begin(index, is_cut=is_cut)}, dict[str, float]()
         for each, drawn in zip(path, row, strict=True):
             places[each.head] = drawn.segment.end
             if not isinstance(each, Line) and isinstance(drawn.segment, ArcSegment):
@@ -332,7 +364,7 @@ class Wordings:
                 if drawn is not row[-1]:
                     return
                 places[each.head] = drawn.corner.segment.start
-                written_out, behind, words = [*next(self._moves(drawn.corner.segment))], None, [()]
+                written_out, behind, words = [*next(self.moves(drawn.corner.segment))], None, [()]
             sizes.append(words or [()])
         for line in outline.lines:
             if line.head not in places and behind is not None:

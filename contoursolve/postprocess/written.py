@@ -1,34 +1,27 @@
 """A contour in the words of a control: the wordings that its rules allow, read back and proven, the best first."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from heapq import heappop, heappush
 from itertools import count
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.comparison import Motion, ToolPath, Travel, bend_of, compare, follow
-from contoursolve.diagnosis import Answer, Depth
-from contoursolve.gcode import comment_out, parse, parse_block
-from contoursolve.geometry import Length
+from contoursolve.diagnosis import Answer
 from contoursolve.postprocess.drawn_contour import DrawnContour, draw, with_roundings
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
+from contoursolve.postprocess.klartext_wordings import KlartextWordings
+from contoursolve.postprocess.read_back import read_back
+from contoursolve.postprocess.small_program import SmallProgram
 from contoursolve.postprocess.wordings import Rest, Wording, Wordings, WrittenBlock, WrittenWord
-from contoursolve.program import Request, for_kind, run
-from contoursolve.reading import Dialect, Diameter, State, advance
-from contoursolve.solving import ArcSegment, Segment
+from contoursolve.program import for_kind
+from contoursolve.reading import Dialect
 
 MOST_CANDIDATES = 8
 """Candidates that are listed."""
 
 MOST_READ = 60
 """Candidates that are read back."""
-
-SAME = 1e-6
-"""mm. A contour whose words are exact is read back to within this."""
-
-_UNITS_OFF = 2
-"""A contour with rounded words is read back to within so many units of the last decimal of its control."""
 
 Cost = tuple[int, int, int, int, int]
 """Computed numbers, words, blocks, increments, and numbers that are not the drawing's own."""
@@ -81,22 +74,23 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
             target.name, target.title, (), f"the contour is {made}, and {target.name} is a {machine_of(target).value}"
         )
     rounded = with_roundings(drawn)
-    searches = [_Search(drawn, target), *([_Search(rounded, target)] if rounded != drawn else [])]
+    several = [drawn, *([rounded] if rounded != drawn else [])]
+    searches = [_Search(each, target, answer) for each in several]
     found, read, tried = list[Candidate](), 0, set[str]()
     while len(found) < most and read < MOST_READ:
         ahead = [each for each in searches if each.ahead(tried) is not None]
         if not ahead:
             break
         best = min(ahead, key=_Search.order)
-        read += 1
         candidate = best.take(tried)
+        read += 1
         found += [candidate] if candidate else []
     if not any(each.is_plain for each in found):
-        candidate = _Search(drawn, target, is_plain=True).take(tried)
-        read += 1
+        searches.append(_Search(drawn, target, answer, is_plain=True))
+        candidate = searches[-1].take(tried)
         found += [candidate] if candidate else []
     found.sort(key=lambda each: (each.cost, each.lines))
-    return Written(target.name, target.title, tuple(found), _reason(target, found), read)
+    return Written(target.name, target.title, tuple(found), _reason(target, found), sum(each.read for each in searches))
 
 
 def _reason(target: Dialect, found: Sequence[Candidate]) -> str:
@@ -140,13 +134,19 @@ class _Choice(Struct, frozen=True):
 class _Search:
     """The wordings of a whole contour, those first that cost less."""
 
-    def __init__(self, drawn: DrawnContour, target: Dialect, *, is_plain: bool = False) -> None:
+    def __init__(self, drawn: DrawnContour, target: Dialect, answer: Answer, *, is_plain: bool = False) -> None:
         self.drawn, self.target, self.is_plain = drawn, target, is_plain
-        self.opening = opening_of(target, drawn)
-        state = target.initial_state(drawn.unit)
-        for line in self.opening:
-            state = advance(state, parse_block(line, 1, target.modes.syntax), target.modes)
-        self.wordings = Wordings(drawn, target, replace(state, plane=state.plane))
+        self.around = SmallProgram(target, drawn)
+        state = self.around.state(drawn.unit)
+        self.wordings = (
+            Wordings(drawn, target, state)
+            if target.writing is None
+            else KlartextWordings(drawn, target, state, answer, self._is_solved)
+        )
+        places = enumerate(zip(state.plane.axes, drawn.start, strict=True))
+        self.start = tuple(self.wordings.word(axis, at, number) for number, (axis, at) in places)
+        self.read = 0
+        """The number of programs that were read back."""
         self.banned = set[tuple[int, bool, Wording]]()
         self.options = dict[tuple[int, bool], list[Wording]]()
         self.motions = {0, 1, 2, 3}
@@ -171,16 +171,19 @@ class _Search:
             return None
         cost, lines, choices = self.next
         tried.add("\n".join(lines))
-        program, first = self._program(lines, choices)
-        deviation, line = self._read_back(program, choices)
+        blocks = tuple(block for each in choices for block in each.wording.blocks)
+        needs_side = any(each.wording.needs_side for each in choices)
+        program, first = self._program(blocks, lines, needs_side=needs_side)
+        deviation, line = self._read_back("\n".join(program) + "\n", self.drawn, cost)
         if deviation is None:
             self._ban(choices, line - first)
             return None
-        blocks = tuple(block for each in choices for block in each.wording.blocks)
+        own = tuple(program[first - 1 : first - 1 + len(lines)])
         elements = self.drawn.elements
         cut = [(elements[n.node.index + n.wording.count - 1].corner, n.wording) for n in choices]
         written_out = tuple(corner.segment.name for corner, each in cut if corner and each.writes_corner)
-        return Candidate(blocks, lines, program, deviation, cost, written_out, all(e.wording.is_plain for e in choices))
+        is_plain = all(each.wording.is_plain for each in choices)
+        return Candidate(blocks, own, "\n".join(program) + "\n", deviation, cost, written_out, is_plain)
 
     def _ban(self, choices: tuple[_Choice, ...], place: int) -> None:
         for each in choices:
@@ -236,8 +239,8 @@ class _Search:
         motion, texts, words = node.motion, list[str](), 0
         for block in wording.blocks:
             code = () if block.motion is not None and block.motion == motion else (block.code,)
-            texts.append(" ".join((*code, *(word.text for word in block.words))))
-            words += len(code) + len(block.words)
+            texts.append(" ".join((*filter(None, code), *(word.text for word in block.words))))
+            words += sum(map(bool, code)) + len(block.words)
             motion = motion if block.motion is None else block.motion
         rests = [word.rest for block in wording.blocks for word in block.words]
         steps = sum(word.is_step for block in wording.blocks for word in block.words)
@@ -246,84 +249,33 @@ class _Search:
 
     # Reading back
 
-    def _program(self, lines: tuple[str, ...], choices: tuple[_Choice, ...]) -> tuple[str, int]:
-        """The whole program, and the number of the line in which the contour begins."""
-        needs_side = any(each.wording.needs_side for each in choices)
-        modes, drawn = self.target.modes, self.drawn
-        places = (self.wordings.word(axis, at, number).text for number, (axis, at) in enumerate(zip(self.wordings.plane.axes, drawn.start, strict=True)))
-        opening = [*self.opening]
-        if needs_side:
-            opening[-1] += " G41 D0"
-        start = " ".join((modes.codes[0].text, *sorted(places)))
-        before, behind = _FRAMES.get(self.target.name, _ISO_FRAME)
-        closing = ["G40"] if needs_side else []
-        text = [*before, *opening, start, *lines, *closing, *behind]
-        return "\n".join(text) + "\n", len(before) + len(opening) + 2
+    def _program(
+        self, blocks: Sequence[WrittenBlock], lines: Sequence[str], *, needs_side: bool = False
+    ) -> tuple[list[str], int]:
+        start = [word.text for word in self.start]
+        return self.around.assemble(blocks, lines, start, needs_side=needs_side)
 
-    def _read_back(self, program: str, choices: tuple[_Choice, ...]) -> tuple[float | None, int]:
-        """How far the contour of a program is off, mm; None and the line to blame where it is another one."""
-        return read_back(program, self.drawn, self.target, is_exact=not self.next or not self.next[0][0])
+    def _read_back(self, program: str, drawn: DrawnContour, cost: Cost) -> tuple[float | None, int]:
+        self.read += 1
+        is_rounded = cost[0] or any(word.rest is Rest.COMPUTED for word in self.start)
+        return read_back(program, drawn, self.target, is_exact=not is_rounded)
 
-
-def read_back(program: str, drawn: DrawnContour, target: Dialect, *, is_exact: bool) -> tuple[float | None, int]:
-    """How far the contour of a program is off a drawn one, mm; None and the line to blame where it is another one, or
-    has a finding."""
-    result = run(parse(program, syntax=target.modes.syntax), Request(target, drawn.unit, depth=Depth.FINDINGS, is_strict=True))
-    for finding in result.diagnostics:
-        return None, finding.span.line
-    axes, numbers = drawn.plane.axes, target.modes.lexicon.numbers
-    path = follow(result, target, drawn.unit, axes)
-    steps = tuple(
-        replace(each, compensation=_NO_SIDE) if isinstance(each, Travel) else each
-        for each in path.steps
-        if not (isinstance(each, Travel) and each.motion is Motion.RAPID)
-    )
-    unit = float(numbers.inch * drawn.unit.in_mm if drawn.unit is Length.INCH else numbers.mm)
-    own = ToolPath("", "", axes, tuple(_travel(each, drawn) for each in drawn.path))
-    found = compare(own, replace(path, steps=steps), SAME if is_exact else _UNITS_OFF * unit)
-    if found.difference is None:
-        return found.deviation, 0
-    blamed = found.difference.new or (steps[-1] if steps else None)
-    return None, blamed.line if blamed else 0
-
-
-_NO_SIDE = 40
-
-
-def _travel(segment: Segment, drawn: DrawnContour) -> Travel:
-    bend = None
-    if isinstance(segment, ArcSegment):
-        bend = bend_of((0, 1), segment.center, segment.start, segment.end, segment.turn)
-    return Travel(
-        0, "", Motion.FEED, segment.start, segment.end, bend, _NO_SIDE, is_skippable=False, unit=drawn.unit, doubled=(False, False)
-    )
+    def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:
+        """Whether blocks alone make some elements in a row."""
+        row = list(self.drawn.elements[index : index + count])
+        first, last = row[0], row[-1]
+        if last.cut is None or first.cut is None:
+            return False
+        row[-1] = replace(last, corner=None, cut=replace(last.cut, end=last.segment.end))
+        row[0] = replace(row[0], cut=replace(row[0].cut or first.cut, start=first.segment.start))
+        part = replace(self.drawn, elements=tuple(row))
+        axes, mm = self.wordings.plane.axes, float(self.drawn.unit.in_mm)
+        start = [f"{axis}{at / mm:+.9f}" for axis, at in zip(axes, part.start, strict=True)]
+        lines = [" ".join(filter(None, (each.code, *(word.text for word in each.words)))) for each in blocks]
+        program, _ = self.around.assemble(blocks, lines, start, needs_side=False)
+        self.read += 1
+        return read_back("\n".join(program), part, self.target, is_exact=True)[0] is not None
 
 
 def _add(one: Cost, other: Cost) -> Cost:
     return one[0] + other[0], one[1] + other[1], one[2] + other[2], one[3] + other[3], one[4] + other[4]
-
-
-# Around the blocks
-
-_ISO_FRAME = ("%", "O0001"), ("M30", "%")
-_FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    **dict.fromkeys(("siemens-840d", "siemens-808d"), ((), ("M30",))),
-    "isg": (("%CONTOUR",), ("M30",)),
-}
-"""The lines with which a program begins and ends, where that is not as ISO 6983 has it."""
-
-
-def opening_of(target: Dialect, drawn: DrawnContour) -> tuple[str, ...]:
-    """The lines that say how the words of a program are read."""
-    modes = target.modes
-    rows = modes.codes.values()
-    codes = [next(each.text for each in rows if each.unit is drawn.unit)]
-    if machine_of(target) is MachineKind.MILL or target.diameter is not None:
-        codes += [each.text for each in rows if each.plane and each.plane.code == drawn.plane.code]
-    if 91 in modes.codes:  # noqa: PLR2004 - its code
-        codes.append(modes.codes[90].text)
-    if target.diameter is not None and machine_of(target) is MachineKind.LATHE:
-        codes += [each.text for each in rows if each.diameter is Diameter.ON][:1]
-    stated = {name: value for name, value in modes.settings.items() if name != "machine"}
-    comment = ", ".join((f"contoursolve control: {target.name}", *(f"{name}: {value}" for name, value in stated.items())))
-    return (*(comment_out(comment, modes.syntax) if stated else ()), " ".join(codes))

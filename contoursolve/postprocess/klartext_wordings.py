@@ -1,0 +1,198 @@
+"""The words with which HEIDENHAIN says elements of a drawn contour: conventional moves, and free elements in a row that
+are solved together."""
+
+from collections.abc import Callable, Iterator, Mapping
+
+from contoursolve.diagnosis import Answer
+from contoursolve.geometry import Arc, Coordinate, CornerShape, Extent, Offset, Radius, Turn, Unit
+from contoursolve.gcode import Word, spell
+from contoursolve.postprocess.drawn_contour import (
+    EXACT,
+    DrawnContour,
+    DrawnElement,
+    begins_smoothly,
+    size_as,
+)
+from contoursolve.postprocess.wordings import REFERENCE, Rest, Speller, Wording, WrittenBlock, WrittenWord
+from contoursolve.reading import Dialect, State
+from contoursolve.solving import ArcSegment, LineSegment, Segment
+
+CORNERS = {"ROUNDING": CornerShape.FILLET, "CHAMFER": CornerShape.CHAMFER_SETBACK}
+_SENSES = {Turn.CW: "DR-", Turn.CCW: "DR+"}
+_UNSIGNED = ("LEN", "R", "D", "DP", *CORNERS)
+_REFERENCES = ("PAR", "RX", "RY", "RAN", "RPR", "RPA", "RCCX", "RCCY", "RCCPR", "RCCPA")
+_BESIDE = ("DR", "tangent", "FSELECT", *CORNERS)
+"""What is said of an element apart from its words: its sense, its function, its corner."""
+_PICK = "FSELECT"
+_LONGEST = 24
+"""Free elements that are tried in a row."""
+
+
+class KlartextWordings(Speller):
+    """The words of Klartext. `is_solved` tells whether some blocks alone make elements from one of an index on."""
+
+    def __init__(
+        self,
+        drawn: DrawnContour,
+        dialect: Dialect,
+        state: State,
+        answer: Answer,
+        is_solved: Callable[[int, int, tuple[WrittenBlock, ...]], bool],
+    ) -> None:
+        super().__init__(drawn, dialect, state)
+        self.answer, self.is_solved = answer, is_solved
+
+    def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:
+        found = super().word(address, value, axis, text)
+        return WrittenWord(_signed(found.text, address), found.rest, found.off, found.is_step)
+
+    def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
+        """All wordings of the elements from one on; or only lines and arcs by their ends."""
+        own = list(self.plain(index, is_cut=is_cut))
+        yield from (each for each in own if each.is_plain or not is_plain)
+        element = self.drawn.elements[index]
+        if is_plain:
+            return
+        if index and isinstance(element.segment, ArcSegment) and self._goes_on_smoothly(index):
+            ends = tuple(self.word(axis, at, n) for n, (axis, at) in enumerate(zip("XY", element.segment.end, strict=True)))
+            for word, _, behind in self.corners(element):
+                if not behind:
+                    yield Wording(1, self.attach((WrittenBlock(None, "CT", ends),), word))
+        is_rounded = all(any(w.rest is Rest.COMPUTED for b in each.blocks for w in b.words) for each in own)
+        if is_cut or not (is_rounded or not index):
+            return
+        whole = len(self.drawn.elements) - index
+        for count in range(1, min(_LONGEST, whole) + 1):
+            found = [each for each in self._run(index, count) if self.is_solved(index, count, each)]
+            corner = next(self.corner_words(self.drawn.elements[index + count - 1]), None)
+            yield from (Wording(count, self.attach(each, corner)) for each in found[:1])
+            if found and not self._goes_on_smoothly(index + count):
+                break
+        for blocks in self._run(index, whole) if not index and count < whole else ():
+            if self.is_solved(index, whole, blocks):
+                yield Wording(whole, blocks)
+                return
+
+    def _goes_on_smoothly(self, index: int) -> bool:
+        elements = self.drawn.elements
+        return index < len(elements) and begins_smoothly(elements[index - 1], elements[index])
+
+    def _run(self, index: int, count: int) -> Iterator[tuple[WrittenBlock, ...]]:
+        """Free elements in a row, without the corner behind the last one; none if a corner between them has no word."""
+        row = self.drawn.elements[index : index + count]
+        corners = [next(self.corner_words(each), None) for each in row]
+        pairs = list(zip(row, corners, strict=True))
+        if any(each.corner and word is None for each, word in pairs):
+            return
+        is_closed = [False, True] if count == len(self.drawn.elements) else [False]
+        for is_whole in is_closed:
+            blocks = tuple[WrittenBlock, ...]()
+            for place, (_, word) in enumerate(pairs, index):
+                free = tuple(self._free(place, is_whole=is_whole))
+                blocks = self.attach((*blocks, *free), word if place < index + count - 1 else None)
+            yield blocks
+
+    def attach(self, moves: tuple[WrittenBlock, ...], corner: WrittenWord | None) -> tuple[WrittenBlock, ...]:
+        return (*moves, WrittenBlock(None, "", (corner,))) if corner else moves
+
+    def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
+        for address, shape in CORNERS.items() if not self.is_last(element) else ():
+            size = size_as(shape, element)
+            if size is not None:
+                yield self.word(address, size)
+
+    def moves(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
+        if isinstance(segment, ArcSegment):
+            yield from self._arc(segment)
+            return
+        changed = [n for n, (a, b) in enumerate(zip(segment.start, segment.end, strict=True)) if abs(b - a) > EXACT]
+        words = tuple(self.word("XY"[axis], segment.end[axis], axis) for axis in changed)
+        if words:
+            yield (WrittenBlock(None, "L", words),)
+
+    def _arc(self, arc: ArcSegment) -> Iterator[tuple[WrittenBlock, ...]]:
+        sense = WrittenWord(_SENSES[arc.turn])
+        ends, center = (
+            tuple(self.word(axis, at, n) for n, (axis, at) in enumerate(zip("XY", place, strict=True)))
+            for place in (arc.end, arc.center)
+        )
+        if arc.sweep < _FULL:
+            radius = self.word("R", arc.radius if arc.sweep <= _FULL / 2 else -arc.radius)
+            yield (WrittenBlock(None, "CR", (*ends, radius, sense)),)
+        yield WrittenBlock(None, "CC", center), WrittenBlock(None, "C", (*ends, sense))
+
+    def _free(self, index: int, *, is_whole: bool) -> Iterator[WrittenBlock]:
+        """The block of a free element, with all that the drawing says of it; and the pole before it, the pick behind."""
+        element, claim = self.drawn.elements[index], self.answer.claim
+        is_smooth = index > 0 and self._goes_on_smoothly(index)
+        own = {name: word for name, word in claim.words.items() if name.startswith(f"{element.place + 1}:")}
+        words = list(self._by_facts(element)) if not claim.form.is_general else []
+        for name, word in own.items() if claim.form.is_general else ():
+            if name.partition(":")[2] not in _BESIDE and (word.address != "CLSD" or is_whole):
+                words.append(self._as_said(name, word))
+        yield from self._pole(own)
+        sense = [WrittenWord(_SENSES[element.segment.turn])] if isinstance(element.segment, ArcSegment) else []
+        code = ("FL" if isinstance(element.segment, LineSegment) else "FC") + ("T" if is_smooth else "")
+        yield WrittenBlock(None, code, (*words, *sense), element.place)
+        picks = [word for word in own.values() if word.address == _PICK]
+        yield from (WrittenBlock(None, "", (WrittenWord(spell(_PICK, f"{word.number}")),)) for word in picks)
+
+    def _as_said(self, name: str, word: Word) -> WrittenWord:
+        """A word of a free contour for the same element."""
+        given, address = self.answer.claim.givens.get(name), word.address
+        if address in _REFERENCES:
+            path = self.answer.profile.figure.path
+            place = next((n for n, each in enumerate(path) if each.name.endswith(f" {word.number}")), len(path))
+            return WrittenWord(spell(address, f"{REFERENCE}{place}{REFERENCE}"))
+        if given is None or given.unit is Unit.SIGN:
+            return WrittenWord(spell(address, f"{word.number}"))
+        is_coordinate = address.removeprefix("CC") in ("X", "Y")
+        return self.word(address, float(given.value), "XY".index(address[-1]) if is_coordinate else None)
+
+    def _pole(self, own: Mapping[str, Word]) -> Iterator[WrittenBlock]:
+        """The pole from which words of an element count."""
+        facts = [each for each in self.answer.profile.facts if each.given in own]
+        named = dict.fromkeys(name.rpartition(".")[0] for each in facts for name in each.reads())
+        for pole in (each for each in named if each.startswith("pole")):
+            at = self.answer.contour.places[pole] if self.answer.contour else (0.0, 0.0)
+            words = tuple(self.word(axis, value, n) for n, (axis, value) in enumerate(zip("XY", at, strict=True)))
+            yield WrittenBlock(None, "FPOL", words)
+
+    def _by_facts(self, element: DrawnElement) -> Iterator[WrittenWord]:
+        """The words of Klartext that state what the words of another control do."""
+        path = self.answer.profile.figure.path[element.place]
+        said = set[str]()
+        for fact in self.answer.profile.facts:
+            found: tuple[str, int | None] | None = None
+            if fact.heading == (path.tail, path.head):
+                found = "AN", None
+            elif isinstance(fact, Coordinate) and fact.point == path.head:
+                found = "XY"[fact.axis], fact.axis
+            elif isinstance(fact, Offset) and (fact.point, fact.origin) == (path.head, path.tail):
+                found = "I" + "XY"[fact.axis], None
+            elif isinstance(path, Arc) and isinstance(fact, Radius) and fact.radius == path.radius:
+                found = "R", None
+            elif isinstance(path, Arc) and isinstance(fact, Coordinate) and fact.point == path.center:
+                found = "CC" + "XY"[fact.axis], fact.axis
+            elif isinstance(path, Arc) and isinstance(fact, Offset) and (fact.point, fact.origin) == (path.center, path.tail):
+                found = "ICC" + "XY"[fact.axis], None
+            elif isinstance(fact, Extent) and fact.line == path.name:
+                found = "LEN", None
+            if found is None or found[0] in said:
+                continue
+            said.add(found[0])
+            value = float(self.answer.profile.givens[fact.given].value)
+            if found[0] == "AN" and isinstance(element.segment, LineSegment) and abs((element.segment.angle - value + 180) % 360 - 180) > _QUARTER:
+                value += _FULL / 2
+            yield self.word(found[0], abs(value) if found[0] == "R" else value, found[1])
+
+
+_FULL, _QUARTER = 360.0, 90.0
+
+
+def _signed(text: str, address: str) -> str:
+    """A word with its sign, where Klartext is used to one."""
+    number = text[len(address) :].lstrip(" ")
+    if address in _UNSIGNED or not number or number[0] in "+-":
+        return text
+    return text[: len(text) - len(number)] + "+" + number

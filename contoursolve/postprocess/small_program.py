@@ -1,0 +1,79 @@
+"""A whole small program around the blocks of a contour: what a control must be told first, the start, and the end."""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+
+from contoursolve.gcode import comment_out, parse_block
+from contoursolve.geometry import Length
+from contoursolve.postprocess.drawn_contour import DrawnContour
+from contoursolve.postprocess.post_processors import MachineKind, machine_of
+from contoursolve.postprocess.wordings import REFERENCE, WrittenBlock
+from contoursolve.reading import Dialect, Diameter, State, advance
+
+_ISO = ("%", "O0001"), ("M30", "%")
+_FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    **dict.fromkeys(("siemens-840d", "siemens-808d"), ((), ("M30",))),
+    "isg": (("%CONTOUR",), ("M30",)),
+    "heidenhain": (("BEGIN PGM CONTOUR {unit}",), ("M30", "END PGM CONTOUR {unit}")),
+}
+"""The lines with which a program begins and ends, where that is not as ISO 6983 has it."""
+
+
+class SmallProgram:
+    """The lines around the blocks of a contour for a control."""
+
+    def __init__(self, target: Dialect, drawn: DrawnContour) -> None:
+        self.target, self.is_numbered = target, target.writing is not None
+        self.opening = () if self.is_numbered else tuple(_opening(target, drawn))
+        self.frame = [
+            [line.format(unit=drawn.unit.value.upper()) for line in lines]
+            for lines in _FRAMES.get(target.name, _ISO)
+        ]
+
+    def state(self, unit: Length) -> State:
+        """The state behind its opening."""
+        state = self.target.initial_state(unit)
+        for line in self.opening:
+            state = advance(state, parse_block(line, 1, self.target.modes.syntax), self.target.modes)
+        return state
+
+    def assemble(
+        self, blocks: Sequence[WrittenBlock], lines: Iterable[str], start: Sequence[str], *, needs_side: bool
+    ) -> tuple[list[str], int]:
+        """All lines, and the number of the first one of the contour, from 1; `start` are the words of its begin."""
+        before, behind = self.frame
+        codes = self.target.modes.codes
+        opening = [*self.opening]
+        if self.is_numbered:
+            first = " ".join(("L", *start, "R0 FMAX"))
+        else:
+            first = " ".join((codes[0].text, *sorted(start)))
+            if needs_side:
+                opening[-1] += f" {codes[_LEFT].text} D0"
+        head = [*before, *opening, first]
+        closing = [codes[_NO_SIDE].text] if needs_side else []
+        numbers = {block.place: len(head) + n for n, block in enumerate(blocks) if block.place >= 0}
+        own = [_REFERENCE.sub(lambda found: str(numbers.get(int(found[1]), "")), line) for line in lines]
+        text = [*head, *own, *closing, *behind]
+        return [f"{n} {line}" for n, line in enumerate(text)] if self.is_numbered else text, len(head) + 1
+
+
+_LEFT, _NO_SIDE = 41, 40
+_REFERENCE = re.compile(f"{REFERENCE}(\\d+){REFERENCE}")
+
+
+def _opening(target: Dialect, drawn: DrawnContour) -> Iterable[str]:
+    """The lines that say how the words of a program are read."""
+    modes = target.modes
+    rows, is_mill = modes.codes.values(), machine_of(target) is MachineKind.MILL
+    codes = [next(each.text for each in rows if each.unit is drawn.unit)]
+    if is_mill or target.diameter is not None:
+        codes += [each.text for each in rows if each.plane and each.plane.code == drawn.plane.code]
+    if 91 in modes.codes:  # noqa: PLR2004 - its code
+        codes.append(modes.codes[90].text)
+    if target.diameter is not None and not is_mill:
+        codes += [each.text for each in rows if each.diameter is Diameter.ON][:1]
+    stated = [f"{name}: {value}" for name, value in modes.settings.items() if name != "machine"]
+    if stated:
+        yield from comment_out(", ".join((f"contoursolve control: {target.name}", *stated)), modes.syntax)
+    yield " ".join(codes)
