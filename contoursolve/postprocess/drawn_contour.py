@@ -80,6 +80,21 @@ class DrawnContour(Struct, frozen=True):
     unit: Length
     elements: tuple[DrawnElement, ...]
     numbers: DrawingNumbers
+    points: tuple[Point, ...] = ()
+    """The points whose both coordinates the drawing gives."""
+
+    def point_on(self, element: DrawnElement) -> Point | None:
+        """A point of the drawing on the line or circle of an element, away from where it begins."""
+        each = element.segment
+        for at in self.points:
+            off = complex(*at) - complex(*each.start)
+            if isinstance(each, ArcSegment):
+                beside = dist(at, each.center) - each.radius
+            else:
+                beside = (element.ends[0].conjugate() * off).imag
+            if abs(beside) <= EXACT < abs(off):
+                return at
+        return None
 
     @property
     def start(self) -> Point:
@@ -119,7 +134,10 @@ def draw(answer: Answer) -> DrawnContour:
         size = float(profile.givens[corner.size].value) if corner else 0.0
         behind = DrawnCorner(corner.shape, size, cut[corner.name]) if corner else None
         elements.append(DrawnElement(segment, own, behind, place))
-    return DrawnContour(answer.plane, answer.unit, tuple(elements), _numbers(answer))
+    stated = [fact.placed for fact in profile.facts if fact.given and fact.placed is not None]
+    axes = {(each.point, each.axis) for each in stated if each.is_stepped and not each.origin}
+    points = tuple(at for name, at in contour.places.items() if {(name, 0), (name, 1)} <= axes)
+    return DrawnContour(answer.plane, answer.unit, tuple(elements), _numbers(answer), points)
 
 
 def _numbers(answer: Answer) -> DrawingNumbers:
@@ -142,7 +160,8 @@ def _numbers(answer: Answer) -> DrawingNumbers:
 
 
 def _is_drawn(given: Given) -> bool:
-    return given.word is not None and given.unit is not Unit.SIGN
+    """Whether a given is a number that somebody states: by a word, or as the place of a pole."""
+    return (given.word is not None or given.name.startswith("pole")) and given.unit is not Unit.SIGN
 
 
 def with_roundings(drawn: DrawnContour) -> DrawnContour:

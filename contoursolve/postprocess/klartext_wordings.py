@@ -1,11 +1,11 @@
 """The words with which HEIDENHAIN says elements of a drawn contour: conventional moves, and free elements in a row that
 are solved together."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from contoursolve.diagnosis import Answer
-from contoursolve.geometry import Arc, Coordinate, CornerShape, Extent, Offset, Radius, Turn, Unit
 from contoursolve.gcode import Word, spell
+from contoursolve.geometry import Arc, Coordinate, CornerShape, Extent, Offset, Radius, Turn, Unit
 from contoursolve.postprocess.drawn_contour import (
     EXACT,
     DrawnContour,
@@ -46,19 +46,16 @@ class KlartextWordings(Speller):
         found = super().word(address, value, axis, text)
         return WrittenWord(_signed(found.text, address), found.rest, found.off, found.is_step)
 
-    def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
-        """All wordings of the elements from one on; or only lines and arcs by their ends."""
-        own = list(self.plain(index, is_cut=is_cut))
-        yield from (each for each in own if each.is_plain or not is_plain)
+    def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
         element = self.drawn.elements[index]
-        if is_plain:
-            return
         if index and isinstance(element.segment, ArcSegment) and self._goes_on_smoothly(index):
-            ends = tuple(self.word(axis, at, n) for n, (axis, at) in enumerate(zip("XY", element.segment.end, strict=True)))
+            ends = tuple(
+                self.word(axis, at, n) for n, (axis, at) in enumerate(zip("XY", element.segment.end, strict=True))
+            )
             for word, _, behind in self.corners(element):
                 if not behind:
                     yield Wording(1, self.attach((WrittenBlock(None, "CT", ends),), word))
-        is_rounded = all(any(w.rest is Rest.COMPUTED for b in each.blocks for w in b.words) for each in own)
+        is_rounded = all(any(w.rest is Rest.COMPUTED for b in each.blocks for w in b.words) for each in _plain)
         if is_cut or not (is_rounded or not index):
             return
         whole = len(self.drawn.elements) - index
@@ -89,6 +86,7 @@ class KlartextWordings(Speller):
             blocks = tuple[WrittenBlock, ...]()
             for place, (_, word) in enumerate(pairs, index):
                 free = tuple(self._free(place, is_whole=is_whole))
+                free = tuple(each for each in free if each.code != "FPOL" or each not in blocks)
                 blocks = self.attach((*blocks, *free), word if place < index + count - 1 else None)
             yield blocks
 
@@ -122,7 +120,7 @@ class KlartextWordings(Speller):
         yield WrittenBlock(None, "CC", center), WrittenBlock(None, "C", (*ends, sense))
 
     def _free(self, index: int, *, is_whole: bool) -> Iterator[WrittenBlock]:
-        """The block of a free element, with all that the drawing says of it; and the pole before it, the pick behind."""
+        """The block of a free element, with all that the drawing says of it; its pole before it, its pick behind."""
         element, claim = self.drawn.elements[index], self.answer.claim
         is_smooth = index > 0 and self._goes_on_smoothly(index)
         own = {name: word for name, word in claim.words.items() if name.startswith(f"{element.place + 1}:")}
@@ -174,7 +172,11 @@ class KlartextWordings(Speller):
                 found = "R", None
             elif isinstance(path, Arc) and isinstance(fact, Coordinate) and fact.point == path.center:
                 found = "CC" + "XY"[fact.axis], fact.axis
-            elif isinstance(path, Arc) and isinstance(fact, Offset) and (fact.point, fact.origin) == (path.center, path.tail):
+            elif (
+                isinstance(path, Arc)
+                and isinstance(fact, Offset)
+                and (fact.point, fact.origin) == (path.center, path.tail)
+            ):
                 found = "ICC" + "XY"[fact.axis], None
             elif isinstance(fact, Extent) and fact.line == path.name:
                 found = "LEN", None
@@ -182,7 +184,11 @@ class KlartextWordings(Speller):
                 continue
             said.add(found[0])
             value = float(self.answer.profile.givens[fact.given].value)
-            if found[0] == "AN" and isinstance(element.segment, LineSegment) and abs((element.segment.angle - value + 180) % 360 - 180) > _QUARTER:
+            if (
+                found[0] == "AN"
+                and isinstance(element.segment, LineSegment)
+                and abs((element.segment.angle - value + 180) % 360 - 180) > _QUARTER
+            ):
                 value += _FULL / 2
             yield self.word(found[0], abs(value) if found[0] == "R" else value, found[1])
 

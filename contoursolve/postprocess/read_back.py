@@ -8,7 +8,7 @@ from contoursolve.gcode import parse
 from contoursolve.geometry import Length
 from contoursolve.postprocess.drawn_contour import DrawnContour
 from contoursolve.program import Request, run
-from contoursolve.reading import Dialect
+from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.solving import ArcSegment, Segment
 
 SAME = 1e-6
@@ -21,9 +21,12 @@ _UNITS_OFF = 2
 def read_back(program: str, drawn: DrawnContour, target: Dialect, *, is_exact: bool) -> tuple[float | None, int]:
     """How far the contour of a program is off a drawn one, mm; None and the line to blame where it is another one, or
     has a finding."""
-    result = run(parse(program, syntax=target.modes.syntax), Request(target, drawn.unit, depth=Depth.VERDICT, is_strict=True))
+    result = run(
+        parse(program, syntax=target.modes.syntax), Request(target, drawn.unit, depth=Depth.VERDICT, is_strict=True)
+    )
     for finding in result.diagnostics:
-        return None, finding.span.line
+        if finding.about is not ReadIssue.NO_CONTOUR:
+            return None, finding.span.line
     axes, numbers = drawn.plane.axes, target.modes.lexicon.numbers
     path = follow(result, target, drawn.unit, axes)
     steps = tuple(
@@ -48,5 +51,14 @@ def _travel(segment: Segment, drawn: DrawnContour) -> Travel:
     if isinstance(segment, ArcSegment):
         bend = bend_of((0, 1), segment.center, segment.start, segment.end, segment.turn)
     return Travel(
-        0, "", Motion.FEED, segment.start, segment.end, bend, _NO_SIDE, is_skippable=False, unit=drawn.unit, doubled=(False, False)
+        0,
+        "",
+        Motion.FEED,
+        segment.start,
+        segment.end,
+        bend,
+        _NO_SIDE,
+        is_skippable=False,
+        unit=drawn.unit,
+        doubled=(False, False),
     )

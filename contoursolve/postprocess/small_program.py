@@ -26,8 +26,7 @@ class SmallProgram:
         self.target, self.is_numbered = target, target.writing is not None
         self.opening = () if self.is_numbered else tuple(_opening(target, drawn))
         self.frame = [
-            [line.format(unit=drawn.unit.value.upper()) for line in lines]
-            for lines in _FRAMES.get(target.name, _ISO)
+            [line.format(unit=drawn.unit.value.upper()) for line in lines] for lines in _FRAMES.get(target.name, _ISO)
         ]
 
     def state(self, unit: Length) -> State:

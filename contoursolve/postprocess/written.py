@@ -8,12 +8,15 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
+from contoursolve.postprocess.chain_wordings import ChainWordings
 from contoursolve.postprocess.drawn_contour import DrawnContour, draw, with_roundings
-from contoursolve.postprocess.post_processors import MachineKind, machine_of
+from contoursolve.postprocess.form_wordings import FormWordings
 from contoursolve.postprocess.klartext_wordings import KlartextWordings
+from contoursolve.postprocess.post_processors import MachineKind, machine_of
 from contoursolve.postprocess.read_back import read_back
 from contoursolve.postprocess.small_program import SmallProgram
-from contoursolve.postprocess.wordings import Rest, Wording, Wordings, WrittenBlock, WrittenWord
+from contoursolve.postprocess.translate import language_of
+from contoursolve.postprocess.wordings import Rest, Speller, Wording, WrittenBlock, WrittenWord
 from contoursolve.program import for_kind
 from contoursolve.reading import Dialect
 
@@ -106,13 +109,20 @@ def _reason(target: Dialect, found: Sequence[Candidate]) -> str:
 
 def _needed(wordings: Iterator[Wording]) -> list[Wording]:
     """Wordings without those that say more words than another one of the same elements."""
-    said = {each: frozenset(word.text for block in each.blocks for word in block.words) for each in wordings}
-    codes = {each: tuple(block.code for block in each.blocks) for each in said}
+    said = {each: frozenset(word.text for word in _words(each) if word.rest is not Rest.NONE) for each in wordings}
+    kinds = {
+        each: (*(block.code for block in each.blocks), *(w.text for w in _words(each) if w.rest is Rest.NONE))
+        for each in said
+    }
     return [
         each
         for each, texts in said.items()
-        if not any(codes[each] == codes[other] and own < texts for other, own in said.items())
+        if not any(kinds[each] == kinds[other] and own < texts for other, own in said.items())
     ]
+
+
+def _words(wording: Wording) -> Iterator[WrittenWord]:
+    return (word for block in wording.blocks for word in block.words)
 
 
 class _Node(Struct, frozen=True):
@@ -138,11 +148,13 @@ class _Search:
         self.drawn, self.target, self.is_plain = drawn, target, is_plain
         self.around = SmallProgram(target, drawn)
         state = self.around.state(drawn.unit)
-        self.wordings = (
-            Wordings(drawn, target, state)
-            if target.writing is None
-            else KlartextWordings(drawn, target, state, answer, self._is_solved)
-        )
+        language = language_of(target)
+        if target.writing is not None:
+            self.wordings: Speller = KlartextWordings(drawn, target, state, answer, self._is_solved)
+        elif language is not None:
+            self.wordings = ChainWordings(drawn, target, state, language)
+        else:
+            self.wordings = FormWordings(drawn, target, state)
         places = enumerate(zip(state.plane.axes, drawn.start, strict=True))
         self.start = tuple(self.wordings.word(axis, at, number) for number, (axis, at) in places)
         self.read = 0
@@ -242,8 +254,8 @@ class _Search:
             texts.append(" ".join((*filter(None, code), *(word.text for word in block.words))))
             words += sum(map(bool, code)) + len(block.words)
             motion = motion if block.motion is None else block.motion
-        rests = [word.rest for block in wording.blocks for word in block.words]
-        steps = sum(word.is_step for block in wording.blocks for word in block.words)
+        rests = [word.rest for word in _words(wording)]
+        steps = sum(word.is_step for word in _words(wording))
         cost = rests.count(Rest.COMPUTED), words, len(wording.blocks), steps, rests.count(Rest.ROUND)
         return cost, _Node(node.index + wording.count, wording.is_cut, motion), tuple(texts)
 
