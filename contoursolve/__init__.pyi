@@ -86,6 +86,11 @@ from .postprocess import (
     Conversion as Conversion,
     Expansion as Expansion,
     Replacement as Replacement,
+    Rest as Rest,
+    Written as Written,
+    WrittenBlock as WrittenBlock,
+    WrittenContour as WrittenContour,
+    WrittenWord as WrittenWord,
     block_number_at as block_number_at,
     format_program as format_program,
     rename_block as rename_block,
@@ -111,8 +116,11 @@ from .sketches import (
     ContourSketch as ContourSketch,
     SketchCorner as SketchCorner,
     SketchElement as SketchElement,
+    UnfinishedError as UnfinishedError,
     read_sketch as read_sketch,
     solve_sketch as solve_sketch,
+    write as write,
+    write_for_all as write_for_all,
     write_sketch as write_sketch,
 )
 from .solving import (

@@ -16,6 +16,7 @@ COMMANDS = {
     "expand": "expand:expand",
     "filter": "expand:filter_",
     "convert": "convert:convert",
+    "write": "write:write",
     "diff": "diff:diff",
     "plot": "pictures:plot",
     "report": "pictures:report",

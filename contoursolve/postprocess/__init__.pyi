@@ -46,7 +46,7 @@ from .wordings import (
     WrittenWord as WrittenWord,
 )
 from .written import (
-    Candidate as Candidate,
     Written as Written,
+    WrittenContour as WrittenContour,
     write_contour as write_contour,
 )

@@ -6,7 +6,7 @@ from itertools import pairwise, product
 from contoursolve.controls import Element, Joining, Language, compose, names_of
 from contoursolve.gcode import spell
 from contoursolve.geometry import Turn
-from contoursolve.postprocess.drawn_contour import EXACT, DrawnContour, DrawnElement, begins_smoothly, size_as
+from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, begins_smoothly, size_as
 from contoursolve.postprocess.wordings import GCodeSpeller, Rest, Wording, WrittenBlock, WrittenWord, values_of
 from contoursolve.reading import Dialect, State
 from contoursolve.solving import ArcSegment, LineSegment
@@ -20,7 +20,7 @@ _ORDER = {letter: place for place, letter in enumerate("XYZUVW,AIJKR")}
 class ChainWordings(GCodeSpeller):
     """The words of a language for elements of a contour."""
 
-    def __init__(self, drawn: DrawnContour, dialect: Dialect, state: State, language: Language) -> None:
+    def __init__(self, drawn: ContourDrawing, dialect: Dialect, state: State, language: Language) -> None:
         super().__init__(drawn, dialect, state)
         self.language = language
 

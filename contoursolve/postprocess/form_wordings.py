@@ -5,7 +5,7 @@ from itertools import product
 
 from contoursolve.diagnosis import legal_samples
 from contoursolve.geometry import Line
-from contoursolve.postprocess.drawn_contour import DrawnContour, DrawnElement, size_as
+from contoursolve.postprocess.contour_drawing import ContourDrawing, DrawnElement, size_as
 from contoursolve.postprocess.wordings import GCodeSpeller, Wording, WrittenBlock, WrittenWord, values_of
 from contoursolve.reading import ContourForm, Dialect, State, check, stated_sets
 from contoursolve.solving import ArcSegment, LineSegment, Point
@@ -14,7 +14,7 @@ from contoursolve.solving import ArcSegment, LineSegment, Point
 class FormWordings(GCodeSpeller):
     """The words of a control's forms for elements of a contour."""
 
-    def __init__(self, drawn: DrawnContour, dialect: Dialect, state: State) -> None:
+    def __init__(self, drawn: ContourDrawing, dialect: Dialect, state: State) -> None:
         super().__init__(drawn, dialect, state)
         self.uses = _uses(dialect)
 

@@ -5,10 +5,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from contoursolve.diagnosis import Answer
 from contoursolve.gcode import Word, spell
-from contoursolve.geometry import Arc, Coordinate, CornerShape, Extent, Offset, Radius, Turn, Unit
-from contoursolve.postprocess.drawn_contour import (
+from contoursolve.geometry import Arc, CornerShape, Turn, Unit
+from contoursolve.postprocess.contour_drawing import (
     EXACT,
-    DrawnContour,
+    ContourDrawing,
     DrawnElement,
     begins_smoothly,
     size_as,
@@ -22,7 +22,7 @@ _SENSES = {Turn.CW: "DR-", Turn.CCW: "DR+"}
 _UNSIGNED = ("LEN", "R", "D", "DP", *CORNERS)
 _REFERENCES = ("PAR", "RX", "RY", "RAN", "RPR", "RPA", "RCCX", "RCCY", "RCCPR", "RCCPA")
 _BESIDE = ("DR", "tangent", "FSELECT", *CORNERS)
-"""What is said of an element apart from its words: its sense, its function, its corner."""
+"""The parts of an element that are not among its words: its sense, its function, its pick, its corner."""
 _PICK = "FSELECT"
 _LONGEST = 24
 """Free elements that are tried in a row."""
@@ -33,7 +33,7 @@ class KlartextWordings(Speller):
 
     def __init__(
         self,
-        drawn: DrawnContour,
+        drawn: ContourDrawing,
         dialect: Dialect,
         state: State,
         answer: Answer,
@@ -158,39 +158,24 @@ class KlartextWordings(Speller):
 
     def _by_facts(self, element: DrawnElement) -> Iterator[WrittenWord]:
         """The words of Klartext that state what the words of another control do."""
-        path = self.answer.profile.figure.path[element.place]
-        said = set[str]()
-        for fact in self.answer.profile.facts:
-            found: tuple[str, int | None] | None = None
-            if fact.heading == (path.tail, path.head):
-                found = "AN", None
-            elif isinstance(fact, Coordinate) and fact.point == path.head:
-                found = "XY"[fact.axis], fact.axis
-            elif isinstance(fact, Offset) and (fact.point, fact.origin) == (path.head, path.tail):
-                found = "I" + "XY"[fact.axis], None
-            elif isinstance(path, Arc) and isinstance(fact, Radius) and fact.radius == path.radius:
-                found = "R", None
-            elif isinstance(path, Arc) and isinstance(fact, Coordinate) and fact.point == path.center:
-                found = "CC" + "XY"[fact.axis], fact.axis
-            elif (
-                isinstance(path, Arc)
-                and isinstance(fact, Offset)
-                and (fact.point, fact.origin) == (path.center, path.tail)
-            ):
-                found = "ICC" + "XY"[fact.axis], None
-            elif isinstance(fact, Extent) and fact.line == path.name:
-                found = "LEN", None
-            if found is None or found[0] in said:
-                continue
-            said.add(found[0])
-            value = float(self.answer.profile.givens[fact.given].value)
-            if (
-                found[0] == "AN"
-                and isinstance(element.segment, LineSegment)
-                and abs((element.segment.angle - value + 180) % 360 - 180) > _QUARTER
-            ):
-                value += _FULL / 2
-            yield self.word(found[0], abs(value) if found[0] == "R" else value, found[1])
+        profile = self.answer.profile
+        path = profile.figure.path[element.place]
+        marks = {path.head: "", **({path.center: "CC"} if isinstance(path, Arc) else {})}
+        found = dict[str, tuple[float, int | None]]()
+        for fact in (each for each in profile.facts if each.given):
+            value, at = float(profile.givens[fact.given].value), fact.placed
+            if fact.heading == (path.tail, path.head) and isinstance(element.segment, LineSegment):
+                way = element.segment.angle
+                is_opposite = abs((way - value + _FULL / 2) % _FULL - _FULL / 2) > _QUARTER
+                found.setdefault("AN", (value + is_opposite * _FULL / 2, None))
+            elif at is not None and at.is_stepped and at.point in marks and at.origin in ("", path.tail):
+                step = "I" if at.origin else ""
+                found.setdefault(f"{step}{marks[at.point]}{'XY'[at.axis]}", (value, None if step else at.axis))
+            elif isinstance(path, Arc) and fact.sizes == path.radius:
+                found.setdefault("R", (abs(value), None))
+            elif fact.span == (path.tail, path.head):
+                found.setdefault("LEN", (value, None))
+        yield from (self.word(name, *value) for name, value in found.items())
 
 
 _FULL, _QUARTER = 360.0, 90.0

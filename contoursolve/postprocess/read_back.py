@@ -6,7 +6,7 @@ from contoursolve.comparison import Motion, ToolPath, Travel, bend_of, compare, 
 from contoursolve.diagnosis import Depth
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length
-from contoursolve.postprocess.drawn_contour import DrawnContour
+from contoursolve.postprocess.contour_drawing import ContourDrawing
 from contoursolve.program import Request, run
 from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.solving import ArcSegment, Segment
@@ -18,9 +18,9 @@ _UNITS_OFF = 2
 """A contour with rounded words is read back to within so many units of the last decimal of its control."""
 
 
-def read_back(program: str, drawn: DrawnContour, target: Dialect, *, is_exact: bool) -> tuple[float | None, int]:
-    """How far the contour of a program is off a drawn one, mm; None and the line to blame where it is another one, or
-    has a finding."""
+def read_back(program: str, drawn: ContourDrawing, target: Dialect, *, is_exact: bool) -> tuple[float | None, int]:
+    """The distance by which the contour of a program is off a drawn one, mm; None and the line to blame where it is
+    another one, or has a finding."""
     result = run(
         parse(program, syntax=target.modes.syntax), Request(target, drawn.unit, depth=Depth.VERDICT, is_strict=True)
     )
@@ -46,7 +46,7 @@ def read_back(program: str, drawn: DrawnContour, target: Dialect, *, is_exact: b
 _NO_SIDE = 40
 
 
-def _travel(segment: Segment, drawn: DrawnContour) -> Travel:
+def _travel(segment: Segment, drawn: ContourDrawing) -> Travel:
     bend = None
     if isinstance(segment, ArcSegment):
         bend = bend_of((0, 1), segment.center, segment.start, segment.end, segment.turn)

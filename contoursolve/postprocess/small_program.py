@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from contoursolve.gcode import comment_out, parse_block
 from contoursolve.geometry import Length
-from contoursolve.postprocess.drawn_contour import DrawnContour
+from contoursolve.postprocess.contour_drawing import ContourDrawing
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
 from contoursolve.postprocess.wordings import REFERENCE, WrittenBlock
 from contoursolve.reading import Dialect, Diameter, State, advance
@@ -22,7 +22,7 @@ _FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 class SmallProgram:
     """The lines around the blocks of a contour for a control."""
 
-    def __init__(self, target: Dialect, drawn: DrawnContour) -> None:
+    def __init__(self, target: Dialect, drawn: ContourDrawing) -> None:
         self.target, self.is_numbered = target, target.writing is not None
         self.opening = () if self.is_numbered else tuple(_opening(target, drawn))
         self.frame = [
@@ -61,7 +61,7 @@ _LEFT, _NO_SIDE = 41, 40
 _REFERENCE = re.compile(f"{REFERENCE}(\\d+){REFERENCE}")
 
 
-def _opening(target: Dialect, drawn: DrawnContour) -> Iterable[str]:
+def _opening(target: Dialect, drawn: ContourDrawing) -> Iterable[str]:
     """The lines that say how the words of a program are read."""
     modes = target.modes
     rows, is_mill = modes.codes.values(), machine_of(target) is MachineKind.MILL

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import write_word
 from contoursolve.gcode import number_of
 from contoursolve.geometry import Length, Unit
-from contoursolve.postprocess.drawn_contour import EXACT, DrawnContour, DrawnElement, value_of
+from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, value_of
 from contoursolve.postprocess.emit import Format, emit
 from contoursolve.postprocess.post_processors import Arcs
 from contoursolve.reading import ContourForm, Dialect, State, WithoutPoint
@@ -68,7 +68,7 @@ class Wording(Struct, frozen=True):
 class Speller:
     """The words of a control for numbers of a contour; `state` is that behind its opening."""
 
-    def __init__(self, drawn: DrawnContour, dialect: Dialect, state: State) -> None:
+    def __init__(self, drawn: ContourDrawing, dialect: Dialect, state: State) -> None:
         self.drawn, self.dialect, self.modes = drawn, dialect, dialect.modes
         self.plane, self.unit = state.plane, state.unit
         self.lexicon = dialect.modes.words(state)

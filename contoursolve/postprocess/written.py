@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.postprocess.chain_wordings import ChainWordings
-from contoursolve.postprocess.drawn_contour import DrawnContour, draw, with_roundings
+from contoursolve.postprocess.contour_drawing import ContourDrawing, draw, with_roundings
 from contoursolve.postprocess.form_wordings import FormWordings
 from contoursolve.postprocess.klartext_wordings import KlartextWordings
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
@@ -32,10 +32,10 @@ Cost = tuple[int, int, int, int, int]
 _NOTHING: Cost = (0, 0, 0, 0, 0)
 
 
-class Candidate(Struct, frozen=True):
+class WrittenContour(Struct, frozen=True):
     """One way to say the contour: its blocks, and a whole small program with them.
 
-    It was read back as the control reads it, without a finding, and is the same contour to within `deviation` mm.
+    It was read back as the control reads it, without a finding. It is the same contour to within `deviation` mm.
     """
 
     blocks: tuple[WrittenBlock, ...]
@@ -60,7 +60,7 @@ class Written(Struct, frozen=True):
 
     control: str
     title: str
-    candidates: tuple[Candidate, ...]
+    candidates: tuple[WrittenContour, ...]
     reason: str = ""
     read_back: int = 0
     """The number of candidates that were read back."""
@@ -79,7 +79,7 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
     rounded = with_roundings(drawn)
     several = [drawn, *([rounded] if rounded != drawn else [])]
     searches = [_Search(each, target, answer) for each in several]
-    found, read, tried = list[Candidate](), 0, set[str]()
+    found, read, tried = list[WrittenContour](), 0, set[str]()
     while len(found) < most and read < MOST_READ:
         ahead = [each for each in searches if each.ahead(tried) is not None]
         if not ahead:
@@ -87,7 +87,9 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
         best = min(ahead, key=_Search.order)
         candidate = best.take(tried)
         read += 1
-        found += [candidate] if candidate else []
+        # A corner that has a word is written out where its word is refused, and not beside that.
+        if candidate and all(set(candidate.written_out) <= set(each.written_out) for each in found):
+            found.append(candidate)
     if not any(each.is_plain for each in found):
         searches.append(_Search(drawn, target, answer, is_plain=True))
         candidate = searches[-1].take(tried)
@@ -96,7 +98,7 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
     return Written(target.name, target.title, tuple(found), _reason(target, found), sum(each.read for each in searches))
 
 
-def _reason(target: Dialect, found: Sequence[Candidate]) -> str:
+def _reason(target: Dialect, found: Sequence[WrittenContour]) -> str:
     if not found:
         return f"{target.name} accepts no blocks for this contour, not even plain ones"
     best = found[0]
@@ -144,7 +146,7 @@ class _Choice(Struct, frozen=True):
 class _Search:
     """The wordings of a whole contour, those first that cost less."""
 
-    def __init__(self, drawn: DrawnContour, target: Dialect, answer: Answer, *, is_plain: bool = False) -> None:
+    def __init__(self, drawn: ContourDrawing, target: Dialect, answer: Answer, *, is_plain: bool = False) -> None:
         self.drawn, self.target, self.is_plain = drawn, target, is_plain
         self.around = SmallProgram(target, drawn)
         state = self.around.state(drawn.unit)
@@ -177,7 +179,7 @@ class _Search:
                 return None
         return self.next[1]
 
-    def take(self, tried: set[str]) -> Candidate | None:
+    def take(self, tried: set[str]) -> WrittenContour | None:
         """Read the next wording back. Where it is not the same contour, what is to blame is left out from now on."""
         if self.ahead(tried) is None or self.next is None:
             return None
@@ -195,7 +197,7 @@ class _Search:
         cut = [(elements[n.node.index + n.wording.count - 1].corner, n.wording) for n in choices]
         written_out = tuple(corner.segment.name for corner, each in cut if corner and each.writes_corner)
         is_plain = all(each.wording.is_plain for each in choices)
-        return Candidate(blocks, own, "\n".join(program) + "\n", deviation, cost, written_out, is_plain)
+        return WrittenContour(blocks, own, "\n".join(program) + "\n", deviation, cost, written_out, is_plain)
 
     def _ban(self, choices: tuple[_Choice, ...], place: int) -> None:
         for each in choices:
@@ -247,7 +249,7 @@ class _Search:
                     heappush(heap, (_add(cost, rest[there]), *more))
 
     def _step(self, node: _Node, wording: Wording) -> tuple[Cost, _Node, tuple[str, ...]]:
-        """What a wording costs at a place, the place behind it, and its lines."""
+        """The cost of a wording at a place, the place behind it, and its lines."""
         motion, texts, words = node.motion, list[str](), 0
         for block in wording.blocks:
             code = () if block.motion is not None and block.motion == motion else (block.code,)
@@ -267,7 +269,7 @@ class _Search:
         start = [word.text for word in self.start]
         return self.around.assemble(blocks, lines, start, needs_side=needs_side)
 
-    def _read_back(self, program: str, drawn: DrawnContour, cost: Cost) -> tuple[float | None, int]:
+    def _read_back(self, program: str, drawn: ContourDrawing, cost: Cost) -> tuple[float | None, int]:
         self.read += 1
         is_rounded = cost[0] or any(word.rest is Rest.COMPUTED for word in self.start)
         return read_back(program, drawn, self.target, is_exact=not is_rounded)

@@ -27,3 +27,11 @@ from .sketch_file import (
     sketch_schema as sketch_schema,
     write_sketch as write_sketch,
 )
+from .words_out import (
+    UnfinishedError as UnfinishedError,
+    candidate_lines as candidate_lines,
+    examine_sketch as examine_sketch,
+    table_lines as table_lines,
+    write as write,
+    write_for_all as write_for_all,
+)

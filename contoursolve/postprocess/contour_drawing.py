@@ -73,7 +73,7 @@ def _is_turned(angle: float) -> bool:
     return abs((angle + 180) % 360 - 180) <= EXACT
 
 
-class DrawnContour(Struct, frozen=True):
+class ContourDrawing(Struct, frozen=True):
     """All elements in their order, and the numbers of the drawing."""
 
     plane: Plane
@@ -111,7 +111,7 @@ class DrawnContour(Struct, frozen=True):
                 yield element.corner.segment
 
 
-def draw(answer: Answer) -> DrawnContour:
+def draw(answer: Answer) -> ContourDrawing:
     """The drawing of a solved contour. Raises ValueError if it has no path."""
     contour, profile = answer.contour, answer.profile
     if contour is None:
@@ -137,7 +137,7 @@ def draw(answer: Answer) -> DrawnContour:
     stated = [fact.placed for fact in profile.facts if fact.given and fact.placed is not None]
     axes = {(each.point, each.axis) for each in stated if each.is_stepped and not each.origin}
     points = tuple(at for name, at in contour.places.items() if {(name, 0), (name, 1)} <= axes)
-    return DrawnContour(answer.plane, answer.unit, tuple(elements), _numbers(answer), points)
+    return ContourDrawing(answer.plane, answer.unit, tuple(elements), _numbers(answer), points)
 
 
 def _numbers(answer: Answer) -> DrawingNumbers:
@@ -164,7 +164,7 @@ def _is_drawn(given: Given) -> bool:
     return (given.word is not None or given.name.startswith("pole")) and given.unit is not Unit.SIGN
 
 
-def with_roundings(drawn: DrawnContour) -> DrawnContour:
+def with_roundings(drawn: ContourDrawing) -> ContourDrawing:
     """The same, where each arc that touches the lines before and behind it is the rounding of their corner."""
     elements = list(drawn.elements)
     for number in reversed(range(1, len(elements) - 1)):

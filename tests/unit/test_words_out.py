@@ -1,0 +1,220 @@
+"""A contour in the words of a control: the manuals' own blocks come back, and every candidate is the same contour."""
+
+from math import hypot
+from pathlib import Path
+
+import pytest
+from hypothesis import assume, strategies as st
+
+import contoursolve
+from contoursolve.comparison import Motion, Travel, follow
+from contoursolve.geometry import Length
+from contoursolve.sketches import examine_sketch, read_sketch
+from tests.support.examples import law
+
+SKETCHES = [
+    path
+    for path in sorted((Path(__file__).parent.parent / "sketches").glob("*.toml"))
+    if not any(each.guess for each in read_sketch(path.read_text(encoding="utf-8")).elements)
+]
+
+OWN_WORDS = [
+    # control, program, its contour's blocks as they come back
+    (
+        "fanuc-lathe",
+        "G00 X0. Z0.\nG01 X60. ,A90. ,C1.\nZ-30. ,A180. ,R6.\nX100. ,A90.",
+        "G01 X60. ,C1./Z-30. ,R6./X100.",
+    ),
+    (
+        "fanuc-lathe",
+        "G00 X100. Z-30.\nG01 ,A170. ,R20.\nX300. Z-180. ,A112. ,R15.\nZ-230. ,A180.",
+        "G01 ,A170. ,R20./X300. Z-180. ,A112. ,R15./Z-230.",
+    ),
+    ("fanuc-lathe", "G00 X20. Z0.\nG01 X40. ,A150.", "G01 X40. ,A150."),
+    (
+        "fanuc-mill",
+        "G17 G90 G00 X10. Y10.\nG01 X50. ,C5.\nY25. ,R8.\nG03 X80. Y55. R30. ,R8.\nG01 X50. ,R8.\nY70. ,C5.\nX10.",
+        "G01 X50. ,C5./Y25. ,R8./G03 X80. Y55. R30. ,R8./G01 X50. ,R8./Y70. ,C5./X10.",
+    ),
+    ("haas-lathe", "G20 G00 X0 Z0\nG01 X1.0 ,C0.05\nZ-0.75 ,R0.1\nX2.0", "G01 X1. ,C0.05/Z-0.75 ,R0.1/X2."),
+    ("yasnac-lx3", "G00 X40. Z0.\nG111 X100. A180. K-30. B120. C5. D5.", "G111 A180. B120. K-30. X100. C5. D5."),
+    ("yasnac-lx3", "G00 X100. Z-50.\nG112 U0 I10. K-50. P5. Q5. R30.", "G112 I10. K-50. R30. X100. P5. Q5."),
+    ("yasnac-lx3", "G00 X30. Z0.\nG12 Z-20. I8.\nX80. K-7.", "G12 I8. Z-20."),
+    ("nct-99m", "G17 G90 G41 D0 G0 X90 Y10\nG1 ,A150\nX10 Y20 ,A225", "G01 ,A150/X10 Y20 ,A225"),
+    (
+        "nct-99m",
+        "G17 G42 D0 G0 X100 Y20\nG1 X-30 Y-20\nG3 X20 Y40 I20 J-10 R50 Q-1",
+        "G01 X-30 Y-20/G03 X20 Y40 I20 J-10 R50 Q-1",
+    ),
+    (
+        "nct-99m",
+        "G17 G0 X50 Y0 G42 D0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1",
+        "G03 I-50 J0/G01 X-50 Y42.857 ,A171.87 Q-1",
+    ),
+    ("mitsubishi", "G17 G90 G00 X10. Y10.\nG01 A70.\nX80. Y25. A-30.", "G01 A70/X80 Y25 A-30"),
+    ("mitsubishi", "G17 G00 X0 Y5.\nG01 A10.\nG02 X60. Y15. I-20. J-25. H1", "G01 A10/G02 X60 Y15 I-20 J-25 H1"),
+    ("mitsubishi", "G17 G00 X0 Y0\nG01 A15.\nG03 X70. Y50. R30.", "G01 A15/G03 X70 Y50 R30"),
+    ("siemens-840d", "G17 G0 X0 Y0\nG1 ANG=30 RND=6\nX60 Y20 ANG=-45", "G01 ANG=30 RND=6/X60 Y20 ANG=-45"),
+    (
+        "siemens-840d",
+        "G18 DIAMON G0 X40.9297 Z-22.8868\nG1 ANG=175 RND=10\nX70 Z-60 ANG=105 CHR=2\nZ-85 RND=3\nX84",
+        "G01 ANG=175 RND=10/X70 Z-60 ANG=105 CHR=2/Z-85 RND=3/X84",
+    ),
+    ("isg", "G17 G0 X0 Y0\nG1 #ANG=70 #RND=8\n#ANG=15 X60 Y70", "G01 #ANG=70 #RND=8/X60 Y70 #ANG=15"),
+    (
+        "heidenhain",
+        (
+            "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0\n12 FPOL X+10 Y+10\n13 FL PR+20 PA+20\n14 FL AN+45\n"
+            "15 FCT IX+20 DR- R20 CCA+90 RX 13\n16 FL IPR+35 PA+0 RPR 13\n17 END PGM A MM"
+        ),
+        "2 FPOL X+10 Y+10/3 FL PR+20 PA+20/4 FL AN+45/5 FCT IX+20 R20 CCA+90 RX 3 DR-/6 FL IPR+35 PA+0 RPR 3",
+    ),
+    (
+        "heidenhain",
+        "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0\n2 FL AN+60\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM",
+        "2 FL AN+60/3 FL X+80 Y+20 AN-30",
+    ),
+]
+
+
+@pytest.mark.parametrize(("control", "text", "blocks"), OWN_WORDS)
+def test_the_words_of_manuals_come_back(control: str, text: str, blocks: str):
+    result = contoursolve.solve(text, control=control)
+    found = contoursolve.write(result.answers[0], control)
+    assert "/".join(found.candidates[0].lines) == blocks
+    assert not found.candidates[0].words(contoursolve.Rest.COMPUTED)
+    check_all(result.answers[0], found)
+
+
+def check_all(answer: contoursolve.Answer, found: contoursolve.Written) -> None:
+    """Each candidate has no finding, and runs along the contour, over its whole length; the cheapest comes first."""
+    assert found.candidates
+    inch = answer.unit.value == "inch"
+    for each in found.candidates:
+        told = contoursolve.check(each.program, control=found.control, strict=True)
+        assert [one.code for one in told if one.code != "no-contour"] == []
+        limit = (0.0052 if inch else 0.0021) if each.words(contoursolve.Rest.COMPUTED) else 1e-6
+        is_rounded = limit > 1e-6 or each.deviation > 1e-6  # the start may be rounded, too
+        path = followed(each.program, found.control, answer)
+        assert len(path) >= len(answer.contour.elements)
+        assert sum(travel.length() for travel in path) == pytest.approx(
+            sum(element.length for element in answer.contour.elements), abs=0.02 if is_rounded else 1e-5
+        )
+        places = [travel.at(part / PARTS) for travel in path for part in range(PARTS + 1)]
+        for point in answer.contour.sample(0.05):
+            assert min(hypot(point[0] - at[0], point[1] - at[1]) for at in places) < longest(path) / PARTS + 0.01
+        for place in places:
+            assert beside(place, answer.contour) <= (0.0052 if is_rounded else 1e-6)
+    assert [each.cost for each in found.candidates] == sorted(each.cost for each in found.candidates)
+
+
+PARTS = 12
+
+
+def followed(text: str, control: str, answer: contoursolve.Answer) -> list[Travel]:
+    """The cuts of a program."""
+    result = contoursolve.solve(text, control=control)
+    steps = follow(result, contoursolve.DIALECTS[control], Length.MM, answer.plane.axes).steps
+    assert all(isinstance(each, Travel) for each in steps)
+    return [each for each in steps if each.motion is Motion.FEED]
+
+
+def longest(path: list[Travel]) -> float:
+    return max(travel.length() for travel in path)
+
+
+def beside(place: tuple[float, ...], contour: contoursolve.Contour) -> float:
+    """The distance of a point from the nearest line or circle of a contour."""
+    off = []
+    for each in contour.elements:
+        if isinstance(each, contoursolve.ArcSegment):
+            off.append(abs(hypot(place[0] - each.center[0], place[1] - each.center[1]) - each.radius))
+            continue
+        along = (each.end[0] - each.start[0], each.end[1] - each.start[1])
+        aside = along[0] * (place[1] - each.start[1]) - along[1] * (place[0] - each.start[0])
+        off.append(abs(aside) / hypot(*along))
+    return min(off)
+
+
+@pytest.mark.parametrize("path", SKETCHES, ids=lambda path: path.stem)
+def test_sketches_are_written_for_three_controls(path: Path):
+    sketch = read_sketch(path.read_text(encoding="utf-8"))
+    of_kind = {"turned": ("fanuc-lathe", "yasnac-lx3", "siemens-840d"), "milled": ("fanuc-mill", "isg", "heidenhain")}
+    for control in of_kind[sketch.part]:
+        check_all(examine_sketch(sketch).answers[0], contoursolve.write(sketch, control))
+
+
+def test_a_control_of_the_other_kind_says_so():
+    plate = contoursolve.solve("G17 G90 G00 X0 Y0\nG01 X40. ,R5.\nY30.", control="fanuc-mill")
+    found = contoursolve.write(plate, "yasnac-lx3")
+    assert (found.candidates, found.reason) == ((), "the contour is milled, and yasnac-lx3 is a lathe")
+    shaft = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
+    table = contoursolve.write_for_all(shaft)
+    assert [each.control for each in table] == [*contoursolve.DIALECTS]
+    assert [each.control for each in table if each.candidates] == [
+        *("yasnac-lx3", "fanuc-lathe", "haas-lathe", "siemens-840d", "siemens-808d", "isg")
+    ]
+    lathe = contoursolve.write(shaft, "mitsubishi", settings={"mitsubishi.diameter": "on"})
+    assert lathe.candidates[0].lines == ("G01 Z-30 ,R5", "X100 A120")
+    check_all(shaft.answers[0], lathe)
+
+
+def test_a_corner_without_a_word_has_its_own_block():
+    shaft = contoursolve.solve("G00 X40. Z0.\nG111 X100. A150. K-30. B110. C3.")
+    found = contoursolve.write(shaft, "fanuc-lathe")
+    assert found.reason == "fanuc-lathe has no word for corner 1: a block of its own makes it"
+    check_all(shaft.answers[0], found)
+    bow = contoursolve.solve("G17 G90 G00 X0 Y0\nG01 X40. ,R5.\nG03 X60. Y20. R20.", control="fanuc-mill")
+    told = contoursolve.write(bow, "haas-mill")
+    assert told.reason.startswith("haas-mill has no word for corner 1")
+    check_all(bow.answers[0], told)
+
+
+def test_an_open_contour_has_no_words():
+    open_ = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. B120.")
+    with pytest.raises(contoursolve.UnfinishedError, match="the contour is rejected: solve it first"):
+        contoursolve.write(open_, "fanuc-lathe")
+
+
+NICE = st.integers(2, 12).map(lambda number: 5 * number)
+STEPS = st.lists(
+    st.tuples(
+        st.sampled_from(["end", "angle", "open", "arc"]),
+        NICE,
+        st.sampled_from([15, 30, 45, 60, 70, 110, 120, 150]),
+        st.sampled_from(["", "RND=2", "CHR=1.5"]),
+    ),
+    min_size=2,
+    max_size=4,
+)
+
+
+@law(STEPS, st.booleans(), st.booleans(), few=120, many=3_000)
+def test_random_contours_are_the_same_for_all_controls(
+    steps: list[tuple[str, int, int, str]], is_turned: bool, is_inch: bool
+):
+    """A contour of SINUMERIK in the words of every control of its kind of machine."""
+    across, along = ("X", "Z") if is_turned else ("Y", "X")
+    lines, at, is_open = [], [20, 0], False
+    for kind, number, angle, corner in steps:
+        at = [at[0] + number, at[1] + 2 * number]
+        place = f"{across}{at[0] * (1 + is_turned)} {along}{at[1]}"
+        match "end" if is_open and kind in ("angle", "open") else kind:
+            case "arc" if not is_open:
+                lines.append(f"G3 {place} CR={3 * number} {corner}")
+            case "angle":
+                lines.append(f"G1 {across}{at[0] * (1 + is_turned)} ANG={min(angle, 80)} {corner}")
+                is_open = False
+            case "open":
+                lines.append(f"G1 ANG={angle} {corner}")
+                is_open = True
+            case _:
+                lines.append(f"G1 {place} {f'ANG={angle - 90}' if is_open else ''} {corner}")
+                is_open = False
+    head = f"{'G70' if is_inch else 'G71'} {'G18 DIAMON' if is_turned else 'G17'} G90 G0 {across}40 {along}0"
+    result = contoursolve.solve("\n".join((head, *lines)), control="siemens-840d", depth="verdict")
+    solved = [each for each in result.answers if each.contour is not None]
+    assume(solved and not any(each.is_error for each in solved[0].diagnostics))
+    for found in contoursolve.write_for_all(solved[0]):
+        if found.candidates:
+            check_all(solved[0], found)
