@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.geometry import CornerShape, Fact, Given, Length, Line, Plane, Unit, Values, scalar
+from contoursolve.postprocess.expansion_report import ConversionError
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 
 EXACT = 5e-9
@@ -112,10 +113,10 @@ class ContourDrawing(Struct, frozen=True):
 
 
 def draw(answer: Answer) -> ContourDrawing:
-    """The drawing of a solved contour. Raises ValueError if it has no path."""
+    """The drawing of a solved contour. Raises ConversionError if it has no path."""
     contour, profile = answer.contour, answer.profile
     if contour is None:
-        raise ValueError(f"a contour that is {answer.status.value} has no path")
+        raise ConversionError(f"a contour that is {answer.status.value} has no path")
     cut = {each.name: each for each in contour.elements}
     corners = {each.before: each for each in profile.figure.corners if each.name in cut}
     places = {profile.figure.path[-1].head: contour.end, **contour.places, profile.figure.start: contour.start}

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.postprocess.chain_wordings import ChainWordings
 from contoursolve.postprocess.contour_drawing import ContourDrawing, draw, with_roundings
+from contoursolve.postprocess.expansion_report import ConversionError
 from contoursolve.postprocess.form_wordings import FormWordings
 from contoursolve.postprocess.klartext_wordings import KlartextWordings
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
@@ -67,8 +68,10 @@ class Written(Struct, frozen=True):
 
 
 def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATES) -> Written:
-    """The wordings of a solved contour for a control. Raises ValueError if it has no path."""
+    """The wordings of a solved contour for a control. Raises ConversionError if it has no path, or one of no length."""
     drawn = draw(answer)
+    if not drawn.elements:
+        raise ConversionError("the contour has no length: there is nothing to write")
     kind = MachineKind.LATHE if {*drawn.plane.axes} == {"X", "Z"} else MachineKind.MILL
     target = for_kind(target, {}, kind.value)
     if machine_of(target) is not kind:
@@ -102,10 +105,10 @@ def _reason(target: Dialect, found: Sequence[WrittenContour]) -> str:
     if not found:
         return f"{target.name} accepts no blocks for this contour, not even plain ones"
     best = found[0]
-    if best.is_plain and best.cost[0]:
-        return f"{target.name} has no words for this contour: it is written as plain lines and arcs"
     if best.written_out:
         return f"{target.name} has no word for {' and '.join(best.written_out)}: a block of its own makes it"
+    if best.is_plain and best.cost[0]:
+        return f"{target.name} has no words for this contour: it is written as plain lines and arcs"
     return ""
 
 
