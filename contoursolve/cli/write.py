@@ -1,5 +1,6 @@
 """The command `write`: a sketch as a small program for a control, or in the words of all controls."""
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -8,19 +9,18 @@ import click
 from contoursolve.cli.expand import target_of
 from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, control_option, settings_option
 from contoursolve.cli.printing import print_lines, say, style_of_output
+from contoursolve.diagnosis import count
 from contoursolve.diagnostics import json_text, members
 from contoursolve.gcode import STANDARD_INPUT, decode, read_bytes, write_whole
-from contoursolve.output import Collected, Totals, stream_findings
-from contoursolve.postprocess import Written
+from contoursolve.output import Style
+from contoursolve.postprocess import Rest, Written, WrittenContour, WrittenWord
 from contoursolve.program import find_settings, read_setting
 from contoursolve.reading import Dialect
 from contoursolve.sketches import (
     ContourSketch,
     UnfinishedError,
-    candidate_lines,
-    examine_sketch,
     read_sketch,
-    table_lines,
+    solve_sketch,
     write as write_contour,
     write_for_all,
 )
@@ -75,17 +75,17 @@ def write(
         else:
             several = (write_contour(drawn, to, settings=settings),)
     except UnfinishedError:
-        _report_findings(drawn)
+        print_lines(_open_lines(drawn, style_of_output()))
         context.exit(FOUND_ERRORS)
     found = several[0]
     if format_ == "json":
         click.echo(json_text([_data(each) for each in several]))
     elif to is None:
-        print_lines(table_lines(several))
+        print_lines(_table_lines(several))
     elif not found.candidates:
         raise CouldNotRunError(found.reason)
     elif shows_all:
-        print_lines(line for each in found.candidates for line in candidate_lines(each))
+        print_lines(line for each in found.candidates for line in _candidate_lines(each))
         _report(found)
     elif target is None:
         click.echo(found.candidates[0].program, nl=False)
@@ -98,15 +98,63 @@ def write(
 
 def _report(found: Written) -> None:
     """Print on standard error how good the first candidate is."""
-    first, *others = candidate_lines(found.candidates[0])
+    first, *others = _candidate_lines(found.candidates[0])
     said = [line.strip() for line in others if not line.startswith("    ")]
     print_lines((first, *said, *filter(None, (found.reason,))), err=True)
 
 
-def _report_findings(sketch: ContourSketch) -> None:
-    """Print why a sketch has no contour, as `check` does."""
-    tally = Totals()
-    print_lines(stream_findings(Collected(examine_sketch(sketch), is_strict=True), tally, style_of_output()))
+def _open_lines(sketch: ContourSketch, style: Style) -> Iterator[str]:
+    """What keeps a sketch from having one contour, as findings are printed: with the element and the field."""
+    known = solve_sketch(sketch)
+    for each in known.findings:
+        yield f"{style(f'{each.severity.value}[{each.code}]', each.severity.value)}: {each.message}"
+        for number, field in each.fields:
+            name = sketch.name_of(number) if number else "the sketch"
+            yield f" --> {name}{f', {field}' if field != _WHOLE else ''}"
+        yield f"  = help: {each.help}"
+    if known.missing and not known.findings:
+        yield f"{style('error', 'error')}: {known.missing}"
+    for solution in known.solutions:
+        number, place = solution.guess
+        guess = ", ".join(f"{axis} = {at}" for axis, at in place.items())
+        yield f"  = {solution.name}: guess = {{ {guess} }} in {sketch.name_of(number)} chooses it"
+
+
+_WHOLE = "kind"
+"""The field that stands for a whole element."""
+
+
+def _candidate_lines(candidate: WrittenContour) -> Iterator[str]:
+    """The number of words of a candidate, its blocks, and on what its numbers rest."""
+    _, words, _, *_ = candidate.cost
+    yield f"{count(words, 'word')} in {count(len(candidate.blocks), 'block')}, {_ground(candidate)}"
+    yield from (f"    {line}" for line in candidate.lines)
+    for rest in (Rest.COMPUTED, Rest.ROUND):
+        told = [_told(word) for word in candidate.words(rest)]
+        if told:
+            yield f"  {rest.value}: {', '.join(told)}"
+
+
+def _ground(candidate: WrittenContour) -> str:
+    """On what a candidate rests, in a few words."""
+    computed = len(candidate.words(Rest.COMPUTED))
+    if computed:
+        return f"{computed} computed: at most {candidate.deviation:.1g} mm off"
+    return "with round numbers" if candidate.words(Rest.ROUND) else "all numbers those of the drawing"
+
+
+def _told(word: WrittenWord) -> str:
+    return f"{word.text} (off by {word.off:.1g})" if word.off else word.text
+
+
+def _table_lines(several: Sequence[Written]) -> Iterator[str]:
+    """The first candidate for each control, a line for each block."""
+    width = max(len(each.control) for each in several)
+    for each in several:
+        said = each.candidates[0].lines if each.candidates else ()
+        ground = f"{_ground(each.candidates[0])}" if each.candidates else ""
+        yield f"{each.control:{width}}  {'; '.join(filter(None, (ground, each.reason)))}"
+        yield from (f"{'':{width}}    {line}" for line in said)
 
 
 def _data(found: Written) -> dict[str, Any]:

@@ -29,9 +29,6 @@ from .sketch_file import (
 )
 from .words_out import (
     UnfinishedError as UnfinishedError,
-    candidate_lines as candidate_lines,
-    examine_sketch as examine_sketch,
-    table_lines as table_lines,
     write as write,
     write_for_all as write_for_all,
 )

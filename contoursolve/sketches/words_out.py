@@ -1,15 +1,14 @@
-"""A contour in the words of a control, or of all controls: `contoursolve.write`, and what is printed of it."""
+"""A contour in the words of a control, or of all controls: `contoursolve.write`."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, count, join
+from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import UserError
-from contoursolve.gcode import parse
-from contoursolve.postprocess import Rest, Written, WrittenContour, WrittenWord, write_contour
-from contoursolve.program import Result, Run, SolveOptions, configure, find_dialect
+from contoursolve.postprocess import Written, write_contour
+from contoursolve.program import Result, configure, find_dialect
 from contoursolve.reading import Dialect
-from contoursolve.sketches.as_program import as_program
+from contoursolve.sketches.known_part import solve_sketch
 from contoursolve.sketches.sketch import ContourSketch
 
 
@@ -53,10 +52,11 @@ def write_for_all(
 
 def _answer_of(contour: Answer | Result | ContourSketch) -> Answer:
     if isinstance(contour, ContourSketch):
-        found = examine_sketch(contour)
-        if not found.answers or found.answers[0].contour is None:
-            raise UnfinishedError(join([each.message for each in found.diagnostics]))
-        return found.answers[0]
+        known = solve_sketch(contour)
+        if known.answer is None or known.answer.contour is None:
+            told = known.missing or "; ".join(each.message for each in known.findings)
+            raise UnfinishedError(f"the sketch is {known.status}: {told}")
+        return known.answer
     if isinstance(contour, Result):
         if len(contour.answers) != 1:
             raise ValueError(f"one contour is written; the program has {len(contour.answers)}")
@@ -64,43 +64,3 @@ def _answer_of(contour: Answer | Result | ContourSketch) -> Answer:
     if contour.contour is None:
         raise UnfinishedError(f"the contour is {contour.status.value}: solve it first")
     return contour
-
-
-def examine_sketch(sketch: ContourSketch) -> Result:
-    """The result of a sketch's program."""
-    program = as_program(sketch)
-    asked = SolveOptions(start=program.start, units=sketch.unit, strict=True).request("sketch", sketch.control)
-    return Run(parse(program.text, "sketch"), asked).collect()
-
-
-def candidate_lines(candidate: WrittenContour) -> Iterator[str]:
-    """The number of words of a candidate, its blocks, and on what its numbers rest."""
-    _, words, _, *_ = candidate.cost
-    yield f"{count(words, 'word')} in {count(len(candidate.blocks), 'block')}, {_ground(candidate)}"
-    yield from (f"    {line}" for line in candidate.lines)
-    for rest in (Rest.COMPUTED, Rest.ROUND):
-        told = [_told(word) for word in candidate.words(rest)]
-        if told:
-            yield f"  {rest.value}: {', '.join(told)}"
-
-
-def _ground(candidate: WrittenContour) -> str:
-    """On what a candidate rests, in a few words."""
-    computed = len(candidate.words(Rest.COMPUTED))
-    if computed:
-        return f"{computed} computed: at most {candidate.deviation:.1g} mm off"
-    return "with round numbers" if candidate.words(Rest.ROUND) else "all numbers those of the drawing"
-
-
-def _told(word: WrittenWord) -> str:
-    return f"{word.text} (off by {word.off:.1g})" if word.off else word.text
-
-
-def table_lines(several: Sequence[Written]) -> Iterator[str]:
-    """The first candidate for each control, a line for each block."""
-    width = max(len(each.control) for each in several)
-    for each in several:
-        said = each.candidates[0].lines if each.candidates else ()
-        ground = f"{_ground(each.candidates[0])}" if each.candidates else ""
-        yield f"{each.control:{width}}  {'; '.join(filter(None, (ground, each.reason)))}"
-        yield from (f"{'':{width}}    {line}" for line in said)
