@@ -117,10 +117,10 @@ def _moved_program(program: Program, result: Result, report: ToolReport) -> Move
         reason = f"{errors[0].code}: {errors[0].message}" if errors else ""
         if not reason and len({travel.is_skippable for travel in each.run.travels}) > 1:
             reason = "some of its blocks begin with / and some do not: with them skipped, it is another contour"
-        if not reason and each.path is None:
-            reason = "the tool does not fit"
         if not reason and not is_solved:
             reason = "another contour is not solved, so that nobody knows where compensation has to stay"
+        if not reason and each.path is None:
+            reason = "the tool does not fit"
         if reason:
             # What interrupts one contour stands before the next one.
             told = {id(finding) for other in left.values() for finding in other.diagnostics}

@@ -74,7 +74,7 @@ def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[Tool
             # Beside a whole program, nobody sees which line "this line" is.
             findings = [
                 one if lines else replace(one, message=f"line {one.span.line}: {one.message}")
-                for one in report.findings
+                for one in sorted(report.findings, key=lambda finding: not finding.is_error)
                 if one.span.line in (lines or each.run.lines)
             ]
             drawn.append(_beside(each, own, tuple(remarks_of(findings)), is_whole=answer is None))

@@ -393,17 +393,20 @@ def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point
         along = min(float(dot(tip, normal)) for normal in normals)
         # Between the walls of a groove, the tip is the corner at which the tool is set.
         near = elements[max(number - _GROOVE, 0) : number + _GROOVE + 1]
-        if along > _CLEAR and not any(are_walls(element, other, side) for other in near):
+        if along > _CLEAR and not any(are_walls(element, other, side, 0.0) for other in near):
             yield ToolFault(ToolFaultKind.TIP_AGAINST_SIDE, number, radius * (1 + along))
 
 
-def are_walls(one: Segment, other: Segment, side: int) -> bool:
-    """Whether two lines are the parallel walls of a groove, each before the other."""
+def are_walls(one: Segment, other: Segment, side: int, least: float = 1 - LENGTH) -> bool:
+    """Whether two lines are the walls of a groove, each before the other; parallel, or so far (`least`, a cosine)."""
     if isinstance(one, ArcSegment) or isinstance(other, ArcSegment):
         return False
-    (a, b), (c, d) = direction(one, at_end=True), direction(other, at_end=False)
-    across = dot(normal_of(one, side, at_end=True), (other.start[0] - one.end[0], other.start[1] - one.end[1]))
-    return a * c + b * d < LENGTH - 1 and across > LENGTH
+    (a, b), (c, d) = normal_of(one, side, at_end=True), normal_of(other, side, at_end=True)
+    first, second = (
+        end + start - far - near
+        for end, start, far, near in zip(other.end, other.start, one.end, one.start, strict=True)
+    )
+    return a * c + b * d < -least and a * first + b * second > LENGTH
 
 
 def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator[ToolFault]:

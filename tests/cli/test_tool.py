@@ -461,7 +461,10 @@ def test_a_tip_that_points_away_cuts_with_no_radius():
     assert text.count("not 1 (tip against side)") == 4
     groove = ["X30. Z-10.", "X20. Z-10. ,R1.", "X20. Z-13. ,R1.", "X30. Z-13.", "X30. Z-20."]
     blocks = [word for block in groove for word in ("--block", f"G01 {block}")]
-    assert "away" not in call("check", *LATHE, *NOSE, "--side", "right", "--start", "X30. Z0.", *blocks).stdout
+    assert "points away" not in call("check", *LATHE, *NOSE, "--side", "right", "--start", "X30. Z0.", *blocks).stdout
+    belt = ["X60. Z-46.", "X44. Z-48.755", "X44. Z-51.755", "X60. Z-54.51"]
+    blocks = [word for block in belt for word in ("--block", f"G01 {block}")]
+    assert "points away" not in call("check", *LATHE, *NOSE, "--side", "right", "--start", "X64. Z-46.", *blocks).stdout
     rib = ["X40. Z-10.", "X40. Z-20.", "X30. Z-20."]
     blocks = [word for block in rib for word in ("--block", f"G01 {block}")]
     assert "away" in call("check", *LATHE, *NOSE, "--side", "right", "--start", "X30. Z-10.", *blocks).stdout
