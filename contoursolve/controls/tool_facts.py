@@ -16,6 +16,8 @@ class ToolFacts(Struct, frozen=True):
     """Its alarms, with their grades, by the kinds of `ToolFaultKind`."""
     notice: str = ""
     """The moves among which it notices that the tool cuts into another element, and the grade."""
+    ahead: int = 0
+    """The number of these moves."""
     corners: Mapping[str, str] = {}
     """The words that say the way around an outside corner, `roll` or `intersect` (printed)."""
     needs_entry: bool = False
@@ -35,6 +37,7 @@ _FANUC = ToolFacts(
     _alarms(_DERIVED, arc_too_small="41", element_vanishes="41", interference="41", no_intersection="33")
     | _alarms(_PRINTED, entry_by_arc="34", exit_by_arc="34"),
     "the control looks two moves ahead (printed)",
+    2,
 )
 _HAAS = ToolFacts(
     # From a table that names the manual.
@@ -52,6 +55,7 @@ _SIEMENS = ToolFacts(
     | _alarms(_DERIVED, arc_too_small="10751", element_vanishes="10751")
     | _alarms(_ASSUMED, no_offset="10750"),
     "the control checks the next blocks, by default 3 (printed)",
+    3,
     {"G450": "roll", "G451": "intersect"},
     keeps_d=True,
 )
@@ -69,17 +73,17 @@ TOOL_FACTS: Mapping[str, ToolFacts] = {
     "isg": ToolFacts(
         _alarms(_PRINTED, arc_too_small="90017", equal_radius="90017", entry_too_short="90123", entry_by_arc="90008"),
         "the control looks at this block and two more, and not farther (printed)",
+        2,
         {"G25": "intersect", "G26": "roll"},
         needs_entry=True,
         keeps_d=True,
     ),
     "mitsubishi": ToolFacts(
         _alarms(_ASSUMED, no_intersection="P152", interference="P153", entry_by_arc="P151"),
-        "the control looks five blocks ahead, and not farther (printed)",
+        "the control looks five blocks ahead, of which three move, and not farther (printed)",
+        3,
     ),
     "nct-99m": ToolFacts(_alarms(_ASSUMED, interference="3048"), no_offset=_PRINTED),
-    "linuxcnc": ToolFacts(
-        notice="the control looks at the next move, and cuts here without an alarm (measured)", needs_entry=True
-    ),
+    "linuxcnc": ToolFacts(notice="the control looks at the next move (measured)", ahead=1, needs_entry=True),
 }
 """By the names of the controls. No number is known of YASNAC."""

@@ -106,6 +106,11 @@ class ToolFaultKind(Enum):
         "a smaller tool leaves less",
         Severity.INFO,
     )
+    FASTER_EDGE = _Row(
+        "on this inside arc the edge is {times} times as fast as F says, for the centre of the {tool}",
+        "a lower F in this block",
+        Severity.INFO,
+    )
     LEFT_OUT = _Row(
         "the {tool} leaves out {left}: {short} stays there{beside}",
         "a smaller tool leaves less",

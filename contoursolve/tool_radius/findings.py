@@ -41,8 +41,8 @@ from contoursolve.tool_radius.offset import (
     shifted,
     stub,
     tip_faults,
+    told_of_path,
     uncompensated,
-    uncut,
     without_short,
 )
 from contoursolve.tool_radius.runs import CuttingRun, ToolRequest, find_runs, nothing_cut, place_of, segment_of
@@ -146,7 +146,7 @@ class ToolRules(Struct, frozen=True):
         settings = replace(self.settings, outside=outside)
         made = OffsetPath(own.elements, own.radius, own.side.sign, settings, own.levels)
         told = ToolFaultKind.LEFT_OUT, ToolFaultKind.INSIDE_CORNER if self.settings.refuses_corner else None
-        rests = (each for each in uncut(made) if each.kind in told)
+        rests = (each for each in told_of_path(made) if each.kind in told)
         return ToolRun(own, made, self, (*made.stops, *self._around(own), *rests))
 
     def stops(self, own: CuttingRun, radius: float) -> list[ToolFault]:
@@ -257,7 +257,7 @@ class ToolFindings:
         self.broken |= {line for each in self.result.answers if each.contour is None for line in each.lines}
         faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
         self.broken.add(own.broken)
-        rests = (each for each in uncut(tool_run.offset) if each not in tool_run.stops)
+        rests = (each for each in told_of_path(tool_run.offset) if each not in tool_run.stops)
         yield from (self._finding(tool_run, fault) for fault in (*told, *faults, *rests))
 
     def _uncompensated(self, own: CuttingRun, noticed: float) -> Iterator[ToolFault]:
@@ -333,6 +333,7 @@ class ToolFindings:
             "needed": angle_text(fault.rest[0]),
             "stated": angle_text(fault.rest[1]),
             "rest": f"{back} and {on} along its sides",
+            "times": f"{fault.rest[0]:.1f}",
             "beside": f", {back} before it and {on} behind it" * any(each > LENGTH for each in fault.rest),
             "comes_out": self._comes_out(own, element, short),
         }
@@ -378,7 +379,8 @@ class ToolFindings:
         if fault.kind is ToolFaultKind.INTERFERENCE and fault.at is not None:
             yield f"it cuts at {coordinates(fault.at, own.plane, unit)}"
             if self.facts.notice:
-                yield self.facts.notice
+                apart = abs(fault.element - (fault.working or 0))
+                yield f"{self.facts.notice}: it {'finds this' if apart <= self.facts.ahead else 'does not find this'}"
 
     def word(self, own: CuttingRun, fault: ToolFault) -> Word | None:
         """The word that states the radius of an arc: that of a corner, or R."""

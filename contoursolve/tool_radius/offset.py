@@ -42,6 +42,9 @@ _LOOKED = 500
 _CLOSED = 2
 """Elements behind the first of a contour that may come back to it."""
 
+_FASTER = 2.0
+"""Times as fast as its centre an edge may be before that is told (derived: r/r')."""
+
 _FLANKS = (ToolFaultKind.BACK_FLANK, ToolFaultKind.FRONT_FLANK)
 _FLANK = 1e-6
 """deg. Rounding of an angle."""
@@ -456,14 +459,26 @@ def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point, noti
         yield ToolFault(ToolFaultKind.STUB, number, size)
 
 
-def uncut(made: OffsetPath) -> Iterator[ToolFault]:
-    """The rest that a tool leaves in the inside corners of a contour that it cuts, and of what it leaves out."""
+def told_of_path(made: OffsetPath) -> Iterator[ToolFault]:
+    """The rest that a tool leaves in the inside corners of a contour that it cuts, and of what it leaves out; and arcs
+    along which its edge is much faster than its centre."""
     noticed = GOUGE if made.settings.refuses_corner else made.settings.noticed
     for each in made.rests(made.pieces or ()):
         if each.last - each.first > 1 and each.depth > GOUGE:
             yield ToolFault(ToolFaultKind.LEFT_OUT, each.first + 1, each.depth, working=each.last - 1, rest=each.lost)
         elif each.last - each.first == 1 and each.depth >= noticed:
             yield ToolFault(ToolFaultKind.INSIDE_CORNER, each.first, each.depth, rest=each.lost)
+    ratios = [
+        (own.radius / way.radius, -piece.element)
+        for piece in made.pieces or ()
+        if isinstance(own := made.elements[piece.element], ArcSegment)
+        and isinstance(way := piece.segment, ArcSegment)
+        and piece.is_own
+        and made.levels[piece.element] > 0
+    ]
+    ratio, number = max(ratios, default=(0.0, 0))
+    if ratio > _FASTER:
+        yield ToolFault(ToolFaultKind.FASTER_EDGE, -number, rest=(ratio, 0.0))
 
 
 def normal_of(element: Segment, side: int, *, at_end: bool) -> Point:

@@ -122,7 +122,11 @@ def test_a_groove_and_a_neck_are_told_with_their_widths():
     words = ("--explain", "--tool", "R6", "--side", "left", "--start", "X-4. Y20.")
     text = call("check", *MILL, *words, *blocks).stdout
     assert "the cutter R6 cuts 4.0000 mm into program line 3 while it works on program line 1" in text
-    assert "the control looks two moves ahead (printed)" in text
+    assert "the control looks two moves ahead (printed): it finds this" in text
+    round_ = ["G03 X-10. Y0 R10.", "X0 Y-10. R10.", "X10. Y0 R10.", "X4. Y9.1652 R10."]
+    far = [neck[0], *round_, neck[2]]
+    words = (*words[:-1], "X-4. Y20.", *(word for block in far for word in ("--block", block)))
+    assert "ahead (printed): it does not find this" in call("check", *MILL, *words).stdout
 
 
 @pytest.mark.parametrize(

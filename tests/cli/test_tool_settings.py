@@ -168,6 +168,15 @@ def test_the_move_to_the_contour_may_be_an_element_itself(entry: str, blocks: st
     assert ("G02 X0. Y4." in done.stdout) is (begin == (-4.0, 0.0))
 
 
+@pytest.mark.parametrize(("radius", "told"), [("R4", "2.0"), ("R4.1", "2.1"), ("R7.9", "80.0"), ("R2", "")])
+def test_an_edge_that_is_much_faster_than_its_centre_is_told_once(radius: str, told: str):
+    """An inside arc of 8: the centre goes along 8 - R."""
+    arcs = "X0 Y0 / G01 X30. Y0 / G03 X38. Y8. R8. / G01 X38. Y40. / G03 X30. Y48. R8. / G01 X0 Y48."
+    text = call("check", *asked(radius, arcs, "left", MILL)).stdout
+    assert text.count("tool-faster-edge") == (told not in ("", "2.0"))
+    assert told in ("", "2.0") or f"the edge is {told} times as fast as F says" in text
+
+
 def test_the_control_decides_where_it_is_known():
     arc = "X0 Y0 / G01 X30. Y0 / G03 X38. Y8. R8. / G01 X38. Y20."
     for control, is_cut in (("isg", False), (MILL, True)):
