@@ -96,11 +96,11 @@ def _check_once(option: click.Parameter, args: list[str], ctx: click.Context) ->
     """Refuse two values of an option that has one."""
     if not isinstance(option, click.Option) or option.multiple or option.is_flag or option.count or option.nargs != 1:
         return
-    values = [value for name, value in pairwise([*args, ""]) if name in option.opts]
-    values += [arg.partition("=")[2] for arg in args if arg.partition("=")[0] in option.opts and "=" in arg]
-    if len(dict.fromkeys(values)) > 1:
-        told = " and ".join(dict.fromkeys(values))
-        raise click.UsageError(f"{option.opts[0]} is given several times, as {told}; leave all but one out", ctx)
+    pairs = [(arg.partition("="), after) for arg, after in pairwise([*args, ""])]
+    values = dict.fromkeys(own if sign else after for (name, sign, own), after in pairs if name in option.opts)
+    if len(values) > 1:
+        told = f"{option.opts[0]} is given several times, as {' and '.join(values)}"
+        raise click.UsageError(f"{told}; leave all but one out", ctx)
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

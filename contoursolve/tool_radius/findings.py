@@ -279,8 +279,8 @@ class ToolFindings:
         is_entry, is_exit = fault.kind in _ENTRIES, fault.kind in _EXITS
         leaving = own.leaving if not own.still_on or (own.leaving and own.leaving.line < own.still_on) else None
         shown = own.lead if is_entry and own.lead else leaving if is_exit and leaving else travel
-        word = self.word(own, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
-        word = own.void if fault.kind is ToolFaultKind.NO_OFFSET else word
+        is_small = fault.kind is ToolFaultKind.ARC_TOO_SMALL
+        word = self.word(own, fault) if is_small else own.void if fault.kind is ToolFaultKind.NO_OFFSET else None
         line = own.broken if fault.kind in _BREAKS else shown.line
         block = self.blocks.get(line)
         span = word.span if word is not None else block.span if block is not None else Span(line, 1, 2)
@@ -298,7 +298,7 @@ class ToolFindings:
             values if fault.largest is None else {**values, "limit": fault.largest, "actual": own.radius},
             tuple(self._notes(tool_run, fault)),
             _ELSEWHERE if _is_at_start(own, fault) else row.help.format(**texts),
-            tuple(self._fixes(own, fault, word)) if fault.kind is ToolFaultKind.ARC_TOO_SMALL and word else (),
+            tuple(self._fixes(own, fault, word)) if is_small and word else (),
             fault.kind,
         )
 

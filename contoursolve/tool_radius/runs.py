@@ -327,14 +327,19 @@ class _Stock:
             if (name := f"{word.address}{word.number}") in corners
         ]
         table = {_key(name): tool for name, tool in asked.table.items()}
+        letters, modes = {address for address, _ in table}, dialect.modes
         self.tools: list[tuple[int, Tool | Word]] = []
         self.voids: list[tuple[int, Word | None]] = []
-        self.moved = list[int]()
-        self.changes, self.ends, self.switches = list[int](), list[int](), list[tuple[int, int]]()
+        self.changes, self.ends, self.moved, self.switches = (
+            list[int](),
+            list[int](),
+            list[int](),
+            list[tuple[int, int]](),
+        )
         # D is another word in some contours.
-        addresses = [each for each in "TD" if each not in dialect.modes.lexicon.addresses]
-        has_change, ready = any(_is_change(block) for block in blocks), dict[str, Word]()
-        last: Decimal | None = None
+        addresses = [each for each in "TD" if each not in modes.lexicon.addresses]
+        functions = [{word.number for word in block.words if word.address == "M"} for block in blocks]
+        has_change, ready, last = any(_CHANGE in each for each in functions), dict[str, Word](), Decimal(-1)
         for place, block in enumerate(blocks):
             called = {
                 word.address: word for word in block.words if word.address in addresses and word.number is not None
@@ -342,32 +347,28 @@ class _Stock:
             # Where M6 changes tools, T makes one ready.
             if has_change and "T" in called:
                 ready = {"T": called.pop("T")}
-            if _is_change(block):
-                called, ready = {**ready, **called}, {}
-            keys = [(word.address, word.number or Decimal(0)) for word in called.values()]
-            found = [tool for key in keys if (tool := table.get(key)) is not None]
+            called |= ready if _CHANGE in functions[place] else {}
+            rows = [(word, table.get((word.address, word.number or Decimal(0)))) for word in called.values()]
             stated = tool_of(block) if asked.tool is None else None
-            known: list[Tool | Word] = [stated] if stated is not None else [*found]
-            letters = [address for address, _ in table]
-            unknown = [word for word in called.values() if word.address in letters and word.number]
-            self.tools += [(place, each) for each in [*known, *unknown][:1]]
-            is_other = "D" in called and last not in (None, called["D"].number)
-            last = called["D"].number if "D" in called else last
-            if "T" in called or found or is_other:
+            unknown = [word for word, tool in rows if tool is None and word.address in letters and word.number]
+            uses = [each for each in (stated, *(tool for _, tool in rows), *unknown) if each is not None]
+            self.tools += [(place, each) for each in uses[:1]]
+            number = called["D"].number if "D" in called else None
+            if "T" in called or any(tool for _, tool in rows) or (number is not None and -1 < last != number):
                 self.changes.append(place)
+            last = last if number is None else number
             if called:
                 self.voids.append((place, next((word for word in called.values() if not word.number), None)))
-            rows = rows_of(block, dialect.modes)
-            is_home = any(row.effect is Effect.SINGLE for row in rows)
-            if "T" in called or is_home or any(word.address == "M" and word.number in _ENDS for word in block.words):
+            codes = rows_of(block, modes)
+            if "T" in called or functions[place] & _ENDS or any(code.effect is Effect.SINGLE for code in codes):
                 self.ends.append(place)
-            elif any(row.axis for word in block.words if (row := dialect.modes.lexicon.addresses.get(word.address))):
+            elif any(row.axis for word in block.words if (row := modes.lexicon.addresses.get(word.address))):
                 self.moved.append(place)
-            codes = {row.number: row.text for row in rows if row.effect is Effect.COMPENSATION}
-            if len(codes) > 1:
-                told = " and ".join(text for _, text in sorted(codes.items()))
+            texts = {code.number: code.text for code in codes if code.effect is Effect.COMPENSATION}
+            if len(texts) > 1:
+                told = " and ".join(text for _, text in sorted(texts.items()))
                 raise ToolError(f"{told} stand together in program line {block.line}; leave one out")
-            self.switches += [(place, code) for code in codes]
+            self.switches += [(place, code) for code in texts]
 
     def outside(self, step: Travel) -> OutsideCorner | None:
         """The way around outside corners that the program says for a move."""
@@ -415,13 +416,8 @@ class _Stock:
         return replace(tool, radius=tool.radius / 2) if is_diameter else tool
 
 
-_ENDS = (2, 30)
-"""M functions that end a program."""
-
-
-def _is_change(block: Block) -> bool:
-    """Whether a block has M6, which changes the tool."""
-    return any(word.address == "M" and word.number == 6 for word in block.words)  # noqa: PLR2004 - M6
+_CHANGE, _ENDS = 6, {2, 30}
+"""M functions that change the tool, and that end a program."""
 
 
 def _key(name: str) -> tuple[str, Decimal]:
