@@ -7,7 +7,9 @@ and the reader's text stays.
 import base64
 import binascii
 import logging
+from codecs import BOM_UTF8
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -22,7 +24,7 @@ from contoursolve.output import notebook_style
 from contoursolve.program import find_settings, likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import ActionError, Data, read_field
-from contoursolve.workbench.files import FileConflictError, FileText, Folder, text_of
+from contoursolve.workbench.files import ENCODINGS, FileConflictError, FileText, Folder, safe_name, text_of
 from contoursolve.workbench.open_view import ProgramView
 
 logger = logging.getLogger(__name__)
@@ -96,7 +98,7 @@ class Desk:
         window.programs[number] = found
         return found
 
-    def _add(self, window: PageWindow, file: FileText, control: str | None) -> ProgramView:
+    def add(self, window: PageWindow, file: FileText, control: str | None) -> ProgramView:
         """Another program of a window."""
         window.opened += 1
         path = self.folder.path / file.name if self.folder is not None else None
@@ -145,22 +147,33 @@ def _files(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
 
 
 def _open(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    control = _control_of(action)
-    name = read_field(action, "name", str, "program.nc")
+    control, name = _control_of(action), read_field(action, "name", str, "program.nc")
     if "example" in action:
-        file = FileText(*_example(read_field(action, "example", str)))
-        control = control or read_field(action, "example", str)
-    elif "base64" in action:
-        file = text_of(_bytes(action), name, is_file=False)
-    elif "text" in action:
-        encoding = read_field(action, "encoding", str, "utf-8")
-        if encoding not in ("utf-8", "latin-1"):
-            raise ActionError(f"{encoding!r} is no encoding of programs; it is utf-8 or latin-1")
-        mark = b"\xef\xbb\xbf" if action.get("has_order_mark") else b""
-        file = FileText(name, read_field(action, "text", str), encoding, mark, read_field(action, "base", str, ""))
-    else:
-        file = desk.files().read(name)
-    return desk._add(window, file, control).view(is_whole=True)
+        name, text = _example(read_field(action, "example", str))
+        return desk.add(window, FileText(name, text), control or action["example"]).view(is_whole=True)
+    if "base64" in action:
+        data = _bytes(action)
+        return desk.add(window, text_of(data, safe_name(name), is_file=False), control).view(is_whole=True)
+    if "text" not in action:
+        return desk.add(window, desk.files().read(name), control).view(is_whole=True)
+    program = desk.add(window, _kept(desk, action, name), control)
+    program.replace(read_field(action, "text", str))
+    return program.view(is_whole=True)
+
+
+def _kept(desk: Desk, action: Mapping[str, Any], name: str) -> FileText:
+    """The file of a text that a page has kept: as it is, where it is still the same; else all that is known of it."""
+    base, encoding = read_field(action, "base", str, ""), read_field(action, "encoding", str, "utf-8")
+    line_end = read_field(action, "line_end", str, "\n")
+    if encoding not in ENCODINGS or line_end not in ("\n", "\r\n", "\r"):
+        raise ActionError(f"programs are in {' or '.join(ENCODINGS)}, with lines that end in LF, CRLF or CR")
+    if base and desk.folder is not None:
+        with suppress(UserError):
+            file = desk.folder.read(name)
+            if file.mark == base:
+                return file
+    order_mark = BOM_UTF8 if read_field(action, "has_order_mark", bool, False) else b""
+    return FileText(safe_name(name), line_end, encoding, order_mark, base)
 
 
 def _example(control: str) -> tuple[str, str]:

@@ -62,12 +62,12 @@ class FileText(Struct, frozen=True):
             line = text.count("\n", 0, error.start) + 1
             what = ascii(text[error.start])[1:-1] if not text[error.start].isprintable() else text[error.start]
             raise FileRefusedError(
-                f"{self.name} was not saved: line {line} has the character {what}, which {_ENCODINGS[self.encoding]} "
+                f"{self.name} was not saved: line {line} has the character {what}, which {ENCODINGS[self.encoding]} "
                 "lacks; write it in other characters"
             ) from None
 
 
-_ENCODINGS = {"utf-8": "UTF-8", "latin-1": "the file's encoding (Latin-1)"}
+ENCODINGS = {"utf-8": "UTF-8", "latin-1": "the file's encoding (Latin-1)"}
 
 
 def mark_of(data: bytes) -> str:
@@ -182,6 +182,12 @@ def _conflict(name: str, base: str, now: str) -> str:
         f"{name} was not saved: another window or program changed the file since it was opened; "
         "save under another name, or replace it"
     )
+
+
+def safe_name(name: str) -> str:
+    """A name like another one that a file in the folder may have."""
+    near = _FORBIDDEN.sub("_", name)[-_LONGEST:].strip().rstrip(".")
+    return "program.nc" if _fault_of(near) else near
 
 
 def _fault_of(name: str) -> str:

@@ -196,6 +196,8 @@ class ProgramView:
             "seq": self.seq,
             "base": self.file.mark,
             "encoding": self.file.encoding,
+            "has_order_mark": bool(self.file.order_mark),
+            "line_end": program.line_end,
             "has_changes": self.has_changes,
             "control": {"name": dialect.name, "title": dialect.title} if dialect is not None else None,
             "control_from": self._source(),
