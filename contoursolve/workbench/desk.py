@@ -342,10 +342,10 @@ WRITING = frozenset(("save",))
 
 def _control_of(action: Mapping[str, Any]) -> str | None:
     """The control that an action chooses; None where it chooses none."""
-    control = action.get("control")
-    if control is None or control in DIALECTS:
-        return control
-    raise ActionError(f"{control!r} is no control here")
+    control: str | None = read_field(action, "control", str, None)
+    if control is not None and control not in DIALECTS:
+        raise ActionError(f"{control!r} is no control here")
+    return control
 
 
 def _bytes(action: Mapping[str, Any]) -> bytes:
