@@ -2,6 +2,14 @@ from .as_program import (
     SketchProgram as SketchProgram,
     as_program as as_program,
 )
+from .dxf_chain import (
+    DxfChain as DxfChain,
+    DxfError as DxfError,
+)
+from .dxf_in import (
+    DxfSketch as DxfSketch,
+    read_dxf as read_dxf,
+)
 from .known_part import (
     EntryRange as EntryRange,
     PartState as PartState,

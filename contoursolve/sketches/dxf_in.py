@@ -1,0 +1,279 @@
+"""A DXF drawing as a sketch: a chain of its lines and arcs, and the numbers that its dimensions give."""
+
+import io
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from fnmatch import fnmatchcase
+from math import dist
+from pathlib import Path
+from typing import Any, Literal
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.controls import DRAWINGS
+from contoursolve.diagnostics import importing
+from contoursolve.sketches.dxf_chain import (
+    JOINED,
+    Contents,
+    DxfChain,
+    DxfError,
+    Net,
+    gaps,
+    read_contents,
+    several,
+    told,
+    turned_round,
+)
+from contoursolve.sketches.dxf_facts import (
+    Chained,
+    Fact,
+    coordinates,
+    dimensions,
+    elements_of,
+    independent,
+    number,
+    relations,
+)
+from contoursolve.sketches.sketch import ContourSketch, Value
+from contoursolve.sketches.turned_profile import axis_of, one_side
+from contoursolve.solving import ArcSegment, LineSegment, Point
+
+_Unit = Literal["mm", "inch"]
+_MM: Mapping[_Unit, float] = {"mm": 1.0, "inch": 25.4}
+_UNITS: Mapping[int, tuple[_Unit, float]] = {
+    1: ("inch", 1.0),
+    2: ("inch", 12.0),
+    4: ("mm", 1.0),
+    5: ("mm", 10.0),
+    6: ("mm", 1000.0),
+    9: ("inch", 0.001),
+    14: ("mm", 100.0),
+}
+"""$INSUNITS of a drawing: the unit of the sketch, and how many of it are one of the drawing."""
+_MOST = 12
+"""So many chains are listed, the largest."""
+
+
+class DxfSketch(Struct, frozen=True):
+    """A sketch of a chain of a DXF drawing.
+
+    Attributes:
+        sketch: the sketch; its numbers are what dimensions give, or else the coordinates.
+        given: each dimension on which it rests, and what it measures.
+        notes: what was left out, joined or taken for granted, one line each.
+        layers: how many lines and arcs each layer has.
+        measured: for each element all that the drawing tells, by fields: a user may take others as given.
+    """
+
+    sketch: ContourSketch
+    given: tuple[str, ...]
+    notes: tuple[str, ...]
+    layers: Mapping[str, int]
+    measured: tuple[Mapping[str, Value], ...]
+
+
+def read_dxf(
+    drawing: str | Path | bytes,
+    *,
+    part: Literal["turned", "milled"],
+    layer: str | None = None,
+    unit: Literal["mm", "inch"] | None = None,
+    zero: Point | None = None,
+    chain: int | None = None,
+    join: float = JOINED,
+    reverse: bool = False,
+) -> DxfSketch:
+    """The sketch of a chain of lines and arcs in a DXF drawing, a path or its bytes.
+
+    The numbers of its dimensions are the given ones where their points are points of the chain; its coordinates give
+    what they leave open. The X of the drawing is Z of a turned part, and its Y is X, as radius from the axis.
+
+    Args:
+        drawing: the path of a file, or its bytes.
+        part: `turned` or `milled`.
+        layer: the name of a layer, or a pattern such as `contour*`; all layers without it.
+        unit: of the drawing, where it tells none.
+        zero: the place of the drawing that is zero of the part; its Y is the axis of a turned part.
+        chain: the number of the chain, the largest is 1; needed where there are several.
+        join: mm; ends so near are one place.
+        reverse: whether to travel it the other way.
+
+    Raises:
+        DxfError: a file that cannot be read, no unit, no chain or several, gaps, an axis that is not known.
+        OSError: a file that cannot be opened.
+        MissingExtraError: without the package of `contoursolve[dxf]`.
+    """
+    document, notes = _opened(drawing)
+    named, scale = _unit(document, unit, notes)
+    near = join / _MM[named]
+    hidden = {each.dxf.name.lower() for each in document.layers if each.is_off() or each.is_frozen()}
+
+    place = _Placing(zero or (0.0, 0.0), scale)
+    contents = read_contents(document.modelspace(), place, scale, hidden)
+    layers = Counter(each.layer for each in contents.curves)
+    wanted = {each for each in layers if layer is None or fnmatchcase(each.lower(), layer.lower()) or each == layer}
+    if not wanted:
+        raise DxfError(_no_lines(contents, layers, layer), layers)
+    curves = [each for each in contents.curves if each.layer in wanted]
+    if part == "turned":
+        if zero is None:
+            axis, about = axis_of(curves, near, contents.curves)
+            place = _Placing((0.0, axis / scale), scale)
+            contents = read_contents(document.modelspace(), place, scale, hidden)
+            curves, notes = [each for each in contents.curves if each.layer in wanted], notes + about
+        curves, about = one_side(curves, near)
+        notes += about
+    net = Net(curves, near)
+    strange = [each for each in contents.strange if layer is None or each[1] in wanted]
+    chosen = _chosen(net.chains(), chain, layers, named, [name for name, *_ in strange], notes)
+    _check(chosen, curves, strange, near)
+    beside = Counter(kind for kind, own in contents.beside if own in wanted)
+    notes += [*net.notes, *(f"left out, no line and no arc: {name}" for name, *_ in strange)]
+    notes += [f"left out, beside the contour: {count} {kind}" for kind, count in beside.items()]
+    is_backward = part == "turned" and not chosen.is_closed and chosen.elements[0].start[0] < chosen.elements[-1].end[0]
+    chosen = _directed(chosen, is_reversed=is_backward != reverse)
+    chained = Chained(chosen, DRAWINGS[part].plane.axes, is_turned=part == "turned")
+    taken, known = _numbers(chained, contents.dimensions, place, notes)
+    elements = elements_of(chained, taken or known, has_guess=bool(taken))
+    sketch = ContourSketch(part, elements, chained.place(0), named, chosen.is_closed)
+    given = dict.fromkeys(fact.given for fact in taken if fact.given)
+    return DxfSketch(sketch, tuple(given), tuple(notes), dict(layers), tuple(_measured(chained, known)))
+
+
+class _Placing(Struct, frozen=True):
+    """The place of the sketch for one of the drawing."""
+
+    origin: Point
+    scale: float
+
+    def __call__(self, at: Any) -> Point:
+        return (at[0] - self.origin[0]) * self.scale, (at[1] - self.origin[1]) * self.scale
+
+
+def _opened(drawing: str | Path | bytes) -> tuple[Any, list[str]]:
+    """The document of a drawing, and what is damaged in it. Raises DxfError, OSError, MissingExtraError."""
+    with importing("dxf", "reading a DXF drawing"):
+        from ezdxf.lldxf.const import DXFError as FormatError  # noqa: PLC0415 - an extra
+        from ezdxf.recover import read  # noqa: PLC0415 - an extra
+    data = drawing if isinstance(drawing, bytes) else Path(drawing).read_bytes()
+    if data.startswith(b"AC10"):
+        raise DxfError("this is a DWG drawing; save it as DXF in your CAD")
+    try:
+        document, audit = read(io.BytesIO(data))
+    except (FormatError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        # ezdxf meets damage of every kind.
+        raise DxfError(f"the file is no DXF drawing that can be read: {error}") from None
+    return document, [f"the file is damaged: {each.message}" for each in audit.errors]
+
+
+def _unit(document: Any, wanted: _Unit | None, notes: list[str]) -> tuple[_Unit, float]:
+    """The unit of the sketch, and how many of it are one of the drawing. Raises DxfError."""
+    stated = _UNITS.get(document.header.get("$INSUNITS", 0))
+    if wanted is not None:
+        if stated is not None and stated != (wanted, 1.0):
+            notes.append(f"the drawing says that its unit is {stated[1]:g} {stated[0]}; {wanted} is taken, as you say")
+        return wanted, 1.0
+    if stated is None:
+        raise DxfError("the drawing does not tell its unit; say mm or inch (unit)")
+    if stated[1] != 1:
+        notes.append(f"the unit of the drawing is {stated[1]:g} {stated[0]}")
+    return stated
+
+
+def _no_lines(contents: Contents, layers: Mapping[str, int], layer: str | None) -> str:
+    """Why there is nothing to make a chain of."""
+    if layers:
+        listed = ", ".join(f"{name!r} with {count} lines and arcs" for name, count in layers.items())
+        return f"no layer {layer!r} has lines or arcs; there are {listed}"
+    strange = several([name for name, *_ in contents.strange])
+    return f"the drawing has no lines and arcs{f', only {strange}; convert them in your CAD' if strange else ''}"
+
+
+def _chosen(
+    chains: Sequence[DxfChain],
+    wanted: int | None,
+    layers: Mapping[str, int],
+    unit: _Unit,
+    strange: Sequence[str],
+    notes: list[str],
+) -> DxfChain:
+    """The chain of that number, or the only one; that its ends lie near is noted. Raises DxfError."""
+    if wanted is not None and 0 < wanted <= len(chains):
+        return chains[wanted - 1]
+    apart = gaps(chains, 1 / _MM[unit])
+    if len(chains) == 1 and wanted is None:
+        notes += apart
+        return chains[0]
+    listed = [
+        f"chain {place}: {len(each.elements)} {'closed' if each.is_closed else 'open'}, "
+        f"{each.size[0]:.6g} x {each.size[1]:.6g} {unit}, layer {', '.join(map(repr, each.layers))}"
+        for place, each in enumerate(chains[:_MOST], 1)
+    ]
+    rest = [f"{len(chains) - _MOST} smaller chains"] if len(chains) > _MOST else []
+    lines = [*listed, *rest, *apart, *(f"no line and no arc: {name}" for name in strange)]
+    advice = "; close gaps in your CAD, or by a larger distance (join)" if apart else ""
+    message = f"the lines and arcs make {len(chains)} chains; choose one by its number (chain) or layer{advice}"
+    raise DxfError("\n  ".join([message, *lines]), layers, chains)
+
+
+def _check(
+    chain: DxfChain, curves: Sequence[Any], strange: Sequence[tuple[str, str, list[Point]]], near: float
+) -> None:
+    """Raise DxfError for a chain that does not lie in a plane, or that goes on as another kind of curve."""
+    names = {each.name for each in chain.elements}
+    heights = [each.height for each in curves if each.segment.name in names]
+    if max(heights) - min(heights) > near:
+        raise DxfError(f"the drawing is not flat: the chain lies from Z{min(heights):.6g} to Z{max(heights):.6g}")
+    for name, _, ends in strange:
+        for at in ends:
+            if any(dist(at, end) <= near for each in chain.elements for end in (each.start, each.end)):
+                raise DxfError(
+                    f"{name} goes on from the chain at {told(at)}, and is no line and no arc; convert it into arcs in "
+                    "your CAD, or take it from the layer"
+                )
+
+
+def _directed(chain: DxfChain, *, is_reversed: bool) -> DxfChain:
+    """The chain in its direction; a full circle becomes two halves, as programs have it."""
+    elements = list(chain.elements)
+    if is_reversed:
+        elements = [turned_round(each) for each in reversed(elements)]
+    first = elements[0]
+    if len(elements) == 1 and chain.is_closed and isinstance(first, ArcSegment):
+        opposite = 2 * first.center[0] - first.start[0], 2 * first.center[1] - first.start[1]
+        elements = [replace(first, end=opposite), replace(first, start=opposite)]
+    return replace(chain, elements=tuple(elements))
+
+
+def _numbers(chained: Chained, entities: Sequence[Any], place: Any, notes: list[str]) -> tuple[list[Fact], list[Fact]]:
+    """The facts that determine a chain with the numbers of dimensions, none where no dimension gives any; and its
+    coordinates. What is told of dimensions is added to the notes."""
+    known = list(coordinates(chained))
+    facts, about = dimensions(chained, entities, place)
+    notes += about
+    taken, is_complete = independent(chained, list(relations(chained)), facts, known) if facts else ([], False)
+    given = dict.fromkeys(fact.given for fact in taken if fact.given)
+    if not given or not is_complete:
+        notes += ["no dimension gives a number: the coordinates of the drawing are given"] if entities else []
+        return [], known
+    others = dict.fromkeys(fact.given for fact in facts if fact.given not in given)
+    notes += [f"{each}: it follows from others, or no field is free for it" for each in others]
+    read = [
+        f"{fact.field} of {'arc' if fact.element in chained.arcs else 'line'} {fact.element + 1}"
+        for fact in taken
+        if fact in known and not (chained.is_turned and fact.field == chained.axes[1] and not fact.value)
+    ]
+    notes += [f"no dimension gives {several(read)}: read from the lines"] if read else []
+    return taken, known
+
+
+def _measured(chained: Chained, known: Sequence[Fact]) -> Iterator[dict[str, Value]]:
+    """All that the drawing tells of each element, as fields."""
+    for place, element in enumerate(chained.elements):
+        found: dict[str, Value] = {fact.field: fact.value for fact in known if fact.element == place}
+        for axis, name in enumerate(chained.axes):
+            found[f"I{name}"] = number((element.end[axis] - element.start[axis]) * chained.factor(axis))
+        if isinstance(element, LineSegment):
+            found |= {"AN": number(element.angle % 360), "LEN": number(element.length)}
+        yield found

@@ -1,0 +1,106 @@
+"""The profile of a turned part from its drawing: one side of the axis, without what is only drawn."""
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from msgspec.structs import replace
+
+from contoursolve.sketches.dxf_chain import Curve, DxfError, Net, turned_round
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+
+
+def axis_of(curves: Sequence[Curve], near: float, drawing: Sequence[Curve]) -> tuple[float, list[str]]:
+    """The height of the axis in the drawing, and what is told of it: in the middle of a whole profile, else Y0. A line
+    of the `drawing` may show it. Raises DxfError where the profile lies on both sides of Y0 and differs, and where it
+    may be a whole one or a half."""
+    low, high = _reach(curves)
+    middle = (low + high) / 2
+    is_whole = high - low > near and _is_symmetrical(curves, middle, near)
+    is_drawn = any(
+        isinstance(each.segment, LineSegment) and all(abs(at[1] - middle) <= near for at in each.points())
+        for each in drawing
+    )
+    if is_whole and low > near and not is_drawn:
+        raise DxfError(
+            f"the profile is the same on both sides of Y{middle:.6g}, and lies beside Y0: it may be a whole part, or "
+            f"the half of a ring; say where the axis is, Y{middle:.6g} or Y0 (zero)"
+        )
+    if is_whole and not -near <= low <= near:
+        return middle, [f"the profile is drawn whole: the half above the axis Y{middle:.6g} is taken"]
+    if low < -near and high > near:
+        raise DxfError(
+            f"the profile lies on both sides of Y0, from Y{low:.6g} to Y{high:.6g}, and is not the same on both; "
+            "choose the layer of the profile, or say where the axis is (zero)"
+        )
+    return 0.0, ["the axis is Y0 of the drawing"]
+
+
+def one_side(curves: Sequence[Curve], near: float) -> tuple[list[Curve], list[str]]:
+    """The profile above the axis Y0, and what is told of it: of a whole profile the upper half, of one below the axis
+    its mirror image. Raises DxfError for a profile that is not the same on both sides."""
+    low, high = _reach(curves)
+    notes = list[str]()
+    if low < -near and high <= near:
+        notes.append("the profile lies below the axis: it is taken above it")
+        curves = [replace(each, segment=_mirrored(each.segment)) for each in curves]
+    elif low < -near:
+        if not _is_symmetrical(curves, 0.0, near):
+            raise DxfError("the profile lies on both sides of the axis, and is not the same on both; say where it is")
+        curves = [replace(each, segment=part) for each in curves for part in _above(each.segment, near)]
+    on_axis = [each for each in curves if all(abs(at[1]) <= near for at in each.points())]
+    net = Net([each for each in curves if each not in on_axis], near)
+    meeting = net.meeting()
+    edges = [
+        curve
+        for key, curve in net.curves.items()
+        if isinstance(curve.segment, LineSegment)
+        and abs(curve.segment.start[0] - curve.segment.end[0]) <= near
+        and min(abs(at[1]) for at in curve.points()) <= near
+        and max(len(meeting[place]) for place in key[0]) > 2  # noqa: PLR2004 - the contour passes there
+    ]
+    for left, what in ((on_axis, "on the axis"), (edges, "from the contour to the axis, an edge that is seen")):
+        notes += [f"left out: {each.segment.name}, {what}" for each in left]
+    left_over = [each for each in curves if each not in on_axis and each not in edges]
+    if not left_over:
+        raise DxfError("all lines of the profile lie on the axis; say where it is (zero)")
+    return left_over, notes
+
+
+def _reach(curves: Sequence[Curve]) -> tuple[float, float]:
+    heights = [at[1] for curve in curves for at in curve.points()]
+    return min(heights), max(heights)
+
+
+def _mirrored(segment: Segment, axis: float = 0.0) -> Segment:
+    def over(at: Point) -> Point:
+        return at[0], 2 * axis - at[1]
+
+    found = replace(segment, start=over(segment.start), end=over(segment.end))
+    if isinstance(found, ArcSegment):
+        # Seen in a mirror it turns the other way: as it does from its end to its begin.
+        found = turned_round(replace(found, start=found.end, end=found.start, center=over(found.center)))
+    return found
+
+
+def _is_symmetrical(curves: Sequence[Curve], axis: float, near: float) -> bool:
+    once = Net(curves, near).curves.values()
+    both = Net([*once, *(replace(each, segment=_mirrored(each.segment, axis)) for each in once)], near)
+    return len(both.curves) == len(once)
+
+
+def _above(segment: Segment, near: float) -> Iterator[Segment]:
+    """The parts of a line or an arc above the axis Y0."""
+    places, (first, second) = list[Point](), (segment.start[1], segment.end[1])
+    if isinstance(segment, ArcSegment):
+        half = max(segment.radius**2 - segment.center[1] ** 2, 0) ** 0.5
+        swept = {
+            replace(segment, end=at).sweep % 360: at
+            for at in ((segment.center[0] + half, 0.0), (segment.center[0] - half, 0.0))
+        }
+        places = [swept[each] for each in sorted(swept) if each < segment.sweep and half]
+    elif first * second < 0:
+        places = [(segment.start[0] + (segment.end[0] - segment.start[0]) * first / (first - second), 0.0)]
+    for begin, end in pairwise((segment.start, *places, segment.end)):
+        part = replace(segment, start=begin, end=end)
+        if begin != end and Curve(part, "").points()[1][1] > near:
+            yield part
