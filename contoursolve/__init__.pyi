@@ -114,9 +114,12 @@ from .reading import (
 )
 from .sketches import (
     ContourSketch as ContourSketch,
+    DxfError as DxfError,
+    DxfSketch as DxfSketch,
     SketchCorner as SketchCorner,
     SketchElement as SketchElement,
     UnfinishedError as UnfinishedError,
+    read_dxf as read_dxf,
     read_sketch as read_sketch,
     solve_sketch as solve_sketch,
     write as write,

@@ -63,7 +63,8 @@ class Chained:
     last end is the start."""
 
     def __init__(self, chain: DxfChain, axes: tuple[str, str], *, is_turned: bool) -> None:
-        self.elements, self.axes, self.is_turned = chain.elements, axes, is_turned
+        self.elements, self.axes = chain.elements, axes
+        self.is_turned, self.is_closed = is_turned, chain.is_closed
         count = len(self.elements)
         self.nodes = [*range(count), 0 if chain.is_closed else count]
         points = [self.elements[0].start, *(each.end for each in self.elements)][: count + (not chain.is_closed)]

@@ -35,11 +35,13 @@ from contoursolve.sketches.dxf_facts import (
     number,
     relations,
 )
+from contoursolve.sketches.known_part import solve_sketch
 from contoursolve.sketches.sketch import ContourSketch, Value
 from contoursolve.sketches.turned_profile import axis_of, one_side
 from contoursolve.solving import ArcSegment, LineSegment, Point
 
 _Unit = Literal["mm", "inch"]
+_Part = Literal["turned", "milled"]
 _MM: Mapping[_Unit, float] = {"mm": 1.0, "inch": 25.4}
 _UNITS: Mapping[int, tuple[_Unit, float]] = {
     1: ("inch", 1.0),
@@ -76,9 +78,9 @@ class DxfSketch(Struct, frozen=True):
 def read_dxf(
     drawing: str | Path | bytes,
     *,
-    part: Literal["turned", "milled"],
+    part: _Part,
     layer: str | None = None,
-    unit: Literal["mm", "inch"] | None = None,
+    unit: _Unit | None = None,
     zero: Point | None = None,
     chain: int | None = None,
     join: float = JOINED,
@@ -135,10 +137,32 @@ def read_dxf(
     chosen = _directed(chosen, is_reversed=is_backward != reverse)
     chained = Chained(chosen, DRAWINGS[part].plane.axes, is_turned=part == "turned")
     taken, known = _numbers(chained, contents.dimensions, place, notes)
-    elements = elements_of(chained, taken or known, has_guess=bool(taken))
-    sketch = ContourSketch(part, elements, chained.place(0), named, chosen.is_closed)
-    given = dict.fromkeys(fact.given for fact in taken if fact.given)
-    return DxfSketch(sketch, tuple(given), tuple(notes), dict(layers), tuple(_measured(chained, known)))
+    sketch, given = _sketch(chained, taken, known, named, part, notes)
+    return DxfSketch(sketch, given, tuple(notes), dict(layers), tuple(_measured(chained, known)))
+
+
+def _sketch(
+    chained: Chained, taken: Sequence[Fact], known: Sequence[Fact], unit: _Unit, part: _Part, notes: list[str]
+) -> tuple[ContourSketch, tuple[str, ...]]:
+    """The sketch with the numbers of dimensions, and these; where that is another contour, with the coordinates. A
+    guess chooses among several solutions."""
+
+    def sketch(facts: Sequence[Fact], *, has_guess: bool) -> ContourSketch:
+        elements = elements_of(chained, facts, has_guess=has_guess)
+        return ContourSketch(part, elements, chained.place(0), unit, chained.is_closed)
+
+    for has_guess in (False, True) if taken else ():
+        found = sketch(taken, has_guess=has_guess)
+        answer = solve_sketch(found).answer
+        path = answer.contour.elements if answer is not None and answer.contour is not None else ()
+        ends = [(each.end[0] / _MM[unit], each.end[1] / _MM[unit]) for each in path]
+        same = [dist(end, each.end) <= JOINED for end, each in zip(ends, chained.elements, strict=False)]
+        if len(same) == len(chained.elements) == len(path) and all(same):
+            return found, tuple(dict.fromkeys(fact.given for fact in taken if fact.given))
+    notes += (
+        ["the numbers of dimensions do not fix the contour: the coordinates of the drawing are given"] if taken else []
+    )
+    return sketch(known, has_guess=False), ()
 
 
 class _Placing(Struct, frozen=True):
@@ -164,6 +188,12 @@ def _opened(drawing: str | Path | bytes) -> tuple[Any, list[str]]:
     except (FormatError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         # ezdxf meets damage of every kind.
         raise DxfError(f"the file is no DXF drawing that can be read: {error}") from None
+    if b"SECTION" not in data:
+        raise DxfError("the file is no DXF drawing: it has no sections")
+    if not len(document.modelspace()):
+        is_on_paper = any(len(document.layout(name)) for name in document.layout_names_in_taborder()[1:])
+        told = "; it has something on paper, which is not read: export the model" if is_on_paper else ""
+        raise DxfError(f"the drawing has nothing in its model space{told}")
     return document, [f"the file is damaged: {each.message}" for each in audit.errors]
 
 

@@ -20,14 +20,15 @@ def axis_of(curves: Sequence[Curve], near: float, drawing: Sequence[Curve]) -> t
         isinstance(each.segment, LineSegment) and all(abs(at[1] - middle) <= near for at in each.points())
         for each in drawing
     )
-    if is_whole and low > near and not is_drawn:
+    is_across, is_beside = low < -near and high > near, low > near or high < -near
+    if is_whole and is_beside and not is_drawn:
         raise DxfError(
             f"the profile is the same on both sides of Y{middle:.6g}, and lies beside Y0: it may be a whole part, or "
             f"the half of a ring; say where the axis is, Y{middle:.6g} or Y0 (zero)"
         )
-    if is_whole and not -near <= low <= near:
+    if is_whole and (is_across or is_beside):
         return middle, [f"the profile is drawn whole: the half above the axis Y{middle:.6g} is taken"]
-    if low < -near and high > near:
+    if is_across:
         raise DxfError(
             f"the profile lies on both sides of Y0, from Y{low:.6g} to Y{high:.6g}, and is not the same on both; "
             "choose the layer of the profile, or say where the axis is (zero)"

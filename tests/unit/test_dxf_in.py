@@ -1,0 +1,413 @@
+"""Drawings for CAD as sketches: their lines and arcs, their dimensions, and what is told of all else."""
+
+import io
+import math
+import random
+from decimal import Decimal
+from itertools import pairwise
+from pathlib import Path
+
+import ezdxf
+import pytest
+from ezdxf import units
+
+import contoursolve
+from contoursolve import ArcSegment, DxfError, LineSegment, read_dxf
+from contoursolve.geometry import Turn
+from contoursolve.sketches import solve_sketch
+
+ROOT = Path(__file__).parents[2]
+
+
+def drawing(unit=units.MM, version="R2010"):
+    document = ezdxf.new(version, setup=True)
+    if version != "R12":
+        document.units = unit
+    for style in document.dimstyles:
+        style.dxf.dimlfac = 1
+    return document, document.modelspace()
+
+
+def data(document) -> bytes:
+    stream = io.StringIO()
+    document.write(stream)
+    return document.encode(stream.getvalue())
+
+
+def path_of(found):
+    """The lines and arcs that a sketch comes to, mm."""
+    answer = solve_sketch(found.sketch).answer
+    return answer.contour.elements
+
+
+def rounded(elements):
+    """Lines and arcs without their names; they compare as equal within a hundredth of the least increment."""
+    return [
+        (pytest.approx([*one.start, *one.end], abs=1e-5), [(pytest.approx(one.radius, abs=1e-5), one.turn)])
+        if isinstance(one, ArcSegment)
+        else (pytest.approx([*one.start, *one.end], abs=1e-5), [])
+        for one in elements
+    ]
+
+
+def plain(elements):
+    """The same to compare with."""
+    return [
+        ([*one.start, *one.end], [(one.radius, one.turn)] if isinstance(one, ArcSegment) else []) for one in elements
+    ]
+
+
+def refused(document, **options) -> str:
+    with pytest.raises(DxfError) as error:
+        read_dxf(document if isinstance(document, bytes) else data(document), **options)
+    return str(error.value)
+
+
+# What we write is read back -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["shaft.nc", "roller.nc", "plate.nc", "cover.nc", "unusual.nc"])
+def test_our_own_drawings_are_read_back(name):
+    for answer in contoursolve.solve_file(ROOT / "notebooks" / "programs" / name).answers:
+        part = "turned" if any(answer.plane.diameters) else "milled"
+        found = read_dxf(contoursolve.to_dxf([answer]), part=part, layer="contour *")
+        assert rounded(path_of(found)) == plain(answer.contour.elements)
+        assert not found.given
+
+
+def random_chain(rng, *, is_closed):
+    """Lines and arcs end to end, above an axis."""
+    count, points = rng.randint(3, 8), []
+    for place in range(count + (not is_closed)):
+        angle = 2 * math.pi * place / count + rng.uniform(-0.1, 0.1) / count
+        radius, down = rng.uniform(20, 60), -12 * place
+        at = (100 + radius * math.cos(angle), 100 + radius * math.sin(angle)) if is_closed else (down, radius + 70)
+        points.append((round(at[0], 3), round(at[1], 3)))
+    points += points[:1] if is_closed else []
+    for begin, end in pairwise(points):
+        chord = math.dist(begin, end)
+        if rng.random() < 0.5:
+            yield LineSegment("", begin, end)
+            continue
+        radius, side = chord / 2 * rng.uniform(1.05, 3), rng.choice((1, -1))
+        rise = side * math.sqrt(radius**2 - chord**2 / 4) / chord
+        center = [
+            (begin[axis] + end[axis]) / 2 + sign * rise * (end[1 - axis] - begin[1 - axis])
+            for axis, sign in ((0, -1), (1, 1))
+        ]
+        yield ArcSegment("", begin, end, (center[0], center[1]), radius, Turn.CCW if side > 0 else Turn.CW)
+
+
+def draw(rng, layout, segments, layer):
+    """The lines and arcs in any order and direction; some twice, some arcs mirrored twice."""
+    for segment in rng.sample(segments, len(segments)):
+        begin, end = segment.start, segment.end
+        if isinstance(segment, LineSegment):
+            for ends in [(begin, end), (end, begin)][: 2 if rng.random() < 0.2 else 1]:
+                layout.add_line(*ends, dxfattribs={"layer": layer})
+            continue
+        ends = (begin, end) if segment.turn is Turn.CCW else (end, begin)
+        center = segment.center
+        first, last = (math.degrees(math.atan2(at[1] - center[1], at[0] - center[0])) for at in ends)
+        style = {"layer": layer}
+        if rng.random() < 0.5:
+            first, last, center, style["extrusion"] = 180 - last, 180 - first, (-center[0], center[1]), (0, 0, -1)
+        layout.add_arc(center, segment.radius, first, last, dxfattribs=style)
+
+
+def around(segments):
+    """All ways to travel a chain: from each place if it is closed, and both directions."""
+    back = [
+        LineSegment("", each.end, each.start)
+        if isinstance(each, LineSegment)
+        else ArcSegment(
+            "", each.end, each.start, each.center, each.radius, Turn.CW if each.turn is Turn.CCW else Turn.CCW
+        )
+        for each in reversed(segments)
+    ]
+    is_closed = segments[0].start == segments[-1].end
+    return [
+        plain(way[place:] + way[:place])
+        for way in (segments, back)
+        for place in range(len(segments) if is_closed else 1)
+    ]
+
+
+@pytest.mark.parametrize("kind", ["entities", "polyline", "block"])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_chain_is_found_by_its_ends(kind, seed):
+    rng = random.Random(f"{kind} {seed}")
+    segments = list(random_chain(rng, is_closed=seed % 2 == 0))
+    version = rng.choice(["R12", "R2000", "R2018"])
+    document, space = drawing(version=version)
+    if kind == "polyline":
+        bulges = [
+            math.tan(math.radians(each.sweep) / 4) * each.turn.sign if isinstance(each, ArcSegment) else 0
+            for each in segments
+        ]
+        points = [(*each.start, bulge) for each, bulge in zip(segments, bulges, strict=True)]
+        points += [] if seed % 2 == 0 else [(*segments[-1].end, 0)]
+        add = space.add_polyline2d if version == "R12" else space.add_lwpolyline
+        add(points, format="xyb", close=seed % 2 == 0, dxfattribs={"layer": "cut"})
+    elif kind == "block":
+        draw(rng, document.blocks.new("part"), segments, "0")
+        # Mirrored in one block and once more in the next: as it was.
+        document.blocks.new("sheet").add_blockref("part", (50, 0), dxfattribs={"xscale": -1})
+        space.add_blockref("sheet", (50, 0), dxfattribs={"layer": "cut", "xscale": -1})
+    else:
+        draw(rng, space, segments, "cut")
+    space.add_line((0, 0), (1, 0), dxfattribs={"layer": "frame"})
+    found = read_dxf(data(document), part="milled", layer="CUT", unit="mm")
+    assert rounded(path_of(found)) in around(segments)
+    assert found.sketch.closed == (seed % 2 == 0)
+
+
+# Dimensions ---------------------------------------------------------------------------------------------------------
+
+
+def fields(found):
+    """The fields of each element, as text."""
+    return [
+        {
+            **{name: str(value) for name, value in each.words.items()},
+            **({"tangent": True} if each.tangent else {}),
+            **({"facts": each.facts} if each.facts else {}),
+        }
+        for each in found.sketch.elements
+    ]
+
+
+def plate():
+    """A plate with a rounding and a slope."""
+    document, space = drawing()
+    space.add_lwpolyline(
+        [(0, 0), (80, 0), (80, 40, math.tan(math.pi / 8)), (70, 50), (30, 50), (0, 20)], format="xyb", close=True
+    )
+    return document, space
+
+
+def test_dimensions_become_the_given_numbers_and_nothing_that_follows_from_them():
+    document, space = plate()
+    space.add_linear_dim(base=(0, -10), p1=(0, 0), p2=(80, 0)).render()
+    space.add_linear_dim(base=(-10, 0), p1=(0, 0), p2=(0, 20), angle=90).render()
+    space.add_linear_dim(base=(90, 0), p1=(80, 0), p2=(70, 50), angle=90).render()
+    space.add_radius_dim(center=(70, 40), radius=10, angle=45).render()
+    space.add_angular_dim_2l(base=(20, 60), line1=((30, 50), (0, 20)), line2=((70, 50), (30, 50))).render()
+    space.add_linear_dim(base=(0, 70), p1=(0, 20), p2=(30, 50)).render()
+    found = read_dxf(data(document), part="milled")
+    assert fields(found) == [
+        {"AN": "0", "X": "80"},
+        {"AN": "90"},
+        {"tangent": True, "Y": "50", "R": "10"},
+        {"AN": "180", "tangent": True},
+        {"Y": "20", "AN": "225"},
+        {"AN": "270"},
+    ]
+    assert [each.partition(": ")[2] for each in found.given] == ["80", "20", "50", "10", "45"]
+    assert any(": 30: it follows from others" in each for each in found.notes)
+    assert found.sketch.closed
+    assert rounded(path_of(found))[2][0] == [80, 40, 70, 50]
+
+
+def test_what_no_dimension_gives_is_read_from_the_lines_and_told():
+    document, space = plate()
+    space.add_radius_dim(center=(70, 40), radius=10, angle=45).render()
+    found = read_dxf(data(document), part="milled")
+    assert found.given == (f"DIMENSION {space.query('DIMENSION')[0].dxf.handle}: 10",)
+    assert any(each.startswith("no dimension gives X of line 1, Y of line 2, X of line 4") for each in found.notes)
+    assert found.measured[2]["CCX"] == Decimal(70)
+    assert found.measured[4]["LEN"] == Decimal("42.426407")
+
+
+def test_chained_dimensions_stay_increments():
+    document, space = drawing()
+    points = [(0, 10), (-12, 10), (-27.5, 14), (-27.5, 20), (-50, 20)]
+    space.add_lwpolyline(points)
+    for first, second in ((0, 1), (1, 2), (1, 4)):
+        space.add_linear_dim(base=(0, 40), p1=points[first], p2=points[second]).render()
+    for at in (points[0], points[2], points[4]):
+        space.add_linear_dim(base=(5, 0), p1=(at[0], -at[1]), p2=at, angle=90, text="%%c<>").render()
+    found = read_dxf(data(document), part="turned")
+    assert fields(found) == [
+        {"AN": "180", "Z": "-12"},
+        {"X": "28", "IZ": "-15.5"},
+        {"AN": "90", "X": "40"},
+        {"AN": "180", "IZ": "-38", "RZ": "1"},
+    ]
+    assert found.sketch.start == {"Z": 0, "X": 20}
+
+
+def whole_shaft():
+    """A shaft drawn whole around Y100, with an undercut radius, an axis and the edges that are seen."""
+    document, space = drawing()
+    for side in (1, -1):
+        upper = [(0, 9), (-1, 10), (-28, 10), (-30, 12), (-30, 20), (-60, 25)]
+        points = [(along, 100 + side * radius) for along, radius in upper]
+        bulge = -side * math.tan(math.pi / 8)
+        space.add_lwpolyline([(*at, bulge if place == 2 else 0) for place, at in enumerate(points)], format="xyb")
+    for along, radius in ((0, 9), (-1, 10), (-30, 20), (-60, 25)):
+        space.add_line((along, 100 - radius), (along, 100 + radius))
+    space.add_line((5, 100), (-65, 100), dxfattribs={"layer": "axis"})
+    return document, space
+
+
+def test_a_shaft_that_is_drawn_whole_is_halved():
+    document, space = whole_shaft()
+    space.add_linear_dim(base=(5, 0), p1=(0, 91), p2=(0, 109), angle=90, text="%%c18").render()
+    space.add_linear_dim(base=(5, 0), p1=(-30, 80), p2=(-30, 120), angle=90, text="41").render()
+    space.add_linear_dim(base=(0, 140), p1=(0, 109), p2=(-60, 125)).render()
+    for options in ({}, {"layer": "0", "zero": (0, 100)}):
+        found = read_dxf(data(document), part="turned", **options)
+        assert found.sketch.start == {"Z": 0, "X": 0}
+        assert found.sketch.elements[0].words == {"X": 18, "AN": 90}
+        assert rounded(path_of(found))[3] == ([-28, 10, -30, 12], [(2, Turn.CW)])
+        assert rounded(path_of(found))[-1][0] == [-60, 25, -60, 0]
+        assert any("it shows '41', and measures 40" in each for each in found.notes)
+        assert sum("an edge that is seen" in each for each in found.notes) >= 1
+    assert (
+        "the profile is drawn whole: the half above the axis Y100 is taken"
+        in read_dxf(data(document), part="turned").notes
+    )
+
+
+@pytest.mark.parametrize("factor", [1, -1])
+def test_a_profile_beside_the_axis_is_taken_above_it(factor):
+    document, space = drawing()
+    space.add_lwpolyline([(0, 0), (0, 10 * factor), (-20, 10 * factor), (-20, 0)], close=True)
+    found = read_dxf(data(document), part="turned")
+    assert rounded(path_of(found)) == [([0, 0, 0, 10], []), ([0, 10, -20, 10], []), ([-20, 10, -20, 0], [])]
+    assert ("the profile lies below the axis: it is taken above it" in found.notes) == (factor < 0)
+    assert any("on the axis" in each for each in found.notes)
+
+
+def test_a_ball_is_cut_at_the_axis():
+    document, space = drawing()
+    space.add_circle((0, 0), 10)
+    found = read_dxf(data(document), part="turned")
+    assert rounded(path_of(found)) == [([10, 0, -10, 0], [(10, Turn.CCW)])]
+    whole = read_dxf(data(document), part="milled")
+    assert rounded(path_of(whole)) == [([10, 0, -10, 0], [(10, Turn.CCW)]), ([-10, 0, 10, 0], [(10, Turn.CCW)])]
+
+
+def test_units_are_those_of_the_drawing_or_asked():
+    for unit, points, end, said in [
+        (units.IN, [(0, 0), (2, 0.5)], (2, 0.5), "inch"),
+        (units.CM, [(0, 0), (2, 0.5)], (20, 5), "mm"),
+        (units.MM, [(0, 0), (20, 5)], (20, 5), "mm"),
+    ]:
+        document, space = drawing(unit)
+        space.add_line(*points)
+        found = read_dxf(data(document), part="milled")
+        assert (found.sketch.unit, found.sketch.elements[0].words) == (
+            said,
+            dict(zip("XY", map(Decimal, map(str, end)), strict=True)),
+        )
+    document, space = drawing(0)
+    space.add_line((0, 0), (2, 1))
+    assert "does not tell its unit; say mm or inch" in refused(document, part="milled")
+    assert read_dxf(data(document), part="milled", unit="inch").sketch.unit == "inch"
+
+
+# What is refused, and what is told ----------------------------------------------------------------------------------
+
+
+def test_a_gap_is_told_with_its_size_its_lines_and_its_place():
+    document, space = drawing()
+    first = space.add_line((0, 0), (40, 0))
+    second = space.add_line((40.02, 0), (40.02, 30))
+    told = refused(document, part="milled")
+    assert f"a gap of 0.02 mm between LINE {first.dxf.handle} and LINE {second.dxf.handle} at (40, 0)" in told
+    assert "chain 1: 1 open, 40 x 0 mm, layer '0'" in told
+    found = read_dxf(data(document), part="milled", join=0.05)
+    assert len(found.sketch.elements) == 2
+    assert "ends are joined that lie up to 0.02 apart" in found.notes
+
+
+def test_several_chains_are_listed_and_chosen():
+    document, space = plate()
+    space.add_circle((40, 25), 8, dxfattribs={"layer": "bore"})
+    told = refused(document, part="milled")
+    assert "chain 1: 6 closed, 80 x 50 mm, layer '0'\n  chain 2: 1 closed, 16 x 16 mm, layer 'bore'" in told
+    with pytest.raises(DxfError) as error:
+        read_dxf(data(document), part="milled")
+    assert error.value.layers == {"0": 6, "bore": 1}
+    assert [len(each.elements) for each in error.value.chains] == [6, 1]
+    for options in ({"chain": 2}, {"layer": "bore"}, {"layer": "BO*"}):
+        assert len(read_dxf(data(document), part="milled", **options).sketch.elements) == 2
+    assert "chain" in refused(document, part="milled", chain=3)
+    assert "no layer 'drill' has lines or arcs; there are '0' with 6" in refused(document, part="milled", layer="drill")
+
+
+def test_what_is_no_line_and_no_arc_is_told_and_never_taken_for_the_end():
+    document, space = drawing()
+    space.add_line((0, 0), (40, 0))
+    space.add_text("R5")
+    curve = space.add_spline([(90, 0), (95, 5), (100, 0)])
+    found = read_dxf(data(document), part="milled")
+    assert f"left out, no line and no arc: SPLINE {curve.dxf.handle}" in found.notes
+    assert "left out, beside the contour: 1 TEXT" in found.notes
+    space.add_ellipse((40, 10), (0, -10), ratio=0.5, start_param=0, end_param=1)
+    assert "goes on from the chain at (40, 0), and is no line and no arc" in refused(document, part="milled")
+    # A circle may be written as an ellipse, and a block be stretched into one.
+    document, space = drawing()
+    space.add_ellipse((40, 10), (0, -10), ratio=1, start_param=0, end_param=math.pi / 2)
+    assert rounded(path_of(read_dxf(data(document), part="milled"))) == [([40, 0, 50, 10], [(10, Turn.CCW)])]
+    document, space = drawing()
+    document.blocks.new("slot").add_arc((0, 0), 10, 0, 90)
+    space.add_blockref("slot", (0, 0), dxfattribs={"xscale": 2})
+    assert "only ELLIPSE in block slot" in refused(document, part="milled")
+
+
+def test_what_branches_or_is_not_flat_is_refused():
+    document, space = plate()
+    line = space.add_line((80, 0), (90, 0))
+    told = refused(document, part="milled")
+    assert "3 lines and arcs meet at (80, 0)" in told
+    assert f"LINE {line.dxf.handle}" in told
+    document, space = drawing()
+    space.add_line((0, 0, 0), (10, 0, 0))
+    space.add_line((10, 0, 5), (20, 0, 5))
+    assert "not flat: the chain lies from Z0 to Z5" in refused(document, part="milled")
+    document, space = drawing()
+    space.add_arc((0, 0), 5, 0, 90, dxfattribs={"extrusion": (1, 0, 0)})
+    assert "the drawing has no lines and arcs, only ARC" in refused(document, part="milled")
+
+
+def test_an_axis_is_never_guessed():
+    document, space = drawing()
+    space.add_lwpolyline([(0, 20), (-30, 20), (-30, 30), (0, 30)], close=True)
+    assert "it may be a whole part, or the half of a ring; say where the axis is, Y25 or Y0" in refused(
+        document, part="turned"
+    )
+    assert len(read_dxf(data(document), part="turned", zero=(0, 0)).sketch.elements) == 4
+    assert len(read_dxf(data(document), part="turned", zero=(0, 25)).sketch.elements) == 3
+    document, space = drawing()
+    space.add_line((0, -5), (-30, 30))
+    assert "lies on both sides of Y0, from Y-5 to Y30, and is not the same on both" in refused(document, part="turned")
+
+
+@pytest.mark.parametrize(
+    ("file", "told"),
+    [
+        (b"AC1032\0\0", "this is a DWG drawing; save it as DXF"),
+        (b"G00 X40. Z0.", "is no DXF drawing"),
+        (b"", "is no DXF drawing"),
+        (b"0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nx\n", "drawing"),
+        (b"0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n", "nothing in its model space"),
+    ],
+)
+def test_a_file_that_is_no_drawing_is_refused_in_one_sentence(file, told):
+    assert told in refused(file, part="milled")
+
+
+def test_a_dimension_that_is_not_of_the_chain_or_of_another_scale_is_told():
+    document, space = plate()
+    far = space.add_linear_dim(base=(0, -90), p1=(200, 0), p2=(220, 0)).render().dimension
+    scaled = space.add_linear_dim(base=(0, -10), p1=(0, 0), p2=(80, 0), override={"dimlfac": 0.5}).render().dimension
+    found = read_dxf(data(document), part="milled")
+    assert not found.given
+    assert found.notes == (
+        f"DIMENSION {far.dxf.handle} is left out: its points are no points of the chain, or no field says it",
+        f"DIMENSION {scaled.dxf.handle} is left out: it is shown 0.5 times as large as it is drawn",
+        "no dimension gives a number: the coordinates of the drawing are given",
+    )
