@@ -28,8 +28,12 @@ _NO_POLYLINE = 2 | 4 | 16 | 64
 
 
 class DxfError(UserError, ValueError):
-    """A DXF drawing of which no chain is made. The message says why and what to do; `layers` (how many lines and arcs
-    each has) and `chains` are what there is to choose from."""
+    """A DXF drawing that gives no chain; the message says why and what to do.
+
+    Attributes:
+        layers: how many lines and arcs each layer has.
+        chains: the chains to choose from.
+    """
 
     def __init__(self, message: str, layers: Mapping[str, int] = {}, chains: Sequence["DxfChain"] = ()) -> None:
         super().__init__(message)
@@ -46,7 +50,7 @@ class DxfChain(Struct, frozen=True):
     size: Point
 
 
-class Curve(Struct, frozen=True):
+class DrawnCurve(Struct, frozen=True):
     """A line or an arc of the drawing, its layer, and its height above the plane."""
 
     segment: Segment
@@ -88,7 +92,7 @@ class Contents(Struct, frozen=True):
     """The entities of a drawing: lines and arcs, dimensions, curves of other kinds, and what else there is, by kind and
     layer."""
 
-    curves: list[Curve] = []
+    curves: list[DrawnCurve] = []
     dimensions: list[Any] = []
     strange: list[Strange] = []
     beside: list[tuple[str, str]] = []
@@ -111,7 +115,7 @@ def read_contents(entities: Iterable[Any], place: Callable[[Any], Point], scale:
             if read is None:
                 found.strange.append((name, layer, [place(at) for at in _ends(entity, kind)]))
             else:
-                found.curves.append(Curve(read[0], layer, read[1] * scale))
+                found.curves.append(DrawnCurve(read[0], layer, read[1] * scale))
     return found
 
 
@@ -158,7 +162,7 @@ def _segment(
 
 
 def _ends(entity: Any, kind: str) -> list[Any]:
-    """Where a curve of another kind begins and ends, as far as it says."""
+    """The ends of a curve of another kind, as far as it tells them."""
     if kind == "SPLINE":
         points = [*entity.control_points] or [*entity.fit_points]
         return [points[0], points[-1]] if points else []
@@ -191,8 +195,8 @@ _Key = tuple[frozenset[int], int]
 class Net:
     """Lines and arcs by the places of their ends; what is drawn twice or has no length is left out, and told."""
 
-    def __init__(self, curves: Iterable[Curve], near: float) -> None:
-        self.places, self.curves, middles = Places(near), dict[_Key, Curve](), Places(near)
+    def __init__(self, curves: Iterable[DrawnCurve], near: float) -> None:
+        self.places, self.curves, middles = Places(near), dict[_Key, DrawnCurve](), Places(near)
         twice, empty = list[str](), list[str]()
         # Arcs first: where ends do not quite meet, an arc keeps its own, and a line ends there.
         for curve in sorted(curves, key=lambda each: isinstance(each.segment, LineSegment)):

@@ -44,7 +44,7 @@ def number(value: float) -> Decimal:
     return Decimal(f"{found:f}") if found else Decimal(0)
 
 
-class Fact(Struct, frozen=True):
+class DrawnFact(Struct, frozen=True):
     """A field of an element, by the element's place, with its value (of `tangent` and `facts` no number); what it says
     of the places, as a function of them; the dimension that gives it, empty where none does. `further` stands beside
     it."""
@@ -150,37 +150,39 @@ class Chained:
         return lambda at: one(at) - other(at)
 
 
-def relations(chained: Chained) -> Iterator[Fact]:
+def relations(chained: Chained) -> Iterator[DrawnFact]:
     """What every reader of a drawing sees, without a number: lines along the axes, and smooth joints."""
     for place, element in enumerate(chained.elements):
         if isinstance(element, LineSegment):
             for axis in (0, 1):
                 if abs(element.end[axis] - element.start[axis]) <= JOINED / 10:
                     value = Decimal(round(element.angle) % 360)
-                    yield Fact(place, "AN", value, chained.difference(axis, place + 1, place))
+                    yield DrawnFact(place, "AN", value, chained.difference(axis, place + 1, place))
         is_round = place in chained.arcs or place - 1 in chained.arcs
         if place and is_round and abs(chained.bend(place)(chained.at)) <= _SMOOTH:
-            yield Fact(place, "tangent", Decimal(1), chained.bend(place))
+            yield DrawnFact(place, "tangent", Decimal(1), chained.bend(place))
 
 
-def coordinates(chained: Chained) -> Iterator[Fact]:
+def coordinates(chained: Chained) -> Iterator[DrawnFact]:
     """The coordinates of ends, then radii and centres of arcs, as the drawing has them."""
     for place in range(len(chained.elements)):
         for axis, name in enumerate(chained.axes if chained.nodes[place + 1] else ()):
             measure = chained.difference(axis, place + 1)
-            yield Fact(place, name, number(measure(chained.at) * chained.factor(axis)), measure)
+            yield DrawnFact(place, name, number(measure(chained.at) * chained.factor(axis)), measure)
     for place, arc in chained.arcs.items():
-        yield Fact(place, "R", number(arc.radius), chained.radius(place))
+        yield DrawnFact(place, "R", number(arc.radius), chained.radius(place))
         for axis, name in enumerate(chained.axes):
-            yield Fact(place, f"CC{name}", number(arc.center[axis] * chained.factor(axis)), chained.center(place, axis))
+            yield DrawnFact(
+                place, f"CC{name}", number(arc.center[axis] * chained.factor(axis)), chained.center(place, axis)
+            )
 
 
 def dimensions(
     chained: Chained, entities: Sequence[Any], place: Callable[[Any], Point]
-) -> tuple[list[Fact], list[str]]:
+) -> tuple[list[DrawnFact], list[str]]:
     """The facts that dimensions give, each in all ways in which a field can say it, the plainest first; and what is
     told of others. `place` gives the place of the sketch for one of the drawing, on both sides of an axis."""
-    found, notes = list[Fact](), list[str]()
+    found, notes = list[DrawnFact](), list[str]()
     for entity in entities:
         name = f"{entity.dxftype()} {entity.dxf.handle or 'of a block'}"
         ways = list(_Dimension(chained, entity, name, place).ways())
@@ -229,11 +231,11 @@ class _Dimension(Struct, frozen=True):
         """That point on the side of the profile."""
         return (at[0], abs(at[1])) if self.chained.is_turned else at
 
-    def fact(self, place: int, field: str, value: Decimal, measure: Measure, real: float, **more: Any) -> Fact:
+    def fact(self, place: int, field: str, value: Decimal, measure: Measure, real: float, **more: Any) -> DrawnFact:
         """A fact that this dimension gives: `real` is what it measures."""
-        return Fact(place, field, value, measure, f"{self.name}: {number(real)}", **more)
+        return DrawnFact(place, field, value, measure, f"{self.name}: {number(real)}", **more)
 
-    def ways(self) -> Iterator[Fact]:
+    def ways(self) -> Iterator[DrawnFact]:
         """All ways."""
         kind, dxf = self.entity.dimtype, self.entity.dxf
         if self.entity.dxftype() != "DIMENSION":
@@ -268,14 +270,14 @@ class _Dimension(Struct, frozen=True):
             for node in sorted(self.chained.nodes_at(at)):
                 yield from self._absolute(axis, node, at[axis])
 
-    def _absolute(self, axis: int, node: int, real: float) -> Iterator[Fact]:
+    def _absolute(self, axis: int, node: int, real: float) -> Iterator[DrawnFact]:
         """A coordinate of an end."""
         chained, factor = self.chained, self.chained.factor(axis)
         value = number(float(chained.at[chained.nodes[node], axis]) * factor)
         if node:
             yield self.fact(node - 1, chained.axes[axis], value, chained.difference(axis, node), real)
 
-    def _along(self, axis: int, first: Point, second: Point) -> Iterator[Fact]:
+    def _along(self, axis: int, first: Point, second: Point) -> Iterator[DrawnFact]:
         """A distance along an axis: from the start, from the end before, from an earlier end; across the axis of a
         turned part it is the diameter, from the axis the radius."""
         chained, real = self.chained, abs(second[axis] - first[axis])
@@ -306,7 +308,7 @@ class _Dimension(Struct, frozen=True):
         """All ends with the same coordinate as these, as lines along the other axis show."""
         return sorted({each for node in nodes for each in self.chained.same[axis][node]})
 
-    def _sloped(self, first: Point, second: Point, angle: float) -> Iterator[Fact]:
+    def _sloped(self, first: Point, second: Point, angle: float) -> Iterator[DrawnFact]:
         """A distance between the ends of one element."""
         chained = self.chained
         one, other = (chained.nodes_at(self.over(at)) for at in (first, second))
@@ -318,7 +320,7 @@ class _Dimension(Struct, frozen=True):
                 real = chained.length(place)(chained.at)
                 yield self.fact(place, "LEN", number(real), chained.length(place), real)
 
-    def _angles(self, *sides: tuple[Point, Point]) -> Iterator[Fact]:
+    def _angles(self, *sides: tuple[Point, Point]) -> Iterator[DrawnFact]:
         """The angle between two lines of the chain, or between one and an axis."""
         chained = self.chained
         runs = [degrees(atan2(end[1] - begin[1], end[0] - begin[0])) for begin, end in sides]
@@ -349,10 +351,10 @@ class _Dimension(Struct, frozen=True):
         ]
 
 
-def independent(chained: Chained, *groups: Sequence[Fact]) -> tuple[list[Fact], bool]:
+def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[DrawnFact], bool]:
     """Of facts in their order those that say something new about the places, for which a field is free; and whether
     they determine the chain."""
-    basis, chosen, taken = list[Any](), list[Fact](), set[tuple[int, str]]()
+    basis, chosen, taken = list[Any](), list[DrawnFact](), set[tuple[int, str]]()
     step = _STEP * float(np.ptp(chained.at))
     moves = np.eye(chained.at.size).reshape(-1, *chained.at.shape) * step
 
@@ -378,7 +380,7 @@ def independent(chained: Chained, *groups: Sequence[Fact]) -> tuple[list[Fact], 
     return chosen, len(basis) == chained.at.size
 
 
-def elements_of(chained: Chained, facts: Sequence[Fact], *, has_guess: bool) -> tuple[SketchElement, ...]:
+def elements_of(chained: Chained, facts: Sequence[DrawnFact], *, has_guess: bool) -> tuple[SketchElement, ...]:
     """The elements of the sketch with their fields; `has_guess` says where each ends about, to choose a solution."""
     found = []
     for place, element in enumerate(chained.elements):

@@ -27,7 +27,7 @@ from contoursolve.sketches.dxf_chain import (
 )
 from contoursolve.sketches.dxf_facts import (
     Chained,
-    Fact,
+    DrawnFact,
     coordinates,
     dimensions,
     elements_of,
@@ -142,12 +142,12 @@ def read_dxf(
 
 
 def _sketch(
-    chained: Chained, taken: Sequence[Fact], known: Sequence[Fact], unit: _Unit, part: _Part, notes: list[str]
+    chained: Chained, taken: Sequence[DrawnFact], known: Sequence[DrawnFact], unit: _Unit, part: _Part, notes: list[str]
 ) -> tuple[ContourSketch, tuple[str, ...]]:
     """The sketch with the numbers of dimensions, and these; where that is another contour, with the coordinates. A
     guess chooses among several solutions."""
 
-    def sketch(facts: Sequence[Fact], *, has_guess: bool) -> ContourSketch:
+    def sketch(facts: Sequence[DrawnFact], *, has_guess: bool) -> ContourSketch:
         elements = elements_of(chained, facts, has_guess=has_guess)
         return ContourSketch(part, elements, chained.place(0), unit, chained.is_closed)
 
@@ -276,7 +276,9 @@ def _directed(chain: DxfChain, *, is_reversed: bool) -> DxfChain:
     return replace(chain, elements=tuple(elements))
 
 
-def _numbers(chained: Chained, entities: Sequence[Any], place: Any, notes: list[str]) -> tuple[list[Fact], list[Fact]]:
+def _numbers(
+    chained: Chained, entities: Sequence[Any], place: Any, notes: list[str]
+) -> tuple[list[DrawnFact], list[DrawnFact]]:
     """The facts that determine a chain with the numbers of dimensions, none where no dimension gives any; and its
     coordinates. What is told of dimensions is added to the notes."""
     known = list(coordinates(chained))
@@ -298,7 +300,7 @@ def _numbers(chained: Chained, entities: Sequence[Any], place: Any, notes: list[
     return taken, known
 
 
-def _measured(chained: Chained, known: Sequence[Fact]) -> Iterator[dict[str, Value]]:
+def _measured(chained: Chained, known: Sequence[DrawnFact]) -> Iterator[dict[str, Value]]:
     """All that the drawing tells of each element, as fields."""
     for place, element in enumerate(chained.elements):
         found: dict[str, Value] = {fact.field: fact.value for fact in known if fact.element == place}

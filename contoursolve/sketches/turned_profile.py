@@ -5,11 +5,11 @@ from itertools import pairwise
 
 from msgspec.structs import replace
 
-from contoursolve.sketches.dxf_chain import Curve, DxfError, Net, turned_round
+from contoursolve.sketches.dxf_chain import DrawnCurve, DxfError, Net, turned_round
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 
 
-def axis_of(curves: Sequence[Curve], near: float, drawing: Sequence[Curve]) -> tuple[float, list[str]]:
+def axis_of(curves: Sequence[DrawnCurve], near: float, drawing: Sequence[DrawnCurve]) -> tuple[float, list[str]]:
     """The height of the axis in the drawing, and what is told of it: in the middle of a whole profile, else Y0. A line
     of the `drawing` may show it. Raises DxfError where the profile lies on both sides of Y0 and differs, and where it
     may be a whole one or a half."""
@@ -36,7 +36,7 @@ def axis_of(curves: Sequence[Curve], near: float, drawing: Sequence[Curve]) -> t
     return 0.0, ["the axis is Y0 of the drawing"]
 
 
-def one_side(curves: Sequence[Curve], near: float) -> tuple[list[Curve], list[str]]:
+def one_side(curves: Sequence[DrawnCurve], near: float) -> tuple[list[DrawnCurve], list[str]]:
     """The profile above the axis Y0, and what is told of it: of a whole profile the upper half, of one below the axis
     its mirror image. Raises DxfError for a profile that is not the same on both sides."""
     low, high = _reach(curves)
@@ -67,7 +67,7 @@ def one_side(curves: Sequence[Curve], near: float) -> tuple[list[Curve], list[st
     return left_over, notes
 
 
-def _reach(curves: Sequence[Curve]) -> tuple[float, float]:
+def _reach(curves: Sequence[DrawnCurve]) -> tuple[float, float]:
     heights = [at[1] for curve in curves for at in curve.points()]
     return min(heights), max(heights)
 
@@ -83,7 +83,7 @@ def _mirrored(segment: Segment, axis: float = 0.0) -> Segment:
     return found
 
 
-def _is_symmetrical(curves: Sequence[Curve], axis: float, near: float) -> bool:
+def _is_symmetrical(curves: Sequence[DrawnCurve], axis: float, near: float) -> bool:
     once = Net(curves, near).curves.values()
     both = Net([*once, *(replace(each, segment=_mirrored(each.segment, axis)) for each in once)], near)
     return len(both.curves) == len(once)
@@ -103,5 +103,5 @@ def _above(segment: Segment, near: float) -> Iterator[Segment]:
         places = [(segment.start[0] + (segment.end[0] - segment.start[0]) * first / (first - second), 0.0)]
     for begin, end in pairwise((segment.start, *places, segment.end)):
         part = replace(segment, start=begin, end=end)
-        if begin != end and Curve(part, "").points()[1][1] > near:
+        if begin != end and DrawnCurve(part, "").points()[1][1] > near:
             yield part
