@@ -151,7 +151,7 @@ class Chained:
 
 
 def relations(chained: Chained) -> Iterator[DrawnFact]:
-    """What every reader of a drawing sees, without a number: lines along the axes, and smooth joints."""
+    """Facts that every reader of a drawing sees without a number: lines along the axes, and smooth joints."""
     for place, element in enumerate(chained.elements):
         if isinstance(element, LineSegment):
             for axis in (0, 1):
@@ -198,7 +198,7 @@ _NUMBER = re.compile(r"\d++(?:[.,]\d++)?")
 
 
 def _doubt(entity: Any, given: str) -> str:
-    """Why the number that a dimension shows is not what it measures; empty where it is."""
+    """The reason not to take a dimension: it shows another number than it measures; empty where it does not."""
     text, measured = entity.dxf.text, float(given.rpartition(" ")[2])
     factor = abs(entity.override().get("dimlfac", 1.0) or 1.0)
     if factor != 1 and entity.dimtype not in (_ANGULAR, _BY_POINTS):

@@ -89,7 +89,7 @@ def read_dxf(
     """The sketch of a chain of lines and arcs in a DXF drawing, a path or its bytes.
 
     The numbers of its dimensions are the given ones where their points are points of the chain; its coordinates give
-    what they leave open. The X of the drawing is Z of a turned part, and its Y is X, as radius from the axis.
+    what they leave open. The drawing's X is Z of a turned part. Its Y is the radius, half of X.
 
     Args:
         drawing: the path of a file, or its bytes.
@@ -191,7 +191,7 @@ def _opened(drawing: str | Path | bytes) -> tuple[Any, list[str]]:
     if b"SECTION" not in data:
         raise DxfError("the file is no DXF drawing: it has no sections")
     if not len(document.modelspace()):
-        is_on_paper = any(len(document.layout(name)) for name in document.layout_names_in_taborder()[1:])
+        is_on_paper = any(len(each) for each in document.layouts if not each.is_modelspace)
         told = "; it has something on paper, which is not read: export the model" if is_on_paper else ""
         raise DxfError(f"the drawing has nothing in its model space{told}")
     return document, [f"the file is damaged: {each.message}" for each in audit.errors]
@@ -212,7 +212,7 @@ def _unit(document: Any, wanted: _Unit | None, notes: list[str]) -> tuple[_Unit,
 
 
 def _no_lines(contents: Contents, layers: Mapping[str, int], layer: str | None) -> str:
-    """Why there is nothing to make a chain of."""
+    """The reason why no chain can be made."""
     if layers:
         listed = ", ".join(f"{name!r} with {count} lines and arcs" for name, count in layers.items())
         return f"no layer {layer!r} has lines or arcs; there are {listed}"
