@@ -163,10 +163,11 @@ class _Follower:
         reason = "the contour is not solved"
         left = leave(claim, answer.contour.end if answer.contour else None, self.modes, reason)
         elements = answer.contour.elements if answer.contour else ()
+        by_name = {name: part for part in parts[::-1] for name in part.names or ()}
         places = {block.line: len(self.ran) + number for number, block in enumerate(blocks)}
         self.ran += blocks
         for element in elements:
-            part = next((each for each in parts if each.makes(element.name)), parts[0])
+            part = by_name.get(element.name, parts[0])
             # Axes outside the plane move along.
             ends = self.state, left if element is elements[-1] else self.state
             yield replace(self._segment(part, answer.plane, element, ends), number=places[part.block.line])

@@ -5,6 +5,7 @@ The chance that something else is zero by accident is about its degree / PRIME, 
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from heapq import heapify, heappop, heappush
 
 from msgspec import Struct
 
@@ -141,31 +142,35 @@ Row = dict[int, int]
 
 def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
     """Rank and null spaces of a matrix of residues."""
-    kept: dict[int, tuple[Row, Row]] = {}
-    """By its pivot, each reduced row, and of which rows it is made."""
+    kept: dict[int, tuple[Row, int]] = {}
+    """By its pivot, each reduced row, and its number among those that were made."""
+    made: list[Row] = []
+    """Each row that was made, of earlier ones by their numbers, and of rows of the matrix, as -1 less theirs."""
     holding: dict[int, set[int]] = {}
     """By column, the pivots of all rows that hold it, and of some that did."""
     circuits: dict[int, tuple[int, ...]] = {}
     independent: list[int] = []
     for number, entries in enumerate(matrix):
-        row, made_of = entries, {number: 1}
+        row, made_of = entries, {-1 - number: 1}
         # A row that is kept is zero at the pivots of all others.
         for pivot in [column for column in row if column in kept]:
-            factor, (other, others) = row[pivot], kept[pivot]
-            row, made_of = _less(row, factor, other), _less(made_of, factor, others)
+            factor, (other, own) = row[pivot], kept[pivot]
+            row, made_of = _less(row, factor, other), _less(made_of, factor, {own: 1})
         if not row:
-            circuits[number] = tuple(sorted(made_of.keys() - {number}))
+            circuits[number] = tuple(sorted(_rows_of(made_of, made) - {number}))
             continue
         lead = min(row)
         scale = pow(row[lead], -1, PRIME)
-        row, made_of = _times(row, scale), _times(made_of, scale)
+        row, new = _times(row, scale), len(made)
+        made.append(_times(made_of, scale))
         for pivot in holding.pop(lead, ()):
-            other, others = kept[pivot]
+            other, own = kept[pivot]
             if lead in other:
-                kept[pivot] = _less(other, other[lead], row), _less(others, other[lead], made_of)
+                kept[pivot] = _less(other, other[lead], row), len(made)
+                made.append(_less({own: 1}, other[lead], {new: 1}))
                 for column in row:
                     holding.setdefault(column, set()).add(pivot)
-        kept[lead] = row, made_of
+        kept[lead] = row, new
         for column in row:
             holding.setdefault(column, set()).add(lead)
         independent.append(number)
@@ -174,6 +179,21 @@ def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
     loose = {pivot for pivot, (row, _) in kept.items() if not free.isdisjoint(row)}
     dependent = sorted({*circuits, *(row for rows in circuits.values() for row in rows)})
     return ExactRank(len(kept), tuple(independent), tuple(dependent), tuple(sorted(free | loose)), circuits)
+
+
+def _rows_of(terms: Row, made: Sequence[Row]) -> set[int]:
+    """The rows of the matrix of which a row is made."""
+    left, waiting = dict(terms), [-each for each in terms]
+    heapify(waiting)
+    while waiting and waiting[0] <= 0:
+        # What was made last is made of earlier ones.
+        own = -heappop(waiting)
+        factor = left.pop(own, 0)
+        for term, value in made[own].items() if factor else ():
+            if term not in left:
+                heappush(waiting, -term)
+            left[term] = (left.get(term, 0) + factor * value) % PRIME
+    return {-1 - each for each, value in left.items() if value}
 
 
 def _less(row: Row, factor: int, other: Row) -> Row:

@@ -134,13 +134,16 @@ class ContourBlock(Struct, frozen=True):
 
 def blocks_of(claim: ParsedContour, before: State, modes: Modes) -> Iterator[ContourBlock]:
     """The blocks of a contour that begins in a state."""
+    corners = dict[str, list[str]]()
+    for row in () if claim.makes else claim.form.outline.corners:
+        corners.setdefault(row.before, []).append(row.name)
     for number, block in enumerate(claim.blocks):
         before, names = apply_modes(before, block, modes), None
         if claim.makes:
             names = frozenset(claim.makes[number])
         elif len(claim.blocks) > 1:
             own = claim.form.outline.path[number].name
-            names = frozenset([own, *(row.name for row in claim.form.outline.corners if row.before == own)])
+            names = frozenset([own, *corners.get(own, ())])
         codes = codes_of(block, modes)
         # A code of the block itself may make it a contour, so that the motion in force has no part in it.
         is_own = any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)
