@@ -13,7 +13,7 @@ from contoursolve.diagnosis import count
 from contoursolve.diagnostics import json_text, members
 from contoursolve.gcode import STANDARD_INPUT, decode, read_bytes, write_whole
 from contoursolve.output import Style
-from contoursolve.postprocess import Rest, Written, WrittenContour, WrittenWord
+from contoursolve.postprocess import Ground, Written, WrittenContour, WrittenWord
 from contoursolve.program import find_settings, read_setting
 from contoursolve.reading import Dialect
 from contoursolve.sketches import (
@@ -104,7 +104,7 @@ def _report(found: Written) -> None:
 
 
 def _open_lines(sketch: ContourSketch, style: Style) -> Iterator[str]:
-    """What keeps a sketch from having one contour, as findings are printed: with the element and the field."""
+    """The lines of what keeps a sketch from having one contour, as findings are printed, and what would choose one."""
     known = solve_sketch(sketch)
     for each in known.findings:
         yield f"{style(f'{each.severity.value}[{each.code}]', each.severity.value)}: {each.message}"
@@ -129,18 +129,18 @@ def _candidate_lines(candidate: WrittenContour) -> Iterator[str]:
     _, words, _, *_ = candidate.cost
     yield f"{count(words, 'word')} in {count(len(candidate.blocks), 'block')}, {_ground(candidate)}"
     yield from (f"    {line}" for line in candidate.lines)
-    for rest in (Rest.COMPUTED, Rest.ROUND):
-        told = [_told(word) for word in candidate.words(rest)]
+    for ground in (Ground.COMPUTED, Ground.ROUND):
+        told = [_told(word) for word in candidate.words(ground)]
         if told:
-            yield f"  {rest.value}: {', '.join(told)}"
+            yield f"  {ground.value}: {', '.join(told)}"
 
 
 def _ground(candidate: WrittenContour) -> str:
     """On what a candidate rests, in a few words."""
-    computed = len(candidate.words(Rest.COMPUTED))
+    computed = len(candidate.words(Ground.COMPUTED))
     if computed:
         return f"{computed} computed: at most {candidate.deviation:.1g} mm off"
-    return "with round numbers" if candidate.words(Rest.ROUND) else "all numbers those of the drawing"
+    return "with round numbers" if candidate.words(Ground.ROUND) else "all numbers those of the drawing"
 
 
 def _told(word: WrittenWord) -> str:

@@ -41,7 +41,7 @@ from .translate import (
     language_of as language_of,
 )
 from .wordings import (
-    Rest as Rest,
+    Ground as Ground,
     WrittenBlock as WrittenBlock,
     WrittenWord as WrittenWord,
 )

@@ -17,7 +17,7 @@ from contoursolve.postprocess.post_processors import MachineKind, machine_of
 from contoursolve.postprocess.read_back import read_back
 from contoursolve.postprocess.small_program import SmallProgram
 from contoursolve.postprocess.translate import language_of
-from contoursolve.postprocess.wordings import Rest, Speller, Wording, WrittenBlock, WrittenWord
+from contoursolve.postprocess.wordings import Ground, Speller, Wording, WrittenBlock, WrittenWord
 from contoursolve.program import for_kind
 from contoursolve.reading import Dialect
 
@@ -50,9 +50,9 @@ class WrittenContour(Struct, frozen=True):
     is_plain: bool = False
     """Whether all its blocks are lines and arcs by their ends."""
 
-    def words(self, rest: Rest) -> tuple[WrittenWord, ...]:
+    def words(self, ground: Ground) -> tuple[WrittenWord, ...]:
         """The words whose numbers rest on something."""
-        return tuple(word for block in self.blocks for word in block.words if word.rest is rest)
+        return tuple(word for block in self.blocks for word in block.words if word.ground is ground)
 
 
 class Written(Struct, frozen=True):
@@ -71,7 +71,7 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
     """The wordings of a solved contour for a control. Raises ConversionError if it has no path, or one of no length."""
     drawn = draw(answer)
     if not drawn.elements:
-        raise ConversionError("the contour has no length: there is nothing to write")
+        raise ConversionError("the contour has no length, so that it has no words")
     kind = MachineKind.LATHE if {*drawn.plane.axes} == {"X", "Z"} else MachineKind.MILL
     target = for_kind(target, {}, kind.value)
     if machine_of(target) is not kind:
@@ -114,9 +114,9 @@ def _reason(target: Dialect, found: Sequence[WrittenContour]) -> str:
 
 def _needed(wordings: Iterator[Wording]) -> list[Wording]:
     """Wordings without those that say more words than another one of the same elements."""
-    said = {each: frozenset(word.text for word in _words(each) if word.rest is not Rest.NONE) for each in wordings}
+    said = {each: frozenset(word.text for word in _words(each) if word.ground is not Ground.NONE) for each in wordings}
     kinds = {
-        each: (*(block.code for block in each.blocks), *(w.text for w in _words(each) if w.rest is Rest.NONE))
+        each: (*(block.code for block in each.blocks), *(w.text for w in _words(each) if w.ground is Ground.NONE))
         for each in said
     }
     return [
@@ -259,9 +259,9 @@ class _Search:
             texts.append(" ".join((*filter(None, code), *(word.text for word in block.words))))
             words += sum(map(bool, code)) + len(block.words)
             motion = motion if block.motion is None else block.motion
-        rests = [word.rest for word in _words(wording)]
+        rests = [word.ground for word in _words(wording)]
         steps = sum(word.is_step for word in _words(wording))
-        cost = rests.count(Rest.COMPUTED), words, len(wording.blocks), steps, rests.count(Rest.ROUND)
+        cost = rests.count(Ground.COMPUTED), words, len(wording.blocks), steps, rests.count(Ground.ROUND)
         return cost, _Node(node.index + wording.count, wording.is_cut, motion), tuple(texts)
 
     # Reading back
@@ -274,7 +274,7 @@ class _Search:
 
     def _read_back(self, program: str, drawn: ContourDrawing, cost: Cost) -> tuple[float | None, int]:
         self.read += 1
-        is_rounded = cost[0] or any(word.rest is Rest.COMPUTED for word in self.start)
+        is_rounded = cost[0] or any(word.ground is Ground.COMPUTED for word in self.start)
         return read_back(program, drawn, self.target, is_exact=not is_rounded)
 
     def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:

@@ -78,7 +78,7 @@ def test_the_words_of_manuals_come_back(control: str, text: str, blocks: str):
     result = contoursolve.solve(text, control=control)
     found = contoursolve.write(result.answers[0], control)
     assert "/".join(found.candidates[0].lines) == blocks
-    assert not found.candidates[0].words(contoursolve.Rest.COMPUTED)
+    assert not found.candidates[0].words(contoursolve.Ground.COMPUTED)
     check_all(result.answers[0], found)
 
 
@@ -89,7 +89,7 @@ def check_all(answer: contoursolve.Answer, found: contoursolve.Written) -> None:
     for each in found.candidates:
         told = contoursolve.check(each.program, control=found.control, strict=True)
         assert [one.code for one in told if one.code != "no-contour"] == []
-        limit = (0.0052 if inch else 0.0021) if each.words(contoursolve.Rest.COMPUTED) else 1e-6
+        limit = (0.0052 if inch else 0.0021) if each.words(contoursolve.Ground.COMPUTED) else 1e-6
         is_rounded = limit > 1e-6 or each.deviation > 1e-6  # the start may be rounded, too
         path = followed(each.program, found.control, answer)
         assert len(path) >= len(answer.contour.elements)
