@@ -85,7 +85,7 @@ from .postprocess import (
     BlockNumber as BlockNumber,
     Conversion as Conversion,
     Expansion as Expansion,
-    Ground as Ground,
+    NumberGround as NumberGround,
     Replacement as Replacement,
     Written as Written,
     WrittenBlock as WrittenBlock,

@@ -13,7 +13,7 @@ from contoursolve.diagnosis import count
 from contoursolve.diagnostics import json_text, members
 from contoursolve.gcode import STANDARD_INPUT, decode, read_bytes, write_whole
 from contoursolve.output import Style
-from contoursolve.postprocess import Ground, Written, WrittenContour, WrittenWord
+from contoursolve.postprocess import NumberGround, Written, WrittenContour, WrittenWord
 from contoursolve.program import find_settings, read_setting
 from contoursolve.reading import Dialect
 from contoursolve.sketches import (
@@ -129,7 +129,7 @@ def _candidate_lines(candidate: WrittenContour) -> Iterator[str]:
     _, words, _, *_ = candidate.cost
     yield f"{count(words, 'word')} in {count(len(candidate.blocks), 'block')}, {_ground(candidate)}"
     yield from (f"    {line}" for line in candidate.lines)
-    for ground in (Ground.COMPUTED, Ground.ROUND):
+    for ground in (NumberGround.COMPUTED, NumberGround.ROUND):
         told = [_told(word) for word in candidate.words(ground)]
         if told:
             yield f"  {ground.value}: {', '.join(told)}"
@@ -137,10 +137,10 @@ def _candidate_lines(candidate: WrittenContour) -> Iterator[str]:
 
 def _ground(candidate: WrittenContour) -> str:
     """On what a candidate rests, in a few words."""
-    computed = len(candidate.words(Ground.COMPUTED))
+    computed = len(candidate.words(NumberGround.COMPUTED))
     if computed:
         return f"{computed} computed: at most {candidate.deviation:.1g} mm off"
-    return "with round numbers" if candidate.words(Ground.ROUND) else "all numbers those of the drawing"
+    return "with round numbers" if candidate.words(NumberGround.ROUND) else "all numbers those of the drawing"
 
 
 def _told(word: WrittenWord) -> str:

@@ -41,7 +41,7 @@ from .translate import (
     language_of as language_of,
 )
 from .wordings import (
-    Ground as Ground,
+    NumberGround as NumberGround,
     WrittenBlock as WrittenBlock,
     WrittenWord as WrittenWord,
 )

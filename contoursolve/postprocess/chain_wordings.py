@@ -7,7 +7,7 @@ from contoursolve.controls import Element, Joining, Language, compose, names_of
 from contoursolve.gcode import spell
 from contoursolve.geometry import Turn
 from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, begins_smoothly, size_as
-from contoursolve.postprocess.wordings import GCodeSpeller, Ground, Wording, WrittenBlock, WrittenWord, values_of
+from contoursolve.postprocess.wordings import GCodeSpeller, NumberGround, Wording, WrittenBlock, WrittenWord, values_of
 from contoursolve.reading import Dialect, State
 from contoursolve.solving import ArcSegment, LineSegment
 
@@ -129,7 +129,7 @@ class ChainWordings(GCodeSpeller):
             axis = int(any(name.partition(":")[2].startswith("second") for name in given))
             if abs(element.segment.end[axis] - element.segment.start[axis]) <= EXACT:
                 return
-        if any(word.ground is Ground.COMPUTED for word in words) and (
+        if any(word.ground is NumberGround.COMPUTED for word in words) and (
             (is_arc and "R" not in {name.partition(":")[2] for name in given} and not kind.is_smooth)
             or any(name.endswith("-step") for name in given)
         ):

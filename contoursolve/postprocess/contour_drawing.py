@@ -5,7 +5,7 @@ From it the words of any control are made: each word states a fact about these p
 
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from math import dist, isclose
+from math import dist, inf, isclose
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -52,26 +52,33 @@ class DrawnElement(Struct, frozen=True):
         return found[0], found[1]
 
 
-class DrawingNumbers(Struct, frozen=True):
+class DrawingNumbers:
     """The numbers that a drawing gives: coordinates by axis and lengths in mm (X of a lathe as radius), angles in
     degrees."""
 
-    coordinates: tuple[frozenset[Decimal], frozenset[Decimal]]
-    lengths: frozenset[Decimal]
-    angles: frozenset[Decimal]
+    def __init__(self) -> None:
+        self._places: dict[tuple[int | None, Unit, int], Decimal] = {}
+
+    def add(self, number: Decimal, axis: int | None, unit: Unit) -> None:
+        """Take a number: a coordinate along an axis, else a length or an angle."""
+        for sign in (1, -1) if axis is None and unit is not Unit.DEGREE else (1,):
+            self._places.setdefault((axis, unit, _place(float(sign * number), unit)), sign * number)
 
     def find(self, value: float, axis: int | None, unit: Unit) -> Decimal | None:
-        """The number that a value is: a coordinate along an axis, else a length or an angle of the drawing."""
-        if unit is Unit.DEGREE:
-            return next((each for each in sorted(self.angles) if _is_turned(float(each) - value)), None)
-        several = self.lengths if axis is None else self.coordinates[axis]
-        signed = (number for each in sorted(several) for number in ((each, -each) if axis is None else (each,)))
-        return next((each for each in signed if abs(float(each) - value) <= EXACT), None)
+        """The number that a value is."""
+        place = _place(value, unit)
+        near = (self._places.get((axis, unit, place + step)) for step in (0, -1, 1))
+        offs = ((number, abs(float(number) - value)) for number in near if number is not None)
+        turns = _TURN if unit is Unit.DEGREE else inf
+        return next((number for number, off in offs if off <= EXACT or abs(off - turns) <= EXACT), None)
 
 
-def _is_turned(angle: float) -> bool:
-    """Whether an angle is a number of whole turns."""
-    return abs((angle + 180) % 360 - 180) <= EXACT
+_TURN = 360.0
+
+
+def _place(value: float, unit: Unit) -> int:
+    """A number of steps as large as what is exact; that of an angle without whole turns."""
+    return round((value % _TURN if unit is Unit.DEGREE else value) / EXACT)
 
 
 class ContourDrawing(Struct, frozen=True):
@@ -143,21 +150,16 @@ def draw(answer: Answer) -> ContourDrawing:
 
 def _numbers(answer: Answer) -> DrawingNumbers:
     """The numbers that the words of a contour and its facts state, and those of its start."""
-    profile = answer.profile
+    profile, numbers = answer.profile, DrawingNumbers()
     facts: Mapping[str, Fact] = {fact.given: fact for fact in profile.facts if fact.given}
-    coordinates: tuple[set[Decimal], set[Decimal]] = (set(), set())
-    lengths, angles = set[Decimal](), set[Decimal]()
     for axis, value in enumerate(profile.start.values):
-        coordinates[axis].update(() if value is None else (value,))
+        if value is not None:
+            numbers.add(value, axis, Unit.MM)
     for given in (each for each in profile.givens.values() if _is_drawn(each)):
         placed = facts[given.name].placed if given.name in facts else None
-        if given.unit is Unit.DEGREE:
-            angles.add(given.value)
-        elif placed is not None and placed.is_stepped and not placed.origin:
-            coordinates[placed.axis].add(given.value)
-        else:
-            lengths.add(abs(given.value))
-    return DrawingNumbers((frozenset(coordinates[0]), frozenset(coordinates[1])), frozenset(lengths), frozenset(angles))
+        is_coordinate = placed is not None and placed.is_stepped and not placed.origin
+        numbers.add(given.value, placed.axis if placed is not None and is_coordinate else None, given.unit)
+    return numbers
 
 
 def _is_drawn(given: Given) -> bool:

@@ -13,7 +13,7 @@ from contoursolve.postprocess.contour_drawing import (
     begins_smoothly,
     size_as,
 )
-from contoursolve.postprocess.wordings import REFERENCE, Ground, Speller, Wording, WrittenBlock, WrittenWord
+from contoursolve.postprocess.wordings import REFERENCE, NumberGround, Speller, Wording, WrittenBlock, WrittenWord
 from contoursolve.reading import Dialect, State
 from contoursolve.solving import ArcSegment, LineSegment, Segment
 
@@ -55,7 +55,9 @@ class KlartextWordings(Speller):
             for word, _, behind in self.corners(element):
                 if not behind:
                     yield Wording(1, self.attach((WrittenBlock(None, "CT", ends),), word))
-        is_rounded = all(any(w.ground is Ground.COMPUTED for b in each.blocks for w in b.words) for each in _plain)
+        is_rounded = all(
+            any(w.ground is NumberGround.COMPUTED for b in each.blocks for w in b.words) for each in _plain
+        )
         if is_cut or not (is_rounded or not index):
             return
         whole = len(self.drawn.elements) - index

@@ -21,7 +21,7 @@ REFERENCE = "@"
 """Stands on both sides of the place of an element, for the number of its block."""
 
 
-class Ground(Enum):
+class NumberGround(Enum):
     """The ground on which the number of a word rests."""
 
     DRAWING = "the drawing's own number"
@@ -34,7 +34,7 @@ class WrittenWord(Struct, frozen=True):
     """A word, on what it rests, and by how much rounding puts it off, mm or degrees."""
 
     text: str
-    ground: Ground = Ground.NONE
+    ground: NumberGround = NumberGround.NONE
     off: float = 0.0
     is_step: bool = False
     """Whether it is an increment along an axis."""
@@ -92,7 +92,7 @@ class Speller:
         if row.unit is not Unit.DEGREE:
             number *= self.unit.in_mm / (2 if row.is_diameter else 1)
         off = abs(float(number) - (value if own is None else float(own)))
-        ground = Ground.COMPUTED if off > EXACT else Ground.ROUND if own is None else Ground.DRAWING
+        ground = NumberGround.COMPUTED if off > EXACT else NumberGround.ROUND if own is None else NumberGround.DRAWING
         return WrittenWord(text, ground, off if off > EXACT else 0.0, bool(row.axis and row.is_increment))
 
     def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
@@ -165,7 +165,7 @@ class GCodeSpeller(Speller):
         for axis in sorted(changed, key=lambda axis: axes[axis]):
             step, end = self.steps.get(axes[axis]), segment.end[axis]
             words = [self.word(axes[axis], end, axis), *([self.word(step, end - segment.start[axis])] if step else [])]
-            ways.append([word for n, word in enumerate(words) if not n or word.ground is not Ground.COMPUTED])
+            ways.append([word for n, word in enumerate(words) if not n or word.ground is not NumberGround.COMPUTED])
         yield from ((WrittenBlock(1, self.code(1), words),) if words else () for words in product(*ways))
 
     def _written_out(self, arc: ArcSegment, form: Format) -> Iterator[WrittenBlock]:

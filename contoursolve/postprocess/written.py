@@ -17,7 +17,7 @@ from contoursolve.postprocess.post_processors import MachineKind, machine_of
 from contoursolve.postprocess.read_back import read_back
 from contoursolve.postprocess.small_program import SmallProgram
 from contoursolve.postprocess.translate import language_of
-from contoursolve.postprocess.wordings import Ground, Speller, Wording, WrittenBlock, WrittenWord
+from contoursolve.postprocess.wordings import NumberGround, Speller, Wording, WrittenBlock, WrittenWord
 from contoursolve.program import for_kind
 from contoursolve.reading import Dialect
 
@@ -27,10 +27,16 @@ MOST_CANDIDATES = 8
 MOST_READ = 60
 """Candidates that are read back."""
 
+_SHORT = 12
+"""Elements of a contour for which that holds; of a longer one, fewer candidates are listed and read back."""
+
 Cost = tuple[int, int, int, int, int]
 """Computed numbers, words, blocks, increments, and numbers that are not the drawing's own."""
 
 _NOTHING: Cost = (0, 0, 0, 0, 0)
+
+
+_NONE = NumberGround.NONE
 
 
 class WrittenContour(Struct, frozen=True):
@@ -50,7 +56,7 @@ class WrittenContour(Struct, frozen=True):
     is_plain: bool = False
     """Whether all its blocks are lines and arcs by their ends."""
 
-    def words(self, ground: Ground) -> tuple[WrittenWord, ...]:
+    def words(self, ground: NumberGround) -> tuple[WrittenWord, ...]:
         """The words whose numbers rest on something."""
         return tuple(word for block in self.blocks for word in block.words if word.ground is ground)
 
@@ -83,16 +89,15 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
     several = [drawn, *([rounded] if rounded != drawn else [])]
     searches = [_Search(each, target, answer) for each in several]
     found, read, tried = list[WrittenContour](), 0, set[str]()
-    while len(found) < most and read < MOST_READ:
+    share = min(1.0, _SHORT / len(drawn.elements))
+    while len(found) < most * max(share, 1 / most) and read < MOST_READ * max(share, 1 / MOST_CANDIDATES):
         ahead = [each for each in searches if each.ahead(tried) is not None]
         if not ahead:
             break
         best = min(ahead, key=_Search.order)
         candidate = best.take(tried)
         read += 1
-        # A corner that has a word is written out where its word is refused, and not beside that.
-        if candidate and all(set(candidate.written_out) <= set(each.written_out) for each in found):
-            found.append(candidate)
+        found += [candidate] if candidate else []
     if not any(each.is_plain for each in found):
         searches.append(_Search(drawn, target, answer, is_plain=True))
         candidate = searches[-1].take(tried)
@@ -114,9 +119,11 @@ def _reason(target: Dialect, found: Sequence[WrittenContour]) -> str:
 
 def _needed(wordings: Iterator[Wording]) -> list[Wording]:
     """Wordings without those that say more words than another one of the same elements."""
-    said = {each: frozenset(word.text for word in _words(each) if word.ground is not Ground.NONE) for each in wordings}
+    said = {
+        each: frozenset(word.text for word in _words(each) if word.ground is not NumberGround.NONE) for each in wordings
+    }
     kinds = {
-        each: (*(block.code for block in each.blocks), *(w.text for w in _words(each) if w.ground is Ground.NONE))
+        each: (*(block.code for block in each.blocks), *(w.text for w in _words(each) if w.ground is NumberGround.NONE))
         for each in said
     }
     return [
@@ -216,7 +223,10 @@ class _Search:
         key = index, is_cut
         if key not in self.options:
             self.options[key] = _needed(self.wordings.at(index, is_cut=is_cut, is_plain=self.is_plain))
-        return [each for each in self.options[key] if (index, is_cut, each) not in self.banned]
+        found = [each for each in self.options[key] if (index, is_cut, each) not in self.banned]
+        # A corner that has a word is written out where its word is refused, and not beside that.
+        said = {each.count for each in found if not each.writes_corner}
+        return [each for each in found if not each.writes_corner or each.count not in said]
 
     def _in_order(self) -> Iterator[tuple[Cost, tuple[str, ...], tuple[_Choice, ...]]]:
         """Every wording of the whole contour: its cost, its lines, and what it is made of."""
@@ -261,7 +271,7 @@ class _Search:
             motion = motion if block.motion is None else block.motion
         rests = [word.ground for word in _words(wording)]
         steps = sum(word.is_step for word in _words(wording))
-        cost = rests.count(Ground.COMPUTED), words, len(wording.blocks), steps, rests.count(Ground.ROUND)
+        cost = rests.count(NumberGround.COMPUTED), words, len(wording.blocks), steps, rests.count(NumberGround.ROUND)
         return cost, _Node(node.index + wording.count, wording.is_cut, motion), tuple(texts)
 
     # Reading back
@@ -274,14 +284,14 @@ class _Search:
 
     def _read_back(self, program: str, drawn: ContourDrawing, cost: Cost) -> tuple[float | None, int]:
         self.read += 1
-        is_rounded = cost[0] or any(word.ground is Ground.COMPUTED for word in self.start)
+        is_rounded = cost[0] or any(word.ground is NumberGround.COMPUTED for word in self.start)
         return read_back(program, drawn, self.target, is_exact=not is_rounded)
 
     def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:
         """Whether blocks alone make some elements in a row."""
         row = list(self.drawn.elements[index : index + count])
         first, last = row[0], row[-1]
-        if last.cut is None or first.cut is None:
+        if last.cut is None or first.cut is None or self.read >= MOST_READ:
             return False
         row[-1] = replace(last, corner=None, cut=replace(last.cut, end=last.segment.end))
         row[0] = replace(row[0], cut=replace(row[0].cut or first.cut, start=first.segment.start))

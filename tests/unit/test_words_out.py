@@ -78,20 +78,22 @@ def test_the_words_of_manuals_come_back(control: str, text: str, blocks: str):
     result = contoursolve.solve(text, control=control)
     found = contoursolve.write(result.answers[0], control)
     assert "/".join(found.candidates[0].lines) == blocks
-    assert not found.candidates[0].words(contoursolve.Ground.COMPUTED)
+    assert not found.candidates[0].words(contoursolve.NumberGround.COMPUTED)
     check_all(result.answers[0], found)
 
 
-def check_all(answer: contoursolve.Answer, found: contoursolve.Written) -> None:
+def check_all(
+    answer: contoursolve.Answer, found: contoursolve.Written, control: contoursolve.Dialect | None = None
+) -> None:
     """Each candidate has no finding, and runs along the contour, over its whole length; the cheapest comes first."""
     assert found.candidates
-    inch = answer.unit.value == "inch"
+    inch, control = answer.unit.value == "inch", control or contoursolve.DIALECTS[found.control]
     for each in found.candidates:
-        told = contoursolve.check(each.program, control=found.control, strict=True)
+        told = contoursolve.check(each.program, control=control, strict=True)
         assert [one.code for one in told if one.code != "no-contour"] == []
-        limit = (0.0052 if inch else 0.0021) if each.words(contoursolve.Ground.COMPUTED) else 1e-6
+        limit = (0.0052 if inch else 0.0021) if each.words(contoursolve.NumberGround.COMPUTED) else 1e-6
         is_rounded = limit > 1e-6 or each.deviation > 1e-6  # the start may be rounded, too
-        path = followed(each.program, found.control, answer)
+        path = followed(each.program, control, answer)
         assert len(path) >= len(answer.contour.elements)
         assert sum(travel.length() for travel in path) == pytest.approx(
             sum(element.length for element in answer.contour.elements), abs=0.02 if is_rounded else 1e-5
@@ -107,10 +109,10 @@ def check_all(answer: contoursolve.Answer, found: contoursolve.Written) -> None:
 PARTS = 12
 
 
-def followed(text: str, control: str, answer: contoursolve.Answer) -> list[Travel]:
+def followed(text: str, control: contoursolve.Dialect, answer: contoursolve.Answer) -> list[Travel]:
     """The cuts of a program."""
     result = contoursolve.solve(text, control=control)
-    steps = follow(result, contoursolve.DIALECTS[control], Length.MM, answer.plane.axes).steps
+    steps = follow(result, control, Length.MM, answer.plane.axes).steps
     assert all(isinstance(each, Travel) for each in steps)
     return [each for each in steps if each.motion is Motion.FEED]
 
@@ -152,7 +154,8 @@ def test_a_control_of_the_other_kind_says_so():
     ]
     lathe = contoursolve.write(shaft, "mitsubishi", settings={"mitsubishi.diameter": "on"})
     assert lathe.candidates[0].lines == ("G01 Z-30 ,R5", "X100 A120")
-    check_all(shaft.answers[0], lathe)
+    assert "(contoursolve control: mitsubishi, diameter: on)" in lathe.candidates[0].program.split("\n")
+    check_all(shaft.answers[0], lathe, contoursolve.DIALECTS["mitsubishi"].configure({"diameter": "on"}))
 
 
 def test_a_corner_without_a_word_has_its_own_block():
