@@ -158,6 +158,7 @@ def _open(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
         return desk.add(window, desk.files().read(name), control).view(is_whole=True)
     program = desk.add(window, _kept(desk, action, name), control)
     program.replace(read_field(action, "text", str))
+    program.seq = 0
     return program.view(is_whole=True)
 
 

@@ -15,6 +15,9 @@ class Page:
         self.text = reply.get("text", self.text)
         self.seq = reply.get("seq", self.seq)
         self.program = reply.get("id", self.program)
+        while reply.get("examined", 0) < reply.get("lines", 0):
+            more = {"window": self.window, "do": "go_on", "program": self.program}
+            reply |= self.desk.answer(more)
         self.view |= reply
         return reply
 

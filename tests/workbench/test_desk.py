@@ -1,5 +1,6 @@
 """The desk of the workbench: every action through its one door, without a server."""
 
+import json
 from base64 import b64decode, b64encode
 
 import pytest
@@ -9,6 +10,7 @@ import contoursolve
 from contoursolve.controls import DIALECTS
 from contoursolve.pictures import Theme
 from contoursolve.workbench import Desk
+from contoursolve.workbench.open_view import ProgramView
 
 BROKEN = b"%\r\nO1\r\n\r\nG00 X40. Z0.\r\n  G111 X100. A180. K-30. B120. P60. \r\nM30\n"
 
@@ -44,6 +46,34 @@ def test_a_saved_program_keeps_every_byte_that_nobody_changed(tmp_path):
     assert page.text == data.decode().replace("\r\n", "\n").replace("P60.", "P6.\nG01 Z-60.")
     page.ask("save")
     assert (tmp_path / "part.nc").read_bytes() == data.replace(b"P60.", b"P6.\r\nG01 Z-60.")
+
+
+def test_an_edit_of_a_long_program_says_only_what_it_changed(monkeypatch):
+    """How many findings are put into words, and how much is sent, does not depend on the length of the program."""
+    counts = []
+    for contours in (20, 80):
+        wrong = "G111 X100. A180. K-30. B120. P60.\nG00 X40. Z0.\n"
+        page = Page(Desk())
+        page.ask(
+            "open", name="a.nc", text="G00 X40. Z0.\n" + wrong * 3 + wrong.replace("P60.", "P5.") * contours + "M30"
+        )
+        assert page.view["counts"]["errors"] == 3
+        told, shown = [], ProgramView.told
+
+        def count(view, finding, lines, told=told, shown=shown):
+            told.append(finding)
+            return shown(view, finding, lines)
+
+        monkeypatch.setattr(ProgramView, "told", count)
+        same = page.type("M30", "M30 (END)")
+        assert not {"findings", "contours", "text"} & same.keys()
+        assert told == []
+        broken = page.type("P5.\nG00 X40. Z0.\nM30", "P60.\nG00 X40. Z0.\nM30")
+        assert (len(told), len(broken["findings"])) == (1, 4)
+        counts.append((len(told), len(json.dumps(same))))
+        monkeypatch.undo()
+    assert counts[0][0] == counts[1][0]
+    assert abs(counts[0][1] - counts[1][1]) < 20
 
 
 def test_each_product_is_that_of_the_command_of_its_name(tmp_path):

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+from contextlib import suppress
 
 import pytest
 
@@ -49,7 +50,11 @@ class Served:
         own = {"Content_Type": "application/json", "X_Token": self.token, **(headers or {})}
         body = json.dumps({"window": window, "do": do, **fields}).encode()
         status, _, data = self.send("POST", "/ask", body, **own)
-        return status, json.loads(data)
+        reply = json.loads(data)
+        while reply.get("examined", 0) < reply.get("lines", 0):
+            more = self.ask("go_on", window, headers, program=reply["id"])[1]
+            reply |= {**more, "seq": reply["seq"]}
+        return status, reply
 
     def end(self):
         self.process.send_signal(signal.SIGINT)
@@ -147,6 +152,27 @@ def test_two_windows_on_one_file_and_what_is_told_where_both_save(serve, tmp_pat
     served.ask("view", "b", program="1")
     (tmp_path / "other.nc").write_bytes(b"by hand")
     assert served.ask("save", "b", program="1", over=served.ask("save", "b", program="1")[1]["conflict"])[1]["saved"]
+
+
+def test_a_server_that_is_killed_while_it_saves_leaves_the_old_file_or_the_new_one(serve, tmp_path):
+    texts = [f"(TEXT {number})\r\n" * 20_000 for number in range(2)]
+    (tmp_path / "part.nc").write_bytes(texts[0].encode())
+
+    def save(served):
+        with suppress(OSError, http.client.HTTPException):
+            for number in range(1_000):
+                served.ask("edit", program="1", text=texts[number % 2].replace("\r", ""))
+                served.ask("save", program="1")
+
+    for moment in range(4):
+        served = serve(tmp_path)
+        served.ask("open", name="part.nc")
+        saving = threading.Thread(target=save, args=(served,))
+        saving.start()
+        saving.join(0.3 * (moment + 1))
+        served.process.kill()
+        saving.join()
+        assert (tmp_path / "part.nc").read_bytes().decode() in texts
 
 
 def test_actions_of_a_window_run_in_their_order_while_another_window_waits_for_none(serve, tmp_path):
