@@ -116,19 +116,18 @@ def test_random_contours(count: int, tmp_path: Path):
     """No path comes nearer to any wall than the radius; each stays at it; what fits is not refused."""
     random = numpy.random.default_rng(41)
     refused, undecided, in_each = 0, 0, count // len(SPELLINGS)
-    for number, spelling in enumerate(SPELLINGS * max(in_each // 10, 1)):
+    for spelling in SPELLINGS * max(in_each // 10, 1):
         contours = [draw(random) for _ in range(min(in_each, 10))]
         side = int(random.choice([-1, 1]))
         outside = str(random.choice(["roll", "intersect"]))
         stated = side if random.random() < 0.5 and spelling.control != "yasnac-lx3" else 0
         radius = round(random.uniform(0.2, 4), 2)
-        about = Drawn(spelling, radius, side, stated, outside, number % 10)
+        about = Drawn(spelling, radius, side, stated, outside, int(random.integers(10)))
         (tmp_path / "drawn.nc").write_text(spelling.program(contours, stated))
         found = run("solve", "--format", "json", *about.options, str(tmp_path / "drawn.nc"))["contours"]
         assert len(found) == len(contours), (about, found)
         fitting = [parts for parts, each in zip(contours, found, strict=True) if each["tool"]["elements"]]
-        made = expanded(fitting, about, tmp_path) if spelling.control != "heidenhain" else ()
-        for parts, path in zip(fitting, made, strict=bool(made)):
+        for parts, path in zip(fitting, expanded(fitting, about, tmp_path), strict=True):
             places = [each.at(numpy.linspace(0, 1, 200))[0] - about.shift for each in path]
             assert min(clearance(each, parts).min() for each in places) > radius - 0.002, about
         for parts, contour in zip(contours, found, strict=True):
