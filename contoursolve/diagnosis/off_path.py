@@ -1,20 +1,17 @@
 """Facts about a whole line or circle that hold beyond the part of it that is cut."""
 
 from collections.abc import Iterator
-from math import atan2, tau
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import place_text
 from contoursolve.diagnostics import Basis, Diagnostic
 from contoursolve.geometry import (
-    FIRST,
-    SECOND,
     Arc,
     CornerShape,
     Profile,
 )
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import Contour, LineSegment, Point, Segment, Solution, lookup, scalars_of
+from contoursolve.solving import Contour, LineSegment, Solution, is_on, lookup, scalars_of
 from contoursolve.tolerance import AGREEMENT
 
 
@@ -32,21 +29,7 @@ def explain_beyond(context: Context, profile: Profile, solution: Solution, conto
             continue
         for name, place in fact.places(at):
             segment = cut.get(round_ones.get(name, name))
-            if segment is not None and not _is_on(segment, place):
+            if segment is not None and not is_on(segment, place, AGREEMENT):
                 word, shown = profile.givens[fact.given].word, place_text(profile, scalars_of({"": place}))
                 whole, about = "line" if isinstance(segment, LineSegment) else "circle", ReadIssue.FACT_BEYOND
                 yield report(context, about, Basis.NUMERICAL, [word], element=segment.name, whole=whole, place=shown)
-
-
-def _is_on(segment: Segment, place: Point) -> bool:
-    """Whether a place of the line or the circle of an element lies on the element, or within the least increment."""
-    if isinstance(segment, LineSegment):
-        along = [(end - start) / segment.length for start, end in zip(segment.start, segment.end, strict=True)]
-        way = sum(part * (at - start) for part, at, start in zip(along, place, segment.start, strict=True))
-        return -AGREEMENT <= way <= segment.length + AGREEMENT
-    begin, angle = (
-        atan2(each[SECOND] - segment.center[SECOND], each[FIRST] - segment.center[FIRST])
-        for each in (segment.start, place)
-    )
-    way = ((angle - begin) * segment.turn.sign) % tau * segment.radius
-    return way <= segment.length + AGREEMENT or tau * segment.radius - way <= AGREEMENT

@@ -35,11 +35,10 @@ from contoursolve.pictures import (
     Theme,
     draw_family_map,
     draw_region,
-    extent,
     plane_of,
     words_of,
 )
-from contoursolve.solving import ArcSegment, Contour, Point, Segment
+from contoursolve.solving import ArcSegment, Contour, Point, Segment, extremes
 
 MOST_FRAMES, MOST_SLOW_FRAMES = 800, 250
 """Contours that a map has for a reader without Python; fewer where each is searched for."""
@@ -268,7 +267,7 @@ def _view_of(contours: Sequence[Contour], stated: Contour | None) -> tuple[float
 
 def _spanned(contour: Contour) -> list[Point]:
     """Points that span the rectangle of a contour."""
-    return [contour.start, *(at for each in contour.elements for at in extent(each))]
+    return [contour.start, *(at for each in contour.elements for at in extremes(each, 0, 1))]
 
 
 def map_path(contour: Contour, view: Sequence[float]) -> str:

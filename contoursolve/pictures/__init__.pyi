@@ -73,7 +73,6 @@ from .vectors import (
     along as along,
     direction as direction,
     distance as distance,
-    extent as extent,
     foot as foot,
     middle as middle,
     minus as minus,

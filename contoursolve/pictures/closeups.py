@@ -28,8 +28,8 @@ from contoursolve.pictures.page import (
 )
 from contoursolve.pictures.scene import Closeup, Leader, Mark, Scene, Trail, Viewport, Weight
 from contoursolve.pictures.theme import DASHES, Role
-from contoursolve.pictures.vectors import distance, extent, sweep_of
-from contoursolve.solving import ArcSegment, Segment
+from contoursolve.pictures.vectors import distance, sweep_of
+from contoursolve.solving import ArcSegment, Segment, extremes
 
 MOST_DETAILS = 4
 """Details below one drawing, in one row."""
@@ -97,7 +97,7 @@ def choose_details(closeups: Iterable[Closeup], view: Viewport) -> tuple[list[De
 
 
 def _box_of(segments: Sequence[Segment], view: Viewport) -> Box:
-    spots = [view.place(at) for segment in segments for at in extent(segment)]
+    spots = [view.place(at) for segment in segments for at in extremes(segment, 0, 1)]
     across, down = zip(*spots, strict=True)
     return Box(min(across), min(down), max(across), max(down))
 

@@ -13,8 +13,8 @@ from msgspec.structs import replace
 from contoursolve.geometry import FIRST, SECOND, Length, Plane
 from contoursolve.pictures.page import ANYTHING, About, Spot, TextRun, visible
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import ALONG_AXIS, along, extent
-from contoursolve.solving import Point, Segment
+from contoursolve.pictures.vectors import ALONG_AXIS, along
+from contoursolve.solving import Point, Segment, extremes
 
 
 class Weight(Enum):
@@ -279,7 +279,7 @@ def bounds_of(scene: Scene) -> Rectangle:
         if isinstance(part, Trail) and part.weight is Weight.PASSING:
             continue
         if isinstance(part, Trail):
-            points = [at for segment in part.segments for at in extent(segment)]
+            points = [at for segment in part.segments for at in extremes(segment, 0, 1)]
             (more if part.weight is Weight.GHOST else must).extend(points)
         elif isinstance(part, Mark):
             (more if part.kind in (MarkKind.CENTER, MarkKind.OTHER) else must).append(part.at)

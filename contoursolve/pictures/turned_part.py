@@ -8,8 +8,7 @@ from msgspec.structs import replace
 from contoursolve.geometry import FIRST, SECOND, Length, Turn
 from contoursolve.pictures.scene import Leader, Part, Rectangle, Scene, Thin, Trail, Weight, number
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import extent
-from contoursolve.solving import ArcSegment, Point, Segment
+from contoursolve.solving import ArcSegment, Point, Segment, extremes
 from contoursolve.tolerance import LENGTH
 
 MOST_DIAMETERS = 8
@@ -77,7 +76,7 @@ def crosses_axis(segments: Sequence[Segment]) -> bool:
 
 
 def _span_of(segments: Sequence[Segment]) -> Rectangle:
-    across, up = zip(*(at for segment in segments for at in extent(segment)), strict=True)
+    across, up = zip(*(at for segment in segments for at in extremes(segment, 0, 1)), strict=True)
     return Rectangle((min(across), min(up)), (max(across), max(up)))
 
 

@@ -82,15 +82,3 @@ def on_arc(arc: ArcSegment, share: float) -> tuple[Point, Point]:
     angle = _begin(arc) + sweep_of(arc) * share
     spoke = cos(angle), sin(angle)
     return along(arc.center, spoke, arc.radius), (-spoke[1] * arc.turn.sign, spoke[0] * arc.turn.sign)
-
-
-def extent(segment: Segment) -> list[Point]:
-    """Points that span the same upright rectangle as an element."""
-    found = [segment.start, segment.end]
-    if isinstance(segment, ArcSegment):
-        begin, sweep = _begin(segment), sweep_of(segment)
-        for quarter in range(4):
-            angle = quarter * pi / 2
-            if ((angle - begin) * segment.turn.sign) % tau < abs(sweep):
-                found.append(along(segment.center, (cos(angle), sin(angle)), segment.radius))
-    return found

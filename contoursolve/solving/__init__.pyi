@@ -70,7 +70,10 @@ from .contour import (
     against_angles as against_angles,
     center_by_radius as center_by_radius,
     dropped_corners as dropped_corners,
+    extremes as extremes,
+    is_on as is_on,
     trace as trace,
+    way_to as way_to,
 )
 from .contour_function import (
     TypedValues as TypedValues,

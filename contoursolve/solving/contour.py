@@ -139,7 +139,7 @@ class Contour(Shown):
             return None
         side, across = 0.0, None
         for element in self.elements:
-            for at in _extremes(element, axis):
+            for at in extremes(element, axis):
                 if abs(at[axis]) > AGREEMENT:
                     side = side or at[axis]
                     if at[axis] * side < 0 and (across is None or abs(at[axis]) > abs(across.at[axis])):
@@ -176,19 +176,42 @@ def _kind(segment: Segment) -> Turn | None:
     return segment.turn if isinstance(segment, ArcSegment) else None
 
 
-def _extremes(segment: Segment, axis: int) -> list[Point]:
-    """The ends of an element, and where an arc turns back along an axis, in the order of travel."""
+def extremes(segment: Segment, *axes: int) -> list[Point]:
+    """The ends of an element, and where an arc turns back along axes (0 and 1), in the order of travel."""
     if isinstance(segment, LineSegment):
         return [segment.start, segment.end]
-    quarter = radians(90 * axis)
     begin = atan2(segment.start[1] - segment.center[1], segment.start[0] - segment.center[0])
-    ways = {((angle - begin) * segment.turn.sign) % tau: angle for angle in (quarter, quarter + pi)}
+    quarters = (radians(90 * axis) + half for axis in axes for half in (0.0, pi))
+    ways = {((angle - begin) * segment.turn.sign) % tau: angle for angle in quarters}
     turning = [
         (segment.center[0] + segment.radius * cos(ways[way]), segment.center[1] + segment.radius * sin(ways[way]))
         for way in sorted(ways)
         if way < radians(segment.sweep)
     ]
     return [segment.start, *turning, segment.end]
+
+
+_TURN = 1e-12
+"""rad. By so much an angle may lie before the start of an arc and count as there: the rounding of arctangents."""
+
+
+def way_to(segment: Segment, at: Point) -> float:
+    """The way along the line or the circle of an element to a place of it, mm; around a circle from its start on."""
+    if isinstance(segment, LineSegment):
+        parts = zip(segment.start, segment.end, at, strict=True)
+        return sum((end - start) * (here - start) for start, end, here in parts) / (segment.length or 1.0)
+    begin, angle = (atan2(here[1] - segment.center[1], here[0] - segment.center[0]) for here in (segment.start, at))
+    return (((angle - begin) * segment.turn.sign + _TURN) % tau - _TURN) * segment.radius
+
+
+def is_on(segment: Segment, at: Point, slack: float = 0.0) -> bool:
+    """Whether a place of the line or the circle of an element lies on the element, or not more than some mm beyond its
+    ends."""
+    way = way_to(segment, at)
+    if isinstance(segment, LineSegment):
+        return -slack <= way <= segment.length + slack
+    slack += _TURN * segment.radius
+    return way <= segment.length + slack or tau * segment.radius - way <= slack
 
 
 def _row(element: Segment, plane: Plane) -> dict[str, str | float | None]:

@@ -2,18 +2,15 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from math import atan2, cos, dist, inf, radians, sin, sqrt, tau
+from math import cos, dist, inf, radians, sin, sqrt
 
 import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import cross
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, extremes, is_on, way_to
 from contoursolve.tolerance import LENGTH
-
-_TURN = 1e-12
-"""rad. By so much an angle may lie before the start of an arc and count as there: the rounding of arctangents."""
 
 
 class Gap(Struct, frozen=True):
@@ -69,7 +66,7 @@ def square_to(segment: Segment, center: Point) -> Iterator[Point]:
 
 def split(segment: Segment, places: Iterable[Point]) -> Iterator[Segment]:
     """The parts of an element between places on it."""
-    inner = sorted(places, key=lambda at: share_of(segment, at))
+    inner = sorted(places, key=lambda at: way_to(segment, at))
     if not inner:
         yield segment
         return
@@ -126,20 +123,6 @@ def ahead(at: Point, unit: Point, length: float) -> Point:
     return at[0] + length * unit[0], at[1] + length * unit[1]
 
 
-def is_on(segment: Segment, at: Point) -> bool:
-    """Whether a place of the line or the circle of an element lies between its ends."""
-    low, high = (-_TURN, radians(segment.sweep) + _TURN) if isinstance(segment, ArcSegment) else (0.0, segment.length)
-    return low <= share_of(segment, at) <= high
-
-
-def share_of(segment: Segment, at: Point) -> float:
-    """The way along the line (mm) or the circle (rad) of an element to a place of it."""
-    if isinstance(segment, LineSegment):
-        return _along(segment.start, at, _unit(segment.start, segment.end))
-    begin, angle = (atan2(place[1] - segment.center[1], place[0] - segment.center[0]) for place in (segment.start, at))
-    return ((angle - begin) * segment.turn.sign + _TURN) % tau - _TURN
-
-
 def foot(segment: Segment, at: Point) -> Point:
     """The place of an element that is nearest to a point."""
     if isinstance(segment, ArcSegment):
@@ -152,9 +135,5 @@ def foot(segment: Segment, at: Point) -> Point:
 
 def _box(segment: Segment) -> tuple[float, float, float, float]:
     """The least and the largest coordinates of an element."""
-    places = [segment.start, segment.end]
-    if isinstance(segment, ArcSegment):
-        turning = (ahead(segment.center, unit, segment.radius) for unit in ((1, 0), (0, 1), (-1, 0), (0, -1)))
-        places += [at for at in turning if is_on(segment, at)]
-    firsts, seconds = zip(*places, strict=True)
+    firsts, seconds = zip(*extremes(segment, 0, 1), strict=True)
     return min(firsts), min(seconds), max(firsts), max(seconds)

@@ -146,7 +146,8 @@ class ToolRules(Struct, frozen=True):
         settings = replace(self.settings, outside=outside)
         made = OffsetPath(own.elements, own.radius, own.side.sign, settings, own.levels)
         told = ToolFaultKind.LEFT_OUT, ToolFaultKind.INSIDE_CORNER if self.settings.refuses_corner else None
-        rests = (each for each in told_of_path(made) if each.kind in told)
+        is_asked = settings.leaves or settings.refuses_corner
+        rests = (each for each in (told_of_path(made) if is_asked else ()) if each.kind in told)
         return ToolRun(own, made, self, (*made.stops, *self._around(own), *rests))
 
     def stops(self, own: CuttingRun, radius: float) -> list[ToolFault]:

@@ -9,14 +9,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Circle, Line, Turn, Values, dot, make_tangent
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, is_on, largest_fitting
 from contoursolve.tolerance import AGREEMENT, INCREMENT, LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import (
     ahead,
     crossings,
     foot,
     gaps_below,
-    is_on,
     middle_of,
     nearest,
     split,
@@ -209,8 +208,11 @@ class OffsetPath:
             if number < len(self.joints) and (is_trimmed or turn <= 0 or self.radius * turn * turn <= 100 * GOUGE):
                 moved[number], around, moved[number + 1] = self._joined(number, moved[number], moved[number + 1])
             own = moved[number]
-            is_full = isinstance(own, ArcSegment) and own.radius > LENGTH and dist(element.start, element.end) <= LENGTH
-            found += [OffsetElement(own, number)] if is_full or dist(own.start, own.end) > LENGTH else []
+            # An arc of the tool's radius is a point; a full circle ends where it begins.
+            is_point = isinstance(own, ArcSegment) and own.radius <= LENGTH
+            is_full = isinstance(own, ArcSegment) and dist(element.start, element.end) <= LENGTH
+            is_there = (is_full or dist(own.start, own.end) > LENGTH) and not is_point
+            found += [OffsetElement(own, number)] if is_there else []
             found += [
                 OffsetElement(each, number, is_own=False) for each in around if dist(each.start, each.end) > LENGTH
             ]
