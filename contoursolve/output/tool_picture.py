@@ -32,11 +32,11 @@ from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius import (
     CuttingRun,
     OffsetPath,
-    Rest,
     ToolFault,
     ToolFaultKind,
     ToolReport,
     ToolRun,
+    UncutRest,
     foot,
     nearest,
     title_of,
@@ -200,7 +200,7 @@ def _at_fault(each: ToolRun, fault: ToolFault) -> Stance:
     return Stance(along(at, (-way[1] * side, way[0] * side), own.radius), place, fault)
 
 
-def _resting(own: CuttingRun, rest: Rest) -> Stance:
+def _resting(own: CuttingRun, rest: UncutRest) -> Stance:
     """The place at which a tool leaves something."""
     near = own.elements[rest.first : rest.last + 1]
     return Stance(rest.center, rest.first, None, _outline(own.side.sign, near, rest.center), rest.depth)

@@ -26,7 +26,7 @@ from .moves import (
 from .offset import (
     OffsetElement as OffsetElement,
     OffsetPath as OffsetPath,
-    Rest as Rest,
+    UncutRest as UncutRest,
     uncompensated as uncompensated,
 )
 from .runs import (

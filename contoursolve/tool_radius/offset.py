@@ -78,7 +78,7 @@ class Gouge(Struct, frozen=True):
 _USUAL = ToolSettings()
 
 
-class Rest(Struct, frozen=True):
+class UncutRest(Struct, frozen=True):
     """The rest that a tool leaves where its centre goes on from one element to a later one: how deep (mm), beside which
     elements (their numbers), and by how much of the first and the last one it does not cut (mm)."""
 
@@ -289,7 +289,7 @@ class OffsetPath:
             begin = ahead(center, (1.0, 0.0), self.radius)
             yield ArcSegment("", begin, begin, center, self.radius, Turn.CCW)
 
-    def rests(self, pieces: Sequence[OffsetElement]) -> Iterator[Rest]:
+    def rests(self, pieces: Sequence[OffsetElement]) -> Iterator[UncutRest]:
         """The rests in the inside corners of a path, and beside what it leaves out."""
         for one, two in pairwise(pieces):
             center, first, last = one.segment.end, one.element, two.element + (not two.is_own)
@@ -304,7 +304,7 @@ class OffsetPath:
     def _is_touched(self, number: int, center: Point) -> bool:
         return dist(center, foot(self.elements[number], center)) <= self.radius + STRAY
 
-    def _rest(self, center: Point, first: int, last: int) -> Rest:
+    def _rest(self, center: Point, first: int, last: int) -> UncutRest:
         before, *left, behind = self.elements[first : last + 1]
         depths = [dist(center, each.end) for each in ([before], left[:-1])[bool(left)]]
         depths += [
@@ -312,7 +312,7 @@ class OffsetPath:
         ]
         parts = replace(before, start=foot(before, center)), replace(behind, end=foot(behind, center))
         back, on = (each.length if dist(each.start, each.end) > LENGTH else 0.0 for each in parts)
-        return Rest(center, first, last, max(depths) - self.radius, (back, on))
+        return UncutRest(center, first, last, max(depths) - self.radius, (back, on))
 
     # Our own check ----------------------------------------------------------------------------------------------
 
