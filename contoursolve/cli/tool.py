@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.api import follow_program
 from contoursolve.controls import TOOL_FACTS, ToolFacts
-from contoursolve.diagnostics import Diagnostic
+from contoursolve.diagnostics import Diagnostic, Fix, Label, LineChange, Span
 from contoursolve.gcode import Block, OpenFile, Program, parse
 from contoursolve.output import Collected
 from contoursolve.postprocess import Left, MovedProgram, Summary
@@ -54,31 +54,27 @@ class BesideTool(Struct):
     def say_at_home(self, summary: Summary) -> None:
         """Put the lines of the old program into what is told."""
         if self.blocks:
-            summary.left = [
-                replace(
-                    each,
-                    lines=tuple(map(self._line, each.lines)),
-                    reason=self._text(each.reason),
-                    diagnostics=tuple(map(self._finding, each.diagnostics)),
-                    sources={self._line(line): text for line, text in each.sources.items()},
-                )
-                for each in summary.left
-            ]
-            summary.warned = [*map(self._finding, summary.warned)]
+            summary.left = [self._at_home(each) for each in summary.left]
+            summary.warned = [self._at_home(each) for each in summary.warned]
             summary.unfamiliar = [replace(each, line=self._line(each.line)) for each in summary.unfamiliar]
 
     def _line(self, line: int) -> int:
         block = self.blocks.get(line)
         return line if block is None else block.callers[0].line if block.file else block.line
 
-    def _text(self, text: str) -> str:
-        return _LINES.sub(lambda found: f"program line {self._line(int(found[1]))}", text)
-
-    def _finding(self, each: Diagnostic) -> Diagnostic:
-        span = each.span._replace(line=self._line(each.span.line))
-        labels = tuple(replace(one, span=one.span._replace(line=self._line(one.span.line))) for one in each.labels)
-        texts = {"message": self._text(each.message), "notes": tuple(map(self._text, each.notes))}
-        return replace(each, span=span, labels=labels, **texts)
+    def _at_home(self, value: Any) -> Any:
+        if isinstance(value, str):
+            return _LINES.sub(lambda found: f"program line {self._line(int(found[1]))}", value)
+        if isinstance(value, Span):
+            return value._replace(line=self._line(value.line))
+        if isinstance(value, tuple):
+            return tuple(map(self._at_home, value))
+        if isinstance(value, Left):
+            sources = {self._line(line): text for line, text in value.sources.items()}
+            value = replace(value, lines=tuple(map(self._line, value.lines)), sources=sources)
+        if isinstance(value, Left | Diagnostic | Label | Fix | LineChange):
+            return replace(value, **{each: self._at_home(getattr(value, each)) for each in value.__struct_fields__})
+        return value
 
 
 _LINES = re.compile(r"program line (\d+)")

@@ -16,6 +16,7 @@ from .follow import (
     FINISHING as FINISHING,
     ROUGHING as ROUGHING,
     ToolPath as ToolPath,
+    along as along,
     bend_of as bend_of,
     follow as follow,
     in_cycle as in_cycle,

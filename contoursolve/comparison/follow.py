@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from decimal import Decimal
 from itertools import chain
-from math import atan2, ceil, cos, dist, hypot, radians, sin, tau
+from math import atan2, ceil, cos, dist, hypot, isnan, radians, sin, tau
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -88,6 +88,11 @@ def in_cycle(block: Block, cycles: Sequence[str]) -> bool:
     return bool(block.callers) and block.callers[-1].cycle in cycles
 
 
+def _finishes(block: Block) -> bool:
+    """Whether it is G70 with a profile."""
+    return block.find("P") is not None and block.find("Q") is not None and any(w.number == _G70 for w in block.words)
+
+
 class _Follower:
     """The state as it goes, and how words are read."""
 
@@ -130,25 +135,16 @@ class _Follower:
             if step is None or block is None:
                 return
             self.state = step.before
-            if finishes and self._finishes(block):
+            if finishes and _finishes(block):
                 cycle, number, last = step, len(self.ran), None
                 self.ran.append(block)
                 continue
-            made = self._contour(step.answer, step.blocks) if step.answer is not None else self._besides(step.blocks)
-            for each in made:
+            beside = chain.from_iterable(map(self._beside, step.blocks))
+            for each in self._contour(step.answer, step.blocks) if step.answer is not None else beside:
                 last = each if isinstance(each, Travel) else last
                 # Compensation is for the finishing pass (assumed).
                 is_rough = finishes and isinstance(each, Travel) and in_cycle(block, ROUGHING)
                 yield replace(each, compensation=40) if is_rough else each
-
-    @staticmethod
-    def _finishes(block: Block) -> bool:
-        """Whether it is a call of G70 with a profile."""
-        is_cycle = any(word.address == "G" and word.number == _G70 for word in block.words)
-        return is_cycle and block.find("P") is not None and block.find("Q") is not None
-
-    def _besides(self, blocks: Iterable[Block]) -> Iterator[Step]:
-        return chain.from_iterable(map(self._beside, blocks))
 
     def _beside(self, block: Block) -> Iterator[Step]:
         """The steps that a block beside contours adds to the path."""
@@ -181,19 +177,10 @@ class _Follower:
 
     def _segment(self, part: ContourBlock, plane: Plane, segment: Segment, states: tuple[State, State]) -> Travel:
         """An element of a contour in space, where the other axes are as in the states before and after it."""
-        first, second = (self.axes.index(axis) for axis in plane.axes)
-        places: list[Place] = []
-        for at, where in zip((segment.start, segment.end), states, strict=True):
-            place = list(self._place(where))
-            place[first], place[second] = at
-            places.append(tuple(place))
-        bend = None
-        if isinstance(segment, ArcSegment):
-            bend = bend_of((first, second), segment.center, segment.start, segment.end, segment.turn)
         is_rapid = self.plain.is_rapid(part.block) if self.plain else part.is_rapid
-        motion = Motion.RAPID if is_rapid else Motion.FEED
-        travel = self._travel(part.block, part.state, motion, (places[0], places[1]), bend)
-        return replace(travel, plane=plane, element=segment.name)
+        ends = self._place(states[0]), self._place(states[1])
+        travel = self._travel(part.block, part.state, Motion.RAPID if is_rapid else Motion.FEED, ends, None)
+        return along(replace(travel, plane=plane, element=segment.name), segment, self.axes)
 
     def _restated(self, plain: Plain, block: Block) -> Iterator[Step]:
         """The steps of a block that is not programmed in G codes."""
@@ -396,6 +383,19 @@ class _Follower:
 
 def _named(code: Code) -> str:
     return code.name or f"G{code.number}"
+
+
+def along(step: Travel, segment: Segment, axes: Sequence[str]) -> Travel:
+    """A move along another element of its plane, mm; what is no number there is not known. Other axes move as they
+    did."""
+    first, second = (axes.index(axis) for axis in (step.plane.axes if step.plane else ()))
+    start, end = [*step.start], [*step.end]
+    for place, at in ((start, segment.start), (end, segment.end)):
+        place[first], place[second] = (None if isnan(value) else value for value in at)
+    bend = None
+    if isinstance(segment, ArcSegment):
+        bend = bend_of((first, second), segment.center, segment.start, segment.end, segment.turn)
+    return replace(step, start=tuple(start), end=tuple(end), bend=bend)
 
 
 def bend_of(

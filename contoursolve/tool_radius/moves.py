@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import chain, groupby
-from math import isnan, nan
+from math import nan
 from operator import itemgetter
 
 from msgspec.structs import replace
 
-from contoursolve.comparison import Motion, Place, ToolPath, Travel, bend_of
-from contoursolve.solving import ArcSegment, LineSegment, Segment
+from contoursolve.comparison import Motion, ToolPath, Travel, along
+from contoursolve.solving import LineSegment, Segment
 from contoursolve.tool_radius.findings import ToolReport, ToolRun
 from contoursolve.tool_radius.runs import CuttingRun, place_of, segment_of
 
@@ -48,38 +48,23 @@ def _by_travel(report: ToolReport) -> Mapping[int, tuple[Travel, ...]]:
     for each, path in runs:
         rows = [(piece.element, each.written(piece), piece.is_own) for piece in each.pieces]
         here, pieces = path.start, {number: [*own] for number, own in groupby(rows, key=itemgetter(0))}
-        for number, step in enumerate(each.run.travels):
-            own = pieces.get(number, [])
+        for number, travel in enumerate(each.run.travels):
+            own, step = pieces.get(number, []), replace(travel, compensation=40)
+            corner = replace(step, start=step.end)
             if not any(is_own for *_, is_own in own) and _beside(step, axes):
                 own.insert(0, (number, LineSegment("", here, here), True))
-            steps = [
-                _moved(step, segment, axes, (step.start if is_own else step.end, step.end))
-                for _, segment, is_own in own
-            ]
+            steps = [along(step if is_own else corner, segment, axes) for _, segment, is_own in own]
             if not number and each.run.lead is None:
-                to_start = _moved(step, LineSegment("", each.part.start, path.start), axes, (step.start, step.start))
-                motion = Motion.RAPID if each is report.runs[0] else Motion.FEED
-                steps.insert(0, replace(to_start, motion=motion))
+                first = replace(step, end=step.start, motion=Motion.RAPID if each is report.runs[0] else Motion.FEED)
+                steps.insert(0, along(first, LineSegment("", each.part.start, path.start), axes))
             here = own[-1][1].end if own else here
-            found[id(step)] = tuple(steps)
+            found[id(travel)] = tuple(steps)
     for step in (step for each, _ in runs for step in (each.run.lead, each.run.leaving) if step is not None):
         (a, b), (c, d) = (place_of(step, axes, at_end=at_end) for at_end in (False, True))
         start, end = (nan if a is None else a, nan if b is None else b), (c or 0.0, d or 0.0)
         segment = LineSegment("", starts.get(id(step), start), ends.get(id(step), end))
-        found[id(step)] = (_moved(step, segment, axes, (step.start, step.end)),)
+        found[id(step)] = (along(replace(step, compensation=40), segment, axes),)
     return found
-
-
-def _moved(step: Travel, segment: Segment, axes: Sequence[str], ends: tuple[Place, Place]) -> Travel:
-    """A move along another element of its plane; other axes move from one place to the other."""
-    first, second = (axes.index(axis) for axis in (step.plane.axes if step.plane else ()))
-    start, end = ([*place] for place in ends)
-    for place, at in ((start, segment.start), (end, segment.end)):
-        place[first], place[second] = (None if isnan(value) else value for value in at)
-    bend = None
-    if isinstance(segment, ArcSegment):
-        bend = bend_of((first, second), segment.center, segment.start, segment.end, segment.turn)
-    return replace(step, start=tuple(start), end=tuple(end), bend=bend, compensation=40)
 
 
 def _beside(step: Travel, axes: Sequence[str]) -> Mapping[str, tuple[float, float]]:
