@@ -66,12 +66,18 @@ class BesideTool(Struct):
         if isinstance(value, str):
             return _LINES.sub(lambda found: f"program line {self._line(int(found[1]))}", value)
         if isinstance(value, Span):
-            return value._replace(line=self._line(value.line))
+            block = self.blocks.get(value.line)
+            is_other = block is not None and bool(block.file)
+            return Span(self._line(value.line), 1, 2) if is_other else value._replace(line=self._line(value.line))
         if isinstance(value, tuple):
             return tuple(map(self._at_home, value))
         if isinstance(value, Left):
-            sources = {self._line(line): text for line, text in value.sources.items()}
+            own = {line: self.blocks[line] for line in value.sources}
+            sources = {self._line(n): each.callers[0].text if each.file else each.text for n, each in own.items()}
             value = replace(value, lines=tuple(map(self._line, value.lines)), sources=sources)
+        block = self.blocks.get(value.span.line) if isinstance(value, Diagnostic) else None
+        if block is not None and block.file and isinstance(value, Diagnostic):
+            value = replace(value, message=f"{value.message} ({block.file}, line {block.line})")
         if isinstance(value, Left | Diagnostic | Label | Fix | LineChange):
             return replace(value, **{each: self._at_home(getattr(value, each)) for each in value.__struct_fields__})
         return value

@@ -346,6 +346,7 @@ class _Follower:
             unit=state.unit,
             doubled=tuple(axis in doubled for axis in self.axes),
             file=block.file,
+            called_at=block.callers[0].line if block.file and block.callers else 0,
             plane=state.plane,
             number=len(self.ran) - 1,
         )

@@ -61,6 +61,8 @@ class Travel(Struct, frozen=True):
     """The name of the element of a contour that it is."""
     number: int = 0
     """The place of its block among those that run, from 0."""
+    called_at: int = 0
+    """The line of the main program that calls its file, if it has one."""
 
     def at(self, fraction: float) -> Place:
         """The point that lies at a fraction of the way."""

@@ -282,7 +282,7 @@ class ToolFindings:
         shown = own.lead if is_entry and own.lead else leaving if is_exit and leaving else travel
         is_small = fault.kind is ToolFaultKind.ARC_TOO_SMALL
         word = self.word(own, fault) if is_small else own.void if fault.kind is ToolFaultKind.NO_OFFSET else None
-        line = own.broken if fault.kind in _BREAKS else shown.line
+        line = own.broken if fault.kind in _BREAKS else shown.called_at or shown.line
         block = self.blocks.get(line)
         span = word.span if word is not None else block.span if block is not None else Span(line, 1, 2)
         texts, values = self.texts(own, fault), {"off_by_mm": fault.short} if fault.short is not None else {}
@@ -291,7 +291,7 @@ class ToolFindings:
             Severity.ERROR if tool_run.rules.is_error(fault.kind) else row.severity,
             Basis.NUMERICAL,
             span,
-            row.message.format(**texts),
+            row.message.format(**texts) + (f" ({shown.file}, line {shown.line})" if shown.called_at == line else ""),
             fault.kind.source,
             (Label(span, ""),),
             (word.address,) if word is not None else (),
@@ -386,12 +386,12 @@ class ToolFindings:
     def word(self, own: CuttingRun, fault: ToolFault) -> Word | None:
         """The word that states the radius of an arc: that of a corner, or R."""
         travel = own.travels[fault.element]
-        for answer in self.result.answers:
+        for answer in self.result.answers if not travel.file else ():
             if travel.element and travel.line in answer.lines:
                 sizes = {corner.name: corner.size for corner in answer.profile.figure.corners}
                 given = answer.profile.givens.get(sizes.get(travel.element, ""))
                 return given.word if given is not None else None
-        block = self.blocks.get(travel.line)
+        block = self.blocks.get(travel.line) if not travel.file else None
         return block.find(self.dialect.modes.radius) if block is not None and not travel.element else None
 
     def _fixes(self, own: CuttingRun, fault: ToolFault, word: Word) -> Iterator[Fix]:

@@ -140,3 +140,53 @@ def test_an_approach_that_is_not_followed_is_no_entry(tmp_path: Path):
     (tmp_path / "a.h").write_text(CALLED.format("APPR LT X+0 Y+10 LEN10 RL F300 ;"))
     done = CliRunner().invoke(main, ["check", "--control", "heidenhain", "--tool", "R4", str(tmp_path / "a.h")])
     assert (done.exit_code, "error[tool-interrupted]: program line 18 (APPR LT has" in done.stdout) == (1, True)
+
+
+def test_a_finding_in_another_file_names_the_call_and_the_file(tmp_path: Path):
+    lines = ["G17 G90 G71 G94", "T1 D1 M6", "G0 X-20 Y-20 Z5", "G1 Z-3 F100", "KONTUR", "G0 Z10", "M30"]
+    (tmp_path / "a.mpf").write_text("\n".join(lines) + "\n")
+    (tmp_path / "KONTUR.SPF").write_text("G42 G1 X0 Y-10 F500\nY40 RND=2\nX60\nY-10\nG40 G1 X90 Y-30\nM17\n")
+    for words in (["check"], ["expand", "--inline"]):
+        done = CliRunner().invoke(main, [*words, "--control", "siemens-840d", "--tool", "R4", str(tmp_path / "a.mpf")])
+        assert done.exit_code == 1
+        assert "2.0000 mm too small for the cutter R4 (KONTUR.SPF, line 2)\n" in done.output
+        assert "a.mpf:5:1\n" in done.output
+        assert "5 | KONTUR\n" in done.output
+
+
+def test_facing_and_boring_with_a_tool_of_their_own(tmp_path: Path):
+    """G72 before G70 under G41, and a bore with G41 in its profile: the way back goes to where the cycle was called."""
+    facing = ["G72 W2. R0.5", "G72 P100 Q200 U0.4 W0.1 F0.25", "N100 G00 Z-20.", "G01 X60. F0.1", "X40. ,R3.", "Z-10."]
+    facing = [
+        "G00 X62. Z2.",
+        *facing,
+        "X20.",
+        "N200 Z0.",
+        "T0202",
+        "G00 X62. Z2.",
+        "G41",
+        "G70 P100 Q200",
+        "G40 G00 X100.",
+    ]
+    bore = [
+        "T0303",
+        "G00 X18. Z2.",
+        "G71 U1. R0.5",
+        "G71 P300 Q400 U-0.4 W0.1 F0.2",
+        "N300 G00 G41 X30.",
+        "G01 Z0. F0.1",
+    ]
+    bore += ["X26. Z-2. ,R1.", "Z-20. ,R2.", "X18.", "N400 G40 X17.", "G70 P300 Q400", "G00 Z50.", "M30"]
+    (tmp_path / "a.nc").write_text("\n".join(["G21 G40 G99", "T0101", *facing, *bore]) + "\n")
+    (tmp_path / "contoursolve.toml").write_text(
+        "[tools]\nT0101 = {radius = 0.8, tip = 3}\nT0202 = {radius = 0.8, tip = 3}\nT0303 = {radius = 0.4, tip = 2}\n"
+    )
+    words, new = ["--control", "fanuc-lathe", "--tool", "program"], tmp_path / "new.nc"
+    done = CliRunner().invoke(main, ["expand", *words, "--no-comments", str(tmp_path / "a.nc"), "-o", str(new)])
+    assert done.exit_code == 0, done.output
+    text = new.read_text()
+    # An inside arc of 3 becomes one of 2.2.
+    assert "G01 X44.4 Z-20.\nG03 X40. Z-17.8 I0. K2.2\n" in text
+    assert "G01 X20. Z-0.8\nG00 X62. Z2.\n" in text
+    assert "G03 X22.8 Z-20. I-1.6 K0.\nG01 X18.8 Z-20.\nG01 X17. Z-20.\nG00 Z2. X18.\n" in text
+    assert CliRunner().invoke(main, ["diff", *words, str(tmp_path / "a.nc"), str(new)]).exit_code == 0
