@@ -89,6 +89,9 @@ _BEFORE_NUMBER = {
     "FSELECT": "FSELECT ",
     "ROUNDING": "RND R",
     "CHAMFER": "CHF ",
+    # As a drawing has them.
+    "rounding": "rounding ",
+    "chamfer": "chamfer ",
 }
 """Text that Klartext, and a drawing, writes before the numbers of words with several letters; there is no equals
 sign."""

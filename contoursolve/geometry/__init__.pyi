@@ -97,6 +97,7 @@ from .statements.statement import (
     EqualLengths as EqualLengths,
     EqualSizes as EqualSizes,
     LengthIs as LengthIs,
+    LiesOn as LiesOn,
     LineAt as LineAt,
     Meeting as Meeting,
     MeetsLine as MeetsLine,

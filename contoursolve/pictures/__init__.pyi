@@ -13,6 +13,7 @@ from .drawing import (
     draw_range as draw_range,
     draw_region as draw_region,
     draw_result as draw_result,
+    draw_sketched as draw_sketched,
     draw_sweep as draw_sweep,
 )
 from .fields import words_of as words_of

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.pictures.compose import compose, describe, told_of
 from contoursolve.pictures.layout import lay_out
-from contoursolve.pictures.scene import ToolDrawing
+from contoursolve.pictures.scene import Part, ToolDrawing, Trail, Weight
 from contoursolve.pictures.sheet import stack_sheets
 from contoursolve.pictures.svg import Picture, finish
 from contoursolve.pictures.theme import Theme
@@ -75,6 +75,17 @@ def draw_answer(
     scene = scene if has_remarks else replace(scene, remarks=())
     told = " ".join((describe(answer), *told_of(beside)))
     return finish(lay_out(scene, like.sheet.placement if like else None), theme, told)
+
+
+def draw_sketched(
+    answer: Answer, path: Sequence[Part], title: str, told: str, *, theme: Theme = Theme.LIGHT
+) -> Picture:
+    """The picture of a contour with another path than that of its answer, such as one that is not finished: its words
+    as dimensions, without its program. `told` is the description."""
+    scene = compose(answer, title)
+    others = (each for each in scene.parts if not isinstance(each, Trail) or each.weight is not Weight.MAIN)
+    scene = replace(scene, parts=(*path, *others), lines=(), remarks=(), meanings={})
+    return finish(lay_out(scene), theme, told)
 
 
 def draw_result(

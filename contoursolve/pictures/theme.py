@@ -29,6 +29,8 @@ class Role(Enum):
     """One of several solutions for an element of a chain, in the green of such a control."""
     OPEN = "open"
     """An element of a chain for which there are too few data, in the red of such a control."""
+    GUESSED = "guessed"
+    """An element of a sketch that a guess has chosen among several."""
     SOLVED_FIELD = "solved-field"
     REFUSED_FIELD = "refused-field"
     OTHER_FIELD = "other-field"
@@ -52,7 +54,7 @@ class Role(Enum):
 LEVELS = tuple(role for role in Role if role.value.startswith("level-"))
 """Roles of values in maps alone."""
 
-CHAINS = (Role.DETERMINED, Role.SEVERAL, Role.OPEN)
+CHAINS = (Role.DETERMINED, Role.SEVERAL, Role.OPEN, Role.GUESSED)
 """Roles of elements of chains alone."""
 
 TOOLS = (Role.TRACK, Role.TOOL, Role.REST)
@@ -67,6 +69,7 @@ MEANINGS: Mapping[Role, str] = {
     Role.DETERMINED: "determined",
     Role.SEVERAL: "one of several solutions",
     Role.OPEN: "too few data",
+    Role.GUESSED: "chosen by a guess",
     Role.REST: "stays in the corner",
     Role.CANDIDATE: "one of several solutions",
     Role.RAPID: "rapid move",
@@ -86,6 +89,7 @@ DASHES: Mapping[Role, tuple[float, ...]] = {
     Role.FREE: (4.0, 3.0),
     Role.SEVERAL: (14.0, 4.0),
     Role.OPEN: (3.0, 5.0),
+    Role.GUESSED: (1.0, 4.0),
     Role.TRACK: (9.0, 2.5),
 }
 """Pixels on and off of a role's thin lines; solid without. They tell the states apart without colour."""
@@ -105,6 +109,7 @@ _COLORS: dict[Role, tuple[str, ...]] = {
     Role.DETERMINED: ("#0b3fb3", "#5ea3ff"),
     Role.SEVERAL: ("#3d7a00", "#9be31c"),
     Role.OPEN: ("#c8102e", "#ff7a85"),
+    Role.GUESSED: ("#0e6d84", "#67e8f9"),
     Role.TOOL: ("#0f6f78", "#5eead4"),
     Role.TRACK: ("#0f6f78", "#5eead4"),
     Role.REST: ("#8a4b00", "#fcd34d"),

@@ -10,11 +10,13 @@ from .dxf_in import (
     DxfSketch as DxfSketch,
     read_dxf as read_dxf,
 )
-from .known_part import (
+from .finishing import (
     EntryRange as EntryRange,
+    SketchEntry as SketchEntry,
+)
+from .known_part import (
     PartState as PartState,
     SketchAnswer as SketchAnswer,
-    SketchEntry as SketchEntry,
     SketchFinding as SketchFinding,
     SketchFix as SketchFix,
     SketchPart as SketchPart,
@@ -34,6 +36,10 @@ from .sketch_file import (
     sketch_of as sketch_of,
     sketch_schema as sketch_schema,
     write_sketch as write_sketch,
+)
+from .view import (
+    draw_sketch as draw_sketch,
+    sketch_view as sketch_view,
 )
 from .words_out import (
     UnfinishedError as UnfinishedError,

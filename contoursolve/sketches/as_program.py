@@ -9,7 +9,6 @@ from msgspec import Struct
 from contoursolve.controls import words_of_drawing
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import parse, spelled
-from contoursolve.reading import Dialect
 from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchCorner, SketchElement, Value
 
 FUNCTIONS: Mapping[tuple[Literal["line", "arc"], bool], str] = {
@@ -18,8 +17,6 @@ FUNCTIONS: Mapping[tuple[Literal["line", "arc"], bool], str] = {
     ("arc", False): "FC",
     ("arc", True): "FCT",
 }
-SENSES: Mapping[Literal["cw", "ccw"], str] = {"cw": "DR-", "ccw": "DR+"}
-CORNERS = {"rounding": "RND R", "chamfer": "CHF "}
 _FACT = " ; contoursolve: "
 
 Field = tuple[int, str]
@@ -69,11 +66,11 @@ def _words(sketch: ContourSketch, number: int, element: SketchElement, pick: int
     """The words of an element, each with the name of its field."""
     yield "kind", FUNCTIONS[element.kind, element.tangent]
     if element.turn:
-        yield "turn", SENSES[element.turn]
+        yield "turn", element.turn
     order = words_of_drawing(sketch.part, element.kind)
     yield from ((name, f"{name}{_number(element.words[name])}") for name in order if name in element.words)
     if element.corner:
-        yield "corner", f"{CORNERS[element.corner.shape]}{_number(element.corner.size)}"
+        yield "corner", f"{element.corner.shape} {_number(element.corner.size)}"
     if sketch.closed and len(sketch.elements) > 1 and number in (1, len(sketch.elements)):
         yield "closed", "CLSD+" if number == 1 else "CLSD-"
     if pick is not None:
@@ -93,14 +90,12 @@ def _start(sketch: ContourSketch) -> str | None:
     return f"{begins}\nFPOL {pole}" if pole else begins
 
 
-def element_of(line: str, control: Dialect) -> SketchElement | None:
-    """The element that a line of such a program has; None where it is none, or has what no element has."""
-    ((block,), facts) = (
-        spelled(parse(line.partition(";")[0]), control.modes.syntax).blocks[:1],
-        line.partition(_FACT)[2],
-    )
-    words, corner, turn, kind = dict[str, Value](), None, None, None
-    for word in block.words:
+def element_of(line: str, sketch: ContourSketch) -> SketchElement | None:
+    """The element that a line of a sketch's program has; None where it is none, or has what no element has."""
+    blocks = spelled(parse(line.partition(";")[0]), sketch.control.modes.syntax).blocks
+    words, corner, kind = dict[str, Value](), None, None
+    turn: Literal["cw", "ccw"] | None = None
+    for word in blocks[0].words if len(blocks) == 1 else ():
         value: Value = ASKED if word.is_asked else Decimal(word.number or 0)
         match word.address:
             case "G":
@@ -108,14 +103,12 @@ def element_of(line: str, control: Dialect) -> SketchElement | None:
             case "N" | "CLSD":
                 pass
             case "DR":
-                turn = next(sense for sense, text in SENSES.items() if text[-1] == word.text.strip()[-1])
+                turn = "cw" if value == -1 else "ccw"
             case "ROUNDING" | "CHAMFER":
                 corner = SketchCorner("rounding" if word.address == "ROUNDING" else "chamfer", value)
-            case "FSELECT":
-                return None
             case _:
                 words[word.address] = value
-    if kind is None or block.faults:
+    if kind is None or blocks[0].faults or not words.keys() <= words_of_drawing(sketch.part, kind[0]).keys():
         return None
-    told = tuple(each.strip() for each in facts.split(";") if each.strip())
-    return SketchElement(kind[0], words, turn, kind[1], corner, facts=told)
+    told = (each.strip() for each in line.partition(_FACT)[2].split(";"))
+    return SketchElement(kind[0], words, turn, kind[1], corner, facts=tuple(filter(None, told)))

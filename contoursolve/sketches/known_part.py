@@ -11,25 +11,29 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import (
-    NUMBERS,
     Answer,
     Depth,
     Listed,
-    absent_words,
-    either,
-    helping_words,
     join,
     list_solutions,
 )
-from contoursolve.diagnostics import Diagnostic, OpenNumber, Severity
-from contoursolve.gcode import parse
-from contoursolve.geometry import Arc, assemble
+from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.pictures import find_known, list_trails
-from contoursolve.program import Run, SolveOptions
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program, element_of
-from contoursolve.sketches.sketch import ContourSketch, SketchElement, Value
+from contoursolve.sketches.finishing import (
+    SketchEntry,
+    drawn_plainly,
+    examined,
+    missing_fields,
+    missing_text,
+    sketch_exactly,
+    tried_entries,
+    with_examples,
+    written_place,
+)
+from contoursolve.sketches.sketch import ContourSketch, SketchElement
 from contoursolve.sketches.sliding import Loose, loosely_drawn
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, Status, analyse
+from contoursolve.solving import ArcSegment, Point, RefusalKind, Segment, Status
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
 
@@ -58,29 +62,6 @@ class SketchPart(Struct, frozen=True):
     segment: Segment | None = None
     off_mm: float | None = None
     ways: tuple[tuple[Point, ...], ...] = ()
-
-
-class EntryRange(Struct, frozen=True):
-    """A range of numbers, as they are written; empty where it has no end."""
-
-    low: str
-    high: str
-
-
-class SketchEntry(Struct, frozen=True):
-    """A field that would help to finish a sketch: the number of its element (0 for the sketch), its name, its meaning.
-
-    With `example` the sketch is finished, where one was tried; `ranges` are the numbers with which it is, all of them
-    if `is_complete`. `beside` are further fields that it needs then, each with its example.
-    """
-
-    number: int
-    field: str
-    meaning: str
-    example: str = ""
-    ranges: tuple[EntryRange, ...] = ()
-    is_complete: bool = False
-    beside: tuple[tuple[Field, str], ...] = ()
 
 
 class SketchFix(Struct, frozen=True):
@@ -132,8 +113,8 @@ class SketchAnswer(Struct, frozen=True):
 
     @property
     def is_finished(self) -> bool:
-        """Whether it has one contour."""
-        return self.answer is not None and self.answer.contour is not None
+        """Whether it has one contour, and nothing is missing."""
+        return self.answer is not None and self.answer.contour is not None and not self.missing
 
 
 def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchAnswer:
@@ -150,21 +131,55 @@ def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchA
     >>> found.missing, found.elements[0].state.value
     ('one entry is missing: X, LEN or IX of line 1', 'sliding')
     """
+    last = sketch.elements[-1] if sketch.elements else None
+    if last is not None and last.corner is not None:
+        return _with_open_corner(solve_sketch(_without_last_corner(sketch, last), with_ranges=with_ranges), sketch)
     program = as_program(sketch)
-    if program.start is None or not sketch.elements:
-        return _not_begun(sketch, program)
-    answer = _examined(sketch, program, Depth.FINDINGS if with_ranges else Depth.VERDICT)
+    answer = None
+    if program.start is not None and sketch.elements:
+        answer = examined(sketch, Depth.FINDINGS if with_ranges else Depth.VERDICT)
     if answer is None:
         return _not_begun(sketch, program)
-    return _Reading(sketch, program, answer).result()
+    found = _Reading(sketch, program, answer).result(with_ranges=with_ranges)
+    if not any(each.kind == "arc" and each.turn is None for each in sketch.elements):
+        return found
+    # What is not the same whichever way such an arc turns is not known.
+    turned = [replace(each, turn=each.turn or "cw") if each.kind == "arc" else each for each in sketch.elements]
+    other = {each.name: each for each in solve_sketch(replace(sketch, elements=tuple(turned))).elements}
+    same = (_is_known_alike(each, other[each.name]) for each in found.elements)
+    parts = zip(found.elements, same, strict=True)
+    return replace(found, elements=tuple(each if is_same else _unknown(each) for each, is_same in parts))
 
 
-def _examined(sketch: ContourSketch, program: SketchProgram, depth: Depth) -> Answer | None:
-    """The answer about a sketch's program."""
-    asked = SolveOptions(start=program.start, units=sketch.unit, depth=depth.value)
-    return next(
-        iter(Run(parse(program.text, "sketch"), asked.request("sketch", sketch.control)).collect().answers), None
+def _without_last_corner(sketch: ContourSketch, last: SketchElement) -> ContourSketch:
+    return replace(sketch, elements=(*sketch.elements[:-1], replace(last, corner=None)))
+
+
+def _with_open_corner(found: SketchAnswer, sketch: ContourSketch) -> SketchAnswer:
+    """The answer about a sketch whose last element has a corner, from that about it without."""
+    number = len(sketch.elements)
+    name, advice = f"corner {number}", "add the next line or arc, or leave the corner out"
+    message = f"{name} needs an element behind it, and none follows"
+    finding = SketchFinding("drawing-corner-without-next", Severity.ERROR, message, advice, ((number, "corner"),))
+    return replace(
+        found,
+        sketch=sketch,
+        elements=(*found.elements, SketchPart(name, number, PartState.UNKNOWN)),
+        missing=found.missing or f"{message}: {advice}",
+        findings=(*found.findings, finding),
     )
+
+
+def _is_known_alike(one: SketchPart, other: SketchPart) -> bool:
+    """Whether both are known and in one place, or contradict."""
+    pair = one.segment, other.segment
+    states = {one.state, other.state}
+    is_known = states == {PartState.KNOWN} and (pair == (None, None) or (None not in pair and _is_same(*pair)))  # type: ignore[arg-type]
+    return is_known or one.state is PartState.CONTRADICTING
+
+
+def _unknown(part: SketchPart) -> SketchPart:
+    return replace(part, state=PartState.UNKNOWN, segment=None, ways=())
 
 
 def _not_begun(sketch: ContourSketch, program: SketchProgram) -> SketchAnswer:
@@ -187,10 +202,11 @@ class _Reading:
         path = answer.profile.figure.path
         self.heads = {number: element.head for number, element in enumerate(path, 1)}
 
-    def result(self) -> SketchAnswer:
+    def result(self, *, with_ranges: bool) -> SketchAnswer:
         answer = self.answer
         listing = list_solutions(answer)
         several = [each for each in listing.solutions if each.contour is not None] if listing else []
+        several.sort(key=lambda each: [(pick.element, pick.number) for pick in each.picks])
         chosen = self._chosen(several) if len(several) > 1 else None
         has_guess = any(each.guess for each in self.sketch.elements)
         if has_guess and answer.contour is not None:
@@ -198,11 +214,11 @@ class _Reading:
         missing, loose = "", None
         entries: Iterable[SketchEntry] = ()
         if chosen is not None:
-            picked = _examined(self.sketch, self._picking(chosen), Depth.VERDICT)
+            picked = examined(self.sketch, picks={each.element: each.number for each in chosen.picks})
             answer = picked if picked is not None and picked.contour is not None else answer
         elif answer.contour is None:
             loose = self._loosely()
-            missing, entries = self._missing(loose, len(several))
+            missing, entries = self._missing(loose, len(several), with_ranges=with_ranges)
         return SketchAnswer(
             self.sketch,
             self.program,
@@ -211,7 +227,7 @@ class _Reading:
             tuple(self._parts(answer, several, chosen, loose)),
             missing,
             tuple(entries),
-            tuple(map(self._finding, self.answer.diagnostics)) if chosen is None else (),
+            tuple(map(self._finding, answer.diagnostics)),
             tuple(self._solutions(several, chosen)) if len(several) > 1 else (),
             tuple(self.remarks),
         )
@@ -242,15 +258,6 @@ class _Reading:
     def _mm(self, axis: int, written: Decimal) -> float:
         return float(written * self.answer.unit.in_mm) * (0.5 if self.answer.plane.diameters[axis] else 1)
 
-    def _written(self, at: Point) -> dict[str, Decimal]:
-        """A place as a guess has it."""
-        turned = zip(self.sketch.axes, at, self.answer.plane.diameters, strict=True)
-        scale = float(self.answer.unit.in_mm)
-        return {axis: Decimal(f"{value * (2 if is_turned else 1) / scale:.4f}") for axis, value, is_turned in turned}
-
-    def _picking(self, chosen: Listed) -> SketchProgram:
-        return as_program(self.sketch, {each.element: each.number for each in chosen.picks})
-
     def _solutions(self, several: Sequence[Listed], chosen: Listed | None) -> Iterator[SketchSolution]:
         for number, each in enumerate(several, 1):
             assert each.contour is not None
@@ -258,21 +265,18 @@ class _Reading:
             # The first element whose end no other solution has there tells it best.
             apart = {n: min(dist(at[head], other[head]) for other in others) for n, head in self.heads.items()}
             element = next((n for n, gap in apart.items() if gap > AGREEMENT), max(apart, key=lambda n: apart[n]))
-            place = self._written(at[self.heads[element]])
+            place = written_place(self.answer, at[self.heads[element]])
             yield SketchSolution(f"solution {number}", each.contour.elements, each is chosen, (element, place))
 
     # States --------------------------------------------------------------------------------------------------
 
     def _blamed(self) -> Iterator[tuple[str, float | None]]:
         """The names of the elements and corners that errors contradict, with the amount, mm."""
-        for finding in self.errors:
-            if finding.about is None or self.answer.status in (Status.UNDERDETERMINED, Status.AMBIGUOUS):
-                continue
-            for label in finding.labels:
-                field = self.program.field_at(label.span)
-                if field is not None and field[0]:
-                    name = f"corner {field[0]}" if field[1] == "corner" else self.sketch.name_of(field[0])
-                    yield name, finding.values.get("off_by_mm")
+        for finding in self.errors if self.answer.status not in _OPEN else ():
+            fields = (self.program.field_at(label.span) for label in finding.labels)
+            for number, name in (field for field in fields if field is not None and field[0]):
+                if isinstance(finding.about, RefusalKind):
+                    yield f"corner {number}" if name == "corner" else self.sketch.name_of(number), _amount(finding)
 
     def _loosely(self) -> Loose | None:
         spans = {label.span for finding in self.errors for label in finding.labels} if self.blamed else set()
@@ -284,126 +288,70 @@ class _Reading:
         self, answer: Answer, several: Sequence[Listed], chosen: Listed | None, loose: Loose | None
     ) -> Iterator[SketchPart]:
         """Every element and corner with its state."""
-        own = {each.name: each for each in answer.contour.elements} if answer.contour is not None else {}
-        drawn = own
-        if answer.contour is None:
-            trails = list_trails(answer, find_known(answer))
-            drawn = {segment.name: segment for trail in trails for segment in trail.segments}
-        shared = {name for name in drawn if _is_shared(name, several)} if several else {*drawn}
+        if answer.contour is not None:
+            drawn = {each.name: each for each in answer.contour.elements}
+        else:
+            drawn = {each.name: each for trail in list_trails(answer, find_known(answer)) for each in trail.segments}
+        shared = {name for name in drawn if not several or _is_shared(name, several)}
         completed = self._completed(loose, drawn)
         for number, element in enumerate(self.sketch.elements, 1):
-            name = self.sketch.name_of(number)
-            for part in (name, f"corner {number}") if element.corner else (name,):
-                segment, state, way = drawn.get(part), PartState.KNOWN, None
+            for part in (self.sketch.name_of(number), *([f"corner {number}"] if element.corner else [])):
+                segment, off = completed.get(part, drawn.get(part)), self.blamed.get(part)
                 if part in self.blamed:
-                    state, segment = PartState.CONTRADICTING, segment or completed.get(part)
-                elif chosen is not None:
-                    state = PartState.KNOWN if part in shared else PartState.GUESSED
-                elif several:
-                    state, segment = (state, segment) if part in shared else (PartState.UNKNOWN, None)
-                elif loose is not None and answer.contour is None:
-                    state = self._state(number, loose, segment)
-                    segment = None if state is PartState.UNKNOWN and not self.blamed else completed.get(part, segment)
-                    way = loose.ways.get(self.heads.get(number, "")) if part == name else None
-                elif segment is None:
-                    state = PartState.UNKNOWN
-                off = self.blamed.get(part)
-                if part in self.blamed and off is None and loose is not None:
-                    off = max(
-                        (off for given, off in loose.off_mm.items() if given.startswith(f"{number}:")), default=None
-                    )
-                yield SketchPart(part, number, state, segment, off, (way,) if way else ())
+                    state = PartState.CONTRADICTING
+                    off = off if off is not None or loose is None else loose.off_of(number)
+                elif answer.contour is None and loose is not None and not several:
+                    state = self._state(part, number, loose, drawn)
+                else:
+                    other = PartState.GUESSED if chosen is not None else PartState.UNKNOWN
+                    state = PartState.KNOWN if part in shared else other
+                is_placed = state is not PartState.UNKNOWN or bool(self.blamed)
+                ways = self._ways(part, number, loose) if loose and state is PartState.SLIDING else ()
+                yield SketchPart(part, number, state, segment if is_placed else None, off, ways)
 
-    def _state(self, number: int, loose: Loose, segment: Segment | None) -> PartState:
-        """The state of an element of a sketch that lacks something."""
+    def _ways(self, part: str, number: int, loose: Loose) -> tuple[tuple[Point, ...], ...]:
+        way = loose.ways.get(self.heads.get(number, ""))
+        return (way,) if way and not part.startswith("corner") else ()
+
+    def _state(self, part: str, number: int, loose: Loose, drawn: Mapping[str, Segment]) -> PartState:
+        """The state of an element, or of the corner behind it, of a sketch that has no contour."""
         path = self.answer.profile.figure.path
-        if number > len(path):
+        around = path[number - 1 : number + 1] if part.startswith("corner") else path[number - 1 : number]
+        if not around or (self.blamed and any(each.name in self.blamed or each.name not in drawn for each in around)):
             return PartState.UNKNOWN
-        element = path[number - 1]
-        ends = [element.tail, element.head, *([element.center] if isinstance(element, Arc) else [])]
+        ends = [end for each in around for end in (each.tail, each.head, getattr(each, "center", each.head))]
         freedom = max(loose.freedom.get(each, 0) for each in ends)
-        if not freedom and self.blamed and segment is None:
-            return PartState.UNKNOWN
         return (PartState.KNOWN, PartState.SLIDING, PartState.UNKNOWN)[min(freedom, 2)]
 
     def _completed(self, loose: Loose | None, drawn: Mapping[str, Segment]) -> dict[str, Segment]:
         """The lines and arcs of a loose drawing, with its corners where they fit."""
         if loose is None:
             return {}
-        plain: dict[str, Segment] = {}
-        elements = list[SketchElement]()
-        for given, element in zip(self.sketch.elements, self.answer.profile.figure.path, strict=False):
-            tail, head = loose.points[element.tail], loose.points[element.head]
-            words = self._exactly("{}", head)
-            if isinstance(element, Arc):
-                center = loose.points[element.center]
-                plain[element.name] = ArcSegment(
-                    element.name, tail, head, center, loose.radii[element.radius], element.turn
-                )
-                words |= self._exactly("CC{}", center)
-            elif dist(tail, head) > LENGTH:
-                plain[element.name] = LineSegment(element.name, tail, head)
-            elements.append(
-                SketchElement(
-                    given.kind, words, given.turn or "ccw" if given.kind == "arc" else None, corner=given.corner
-                )
-            )
+        plain = {each.name: each for each in drawn_plainly(self.answer.profile, loose)}
+        sketch = sketch_exactly(self.answer, self.sketch, loose)
+        corners = [None if f"corner {n}" in self.blamed else each.corner for n, each in enumerate(sketch.elements, 1)]
         contour = None
-        if any(each.corner for each in elements):
-            sketch = replace(self.sketch, elements=tuple(elements), facts=(), closed=False)
-            found = _examined(sketch, as_program(sketch), Depth.VERDICT)
+        if any(corners):
+            pairs = zip(sketch.elements, corners, strict=True)
+            found = examined(replace(sketch, elements=tuple(replace(each, corner=corner) for each, corner in pairs)))
             contour = found.contour if found is not None else None
-        return {**plain, **drawn} if contour is None else {each.name: each for each in contour.elements}
+        return {**plain, **drawn, **({each.name: each for each in contour.elements} if contour is not None else {})}
 
-    def _exactly(self, name: str, at: Point) -> dict[str, Value]:
-        """The words that put a point in a place."""
-        scale = float(self.answer.unit.in_mm)
-        turned = zip(self.sketch.axes, at, self.answer.plane.diameters, strict=True)
-        return {
-            name.format(axis): Decimal(f"{value * (2 if is_turned else 1) / scale:.10f}")
-            for axis, value, is_turned in turned
-        }
-
-    # What is missing -----------------------------------------------------------------------------------------
-
-    def _missing(self, loose: Loose | None, several: int) -> tuple[str, Iterable[SketchEntry]]:
-        """The missing entries, in one line, and the fields that would help."""
-        answer = self.answer
+    def _missing(self, loose: Loose | None, several: int, *, with_ranges: bool) -> tuple[str, tuple[SketchEntry, ...]]:
+        """The missing entries in one line, and one by one."""
         if several > 1:
-            return f"{several} contours fit: choose one, or guess where an element ends that they have apart", ()
+            return f"{several} contours fit: choose one, or guess where an element ends", ()
         unfinished = [each for each in self.errors if each.about is None]
-        if answer.status is Status.REJECTED and unfinished:
+        if self.answer.status is Status.REJECTED and unfinished:
             first = self._finding(unfinished[0])
-            return f"{first.message}: {first.help}", self._entries(())
-        if answer.status is not Status.UNDERDETERMINED:
+            return f"{first.message}: {first.help}", tried_entries(self.sketch, self.answer, ())
+        if self.answer.status is not Status.UNDERDETERMINED:
             return "", ()
-        claim, profile = answer.claim, answer.profile
-        system = assemble(profile)
-        verdict = analyse(system)
-        names = helping_words(claim, profile, absent_words(claim, profile, verdict.free))
-        fields = [(int(number), field) for number, _, field in (name.partition(":") for name in names)]
-        count = loose.missing if loose is not None and loose.missing else len(system.unknowns) - verdict.rank
-        lines: dict[int, list[str]] = {}
-        for number, field in sorted(fields[:_MOST_NAMED], key=lambda each: each[0]):
-            lines.setdefault(number, []).append(field)
-        told = [f"{either(own)} of {self.sketch.name_of(number)}" for number, own in lines.items()]
-        amount = f"{NUMBERS.get(count, count)} {'entry is' if count == 1 else 'entries are'} missing"
-        return f"{amount}: {', or '.join(told)}" if told else amount, self._entries(fields)
-
-    def _entries(self, fields: Iterable[Field]) -> Iterator[SketchEntry]:
-        """The fields that help, those first with which a number was tried."""
-        rows = self.sketch.control.modes.lexicon.addresses
-        found = dict.fromkeys(fields, SketchEntry(0, "", ""))
-        for fix in (fix for finding in self.answer.diagnostics for fix in finding.fixes):
-            places = [_place_of(each) for each in fix.numbers]
-            if places and (len(places) > 1 or places[0] not in found or not found[places[0]].example):
-                first, beside = fix.numbers[0], zip(places[1:], fix.numbers[1:], strict=True)
-                ranges = tuple(EntryRange(_number_in(each.low), _number_in(each.high)) for each in first.ranges)
-                told = tuple((place, _number_in(each.example)) for place, each in beside)
-                found[places[0]] = SketchEntry(0, "", "", _number_in(first.example), ranges, first.is_complete, told)
-        for (number, field), entry in sorted(found.items(), key=lambda each: not each[1].example):
-            meaning = rows[field].meaning if field in rows else "size of the corner"
-            yield replace(entry, number=number, field=field, meaning=meaning)
+        count, fields = missing_fields(self.answer, loose)
+        entries = tried_entries(self.sketch, self.answer, fields)
+        if with_ranges and loose is not None and count == 1:
+            entries = with_examples(self.sketch, self.answer, loose, entries)
+        return missing_text(self.sketch, count, fields), entries
 
     # Findings ------------------------------------------------------------------------------------------------
 
@@ -425,7 +373,7 @@ class _Reading:
         for fix in finding.fixes:
             changed = dict[int, SketchElement]()
             for line, text in fix.by_line(self.answer.lines).items():
-                element = element_of(text, self.sketch.control) if text and "\n" not in text else None
+                element = element_of(text, self.sketch) if text and "\n" not in text else None
                 if element is None or not 0 < line <= len(self.sketch.elements):
                     break
                 old = self.sketch.elements[line - 1]
@@ -444,6 +392,8 @@ class _Reading:
 
     def _told(self, text: str) -> str:
         """A sentence about a program as one about a drawing: its lines are the elements, by their names."""
+        for written, told in _CORNERS:
+            text = text.replace(written, told)
         text = _LINE.sub(lambda found: self._named(int(found["line"])), text)
         return _WORD.sub(lambda found: _WORDS[found[0]], text)
 
@@ -451,12 +401,19 @@ class _Reading:
         return self.sketch.name_of(number) if 0 < number <= len(self.sketch.elements) else "the start"
 
 
-_MOST_NAMED = 8
-"""Fields that the line about what is missing names."""
+_OPEN = (Status.UNDERDETERMINED, Status.AMBIGUOUS)
 
 _LINE = re.compile(r"program line (?P<line>-?\d+)")
+_CORNERS = (("RND R", "rounding "), ("CHF ", "chamfer "))
 _WORDS = {"FLT": "tangent", "FCT": "tangent", "DR+": "ccw", "DR-": "cw"}
 _WORD = re.compile(rf"(?<!\w)(?:{'|'.join(map(re.escape, _WORDS))})(?!\w)")
+
+
+def _amount(finding: Diagnostic) -> float | None:
+    """The amount, mm, by which a finding tells that something is off, or is too large."""
+    values = finding.values
+    found = values.get("off_by_mm", values.get("actual", 0.0) - values["limit"] if "limit" in values else None)
+    return found if found is not None and found > LENGTH else None
 
 
 def _is_shared(name: str, several: Sequence[Listed]) -> bool:
@@ -469,18 +426,3 @@ def _is_shared(name: str, several: Sequence[Listed]) -> bool:
 def _is_same(one: Segment, other: Segment) -> bool:
     centers = [each.center if isinstance(each, ArcSegment) else each.end for each in (one, other)]
     return max(dist(one.start, other.start), dist(one.end, other.end), dist(*centers)) <= AGREEMENT
-
-
-def _place_of(number: OpenNumber) -> Field:
-    """The field of a number that a fix leaves open."""
-    address = number.word.strip().rstrip("?").strip()
-    return number.line, "corner" if address in ("RND R", "CHF") else address
-
-
-def _number_in(word: str) -> str:
-    """The number of a word."""
-    found = _NUMBER.search(word)
-    return found[0] if found else ""
-
-
-_NUMBER = re.compile(r"[+-]?[\d.]+$")

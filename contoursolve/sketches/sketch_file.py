@@ -271,11 +271,12 @@ def plain_sketch(sketch: ContourSketch) -> dict[str, Any]:
     if sketch.facts:
         table["facts"] = [*sketch.facts]
     if sketch.elements:
-        table["element"] = [_plain_element(each) for each in sketch.elements]
+        table["element"] = [plain_element(each) for each in sketch.elements]
     return table
 
 
-def _plain_element(element: SketchElement) -> dict[str, Any]:
+def plain_element(element: SketchElement) -> dict[str, Any]:
+    """An element as a table with plain values; numbers are Decimal."""
     table: dict[str, Any] = {"kind": element.kind}
     if element.turn:
         table["turn"] = element.turn

@@ -55,6 +55,11 @@ class Loose(Struct, frozen=True):
     missing: int
     off_mm: Mapping[str, float]
 
+    def off_of(self, number: int) -> float | None:
+        """The largest amount by which a fact of an element is off; None where all are true."""
+        most = max((off for given, off in self.off_mm.items() if given.startswith(f"{number}:")), default=0.0)
+        return most if most > SAME else None
+
 
 def loosely_drawn(sketch: ContourSketch, profile: Profile, doubted: Iterable[str] = ()) -> Loose | None:
     """The drawing nearest to a natural one; facts by `doubted` givens hold as far as can be. None if none is found."""

@@ -61,6 +61,7 @@ from contoursolve.geometry import (
     Length,
     LengthIs,
     Level,
+    LiesOn,
     LineAt,
     Meeting,
     MeetsLine,
@@ -771,6 +772,7 @@ NAMES = "line 1", "line 2", "arc", "corner 1", "k"
 VALUE = st.integers(-9_999_999, 9_999_999).map(lambda thousandths: Decimal(thousandths) * Decimal("0.0254"))
 """mm: with few digits in inches, too."""
 NAME = st.sampled_from(NAMES)
+GIVEN = st.builds(CircleAt, st.tuples(VALUE, VALUE), VALUE.map(abs)) | st.builds(LineAt, st.tuples(VALUE, VALUE), VALUE)
 ALL_STATEMENTS = st.one_of(
     st.builds(PassesBeside, NAME, st.tuples(VALUE, VALUE), VALUE),
     st.builds(PassesThrough, NAME, st.tuples(VALUE, VALUE)),
@@ -781,13 +783,8 @@ ALL_STATEMENTS = st.one_of(
     st.builds(PointIs, st.sampled_from(("", "begin", "end", "center")), NAME, st.integers(0, 1), st.none() | VALUE),
     st.builds(EqualLengths, NAME, NAME),
     st.builds(EqualSizes, NAME, NAME),
-    st.builds(
-        Touches,
-        NAME,
-        NAME
-        | st.builds(CircleAt, st.tuples(VALUE, VALUE), VALUE.map(abs))
-        | st.builds(LineAt, st.tuples(VALUE, VALUE), VALUE),
-    ),
+    st.builds(Touches, NAME, NAME | GIVEN),
+    st.builds(LiesOn, st.sampled_from(("begin", "end", "center")), NAME, NAME | GIVEN),
     st.builds(MeetsLine, NAME, st.builds(Meeting, st.none(), st.none() | VALUE)),
     st.builds(MeetsLine, NAME, st.builds(Meeting, st.tuples(VALUE, VALUE), st.none())),
 )

@@ -1,12 +1,17 @@
 """What is known of a sketch: states, what is missing, guesses, contradictions; each through the public door."""
 
+import json
+from collections import Counter
 from decimal import Decimal
+from math import radians, tan
 from pathlib import Path
 
 import pytest
 from msgspec.structs import replace
 
 import contoursolve
+from contoursolve.diagnosis import Equations
+from contoursolve.program import Run
 
 EXAMPLES = Path(__file__).parents[1] / "sketches"
 
@@ -55,3 +60,158 @@ def test_what_a_drawing_gives_is_solved(name):
     is_guessed = len(found.solutions) > 1
     assert ("guessed" in states(found).values()) is is_guessed
     assert {*states(found).values()} <= {"known", "guessed"}
+
+
+def test_an_end_may_be_as_far_as_another_line():
+    lines = [{"X": 60, "Y": 10}, {"AN": 90, "LEN": 20}, {"AN": 180, "X": 30}, {"AN": -80}]
+    elements = [contoursolve.SketchElement("line", {n: Decimal(v) for n, v in each.items()}) for each in lines]
+    elements[-1] = replace(elements[-1], facts=("end of line 4 lies on line 1",))
+    found = contoursolve.solve_sketch(contoursolve.ContourSketch("milled", tuple(elements), {"X": 0, "Y": 0}))
+    x, y = found.elements[-1].segment.end
+    assert y == pytest.approx(x / 6)
+    assert (30 - y) / (x - 30) == pytest.approx(tan(radians(80)))
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "fields", "status", "code", "wrong", "off"),
+    [
+        ("turned_shaft", 3, {"LEN": 30}, "conflicting", "words-conflict", {"line 3"}, 30 - 20 * 2**0.5),
+        ("turned_shaft", 3, {"corner": contoursolve.SketchCorner("rounding", Decimal(60))}, "no-solution",
+         "corner-too-large", {"corner 3"}, 60 - 10 / tan(radians(22.5))),
+        ("fk_two_circles", 3, {"X": 98, "Y": 0}, "conflicting", "fact-conflict", {"arc 3"}, 5.0),
+        ("guessed_meeting", 2, {"R": 3}, "no-solution", "no-point", {"line 1", "arc 2"}, None),
+        ("milled_slot", 2, {"R": 7}, "conflicting", None, None, 1.0),
+        ("fk_cam", 2, {"turn": None}, "rejected", "drawing-sense", set(), None),
+        ("milled_distances", 4, {"P1Y": None}, "rejected", "drawing-point-1", set(), None),
+        ("milled_plate", 2, {"facts": ("chord of line 9 = 3",)}, "rejected", "fact-unreadable", set(), None),
+        ("milled_plate", 2, {"facts": ("chord of line 2 = 3",)}, "rejected", "fact-impossible", set(), None),
+        ("milled_distances", 3, {"PAR": 7}, "rejected", "drawing-block-missing", set(), None),
+        ("turned_ball", 1, {"PR": 7}, "rejected", "drawing-pole-missing", set(), None),
+    ],
+)  # fmt: skip
+def test_a_contradiction_is_told_with_its_amount(name, number, fields, status, code, wrong, off):
+    found = contoursolve.solve_sketch(changed(sketch(name), number, **fields))
+    assert found.status == status
+    assert not found.is_finished
+    assert code is None or any(each.code == code and each.fields for each in found.findings)
+    contradicting = {each.name: each.off_mm for each in found.elements if each.state.value == "contradicting"}
+    assert wrong is None or {*contradicting} == wrong
+    if off is not None:
+        assert off == pytest.approx(max(each or 0 for each in contradicting.values()), abs=1e-3)
+    assert not any("program line" in each.message + each.help for each in found.findings)
+
+
+def test_what_is_said_twice_is_told():
+    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 3, LEN="28.284"))
+    assert found.status == "overdetermined"
+    assert found.is_finished
+    assert [(each.code, each.fields) for each in found.findings] == [("drawing-redundant", ((3, "LEN"),))]
+
+
+def test_fixes_are_changes_of_fields():
+    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 3, LEN=30), with_ranges=True)
+    fixes = [fix for each in found.findings for fix in each.fixes]
+    assert len(fixes) > 2
+    for fix in fixes:
+        elements = [fix.elements.get(number, each) for number, each in enumerate(found.sketch.elements, 1)]
+        assert contoursolve.solve_sketch(replace(found.sketch, elements=tuple(elements))).is_finished
+
+
+def test_a_corner_waits_for_the_next_element():
+    corner = contoursolve.SketchCorner("rounding", Decimal(6))
+    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 4, corner=corner))
+    assert found.missing.startswith("corner 4 needs an element behind it")
+    assert not found.is_finished
+    assert states(found)["line 4"] == "known"
+
+
+def test_ways_and_entries_of_what_is_missing():
+    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 3, X=None), with_ranges=True)
+    assert found.missing == "one entry is missing: Z, X, LEN, IZ or IX of line 3, or X, LEN or IZ of line 4"
+    sliding = {name for name, state in states(found).items() if state == "sliding"}
+    assert sliding == {"line 3", "corner 3", "line 4"}
+    assert {state for name, state in states(found).items() if name not in sliding} == {"known"}
+    (way,) = next(each.ways for each in found.elements if each.name == "line 3")
+    # Along its direction, and no way back behind its begin.
+    assert all(x - 20 == pytest.approx(-30 - z) and z <= -30 for z, x in way)
+    entries = {(each.number, each.field): each for each in found.entries}
+    assert [(each.low, each.high) for each in entries[3, "X"].ranges] == [("41.172", "98.343")]
+    assert all(each.example for each in found.entries)
+    for each in found.entries:
+        assert contoursolve.solve_sketch(changed(found.sketch, each.number, **{each.field: each.example})).is_finished
+
+
+@pytest.mark.parametrize("name", [name for name in sorted(ENDS) if name.startswith("guessed") or "ball" in name])
+def test_a_guess_chooses_and_is_no_dimension(name):
+    bare = sketch(name)
+    bare = replace(bare, elements=tuple(replace(each, guess={}) for each in bare.elements))
+    found = contoursolve.solve_sketch(bare)
+    assert found.status == "ambiguous"
+    assert len(found.solutions) == 2
+    for number, solution in enumerate(found.solutions):
+        element, place = solution.guess
+        again = contoursolve.solve_sketch(changed(bare, element, guess=place))
+        assert [each.is_chosen for each in again.solutions] == [n == number for n in range(2)]
+        assert again.program == found.program
+        assert [each.segment for each in again.elements] == [
+            next((each for each in solution.segments if each.name == part.name), None) for part in again.elements
+        ]
+    equal = contoursolve.solve_sketch(changed(sketch("guessed_length"), 1, guess={"X": Decimal(0)}))
+    assert equal.remarks == ("two solutions are equally near to the guess: put it nearer to one of them",)
+    unused = contoursolve.solve_sketch(sketch("milled_chord"))
+    assert unused.remarks == ("the guess is not used: what is given has one solution",)
+
+
+@pytest.mark.parametrize("name", sorted(ENDS))
+def test_every_state_of_typing_has_an_answer(name):
+    whole = sketch(name)
+    for count in range(len(whole.elements) + 1):
+        part = replace(whole, elements=whole.elements[:count])
+        for number in range(len(part.elements[-1].words) + 1 if count else 1):
+            words = dict([*part.elements[-1].words.items()][:number]) if count else {}
+            last = [replace(part.elements[-1], words=words)] if count else []
+            found = contoursolve.solve_sketch(replace(part, elements=(*part.elements[:-1], *last)))
+            assert found.is_finished or found.missing or found.findings
+            assert len(found.elements) >= count
+    assert contoursolve.solve_sketch(replace(whole, start={})).missing.startswith("where it begins is missing")
+
+
+def test_the_order_of_fields_changes_nothing():
+    for name in ENDS:
+        whole = sketch(name)
+        turned = [replace(each, words=dict([*each.words.items()][::-1])) for each in whole.elements]
+        other = contoursolve.solve_sketch(replace(whole, elements=tuple(turned)))
+        assert other.elements == contoursolve.solve_sketch(whole).elements
+
+
+def test_a_page_is_told_all_as_plain_data():
+    for whole in (
+        changed(sketch("turned_shaft"), 3, X=None),
+        changed(sketch("turned_shaft"), 3, LEN=30),
+        sketch("guessed_length"),
+    ):
+        view = contoursolve.sketch_view(whole)
+        assert json.loads(json.dumps(view)) == view
+        found = contoursolve.solve_sketch(whole)
+        assert [each["state"] for each in view["elements"]] == [each.state.value for each in found.elements]
+        roles = {"sliding": "s-free", "contradicting": "s-conflicting", "guessed": "s-guessed", "known": "s-ink"}
+        for state in {*states(found).values()} & roles.keys():
+            assert f'class="{roles[state]}"' in view["picture"]
+        assert 'data-element="line 1"' in view["picture"]
+
+
+def test_a_key_costs_little():
+    """A chain of 12 elements that lacks one entry: evaluations of its equations, and solved programs."""
+    whole = sketch("turned_shaft")
+    steps = [{"AN": 180, "Z": -10 * n} if n % 2 else {"AN": 135, "X": 30 + 9 * n} for n in range(1, 13)]
+    del steps[4]["Z"]
+    elements = [contoursolve.SketchElement("line", {n: Decimal(v) for n, v in each.items()}) for each in steps]
+    counts = Counter[str]()
+    with pytest.MonkeyPatch.context() as patch:
+        for owner, name in ((Equations, "slopes"), (Run, "collect")):
+            original = getattr(owner, name)
+            patch.setattr(owner, name, lambda *a, _f=original, _n=name: (counts.update([_n]), _f(*a))[1])
+        found = contoursolve.solve_sketch(replace(whole, elements=tuple(elements), start={"Z": 0, "X": 30}))
+    assert found.missing.startswith("one entry is missing")
+    assert counts["slopes"] <= 150
+    assert counts["collect"] <= 2

@@ -11,7 +11,7 @@ from functools import partial
 from contoursolve.controls.drawing.rules import drawing_rules
 from contoursolve.controls.heidenhain.find import find
 from contoursolve.controls.heidenhain.follow import follow
-from contoursolve.controls.heidenhain.lexicon import CODES, PlaneWords, rows_of, spelling
+from contoursolve.controls.heidenhain.lexicon import CODES, OF_CORNERS, OF_SENSES, PlaneWords, rows_of, spelling
 from contoursolve.controls.plain import LATHE, PLANES
 from contoursolve.diagnostics import OWN, Evidence, Source
 from contoursolve.gcode import Block, Word
@@ -42,7 +42,7 @@ def _drawing(part: str, plane: Plane, words: PlaneWords) -> Dialect:
     modes = Modes(
         *(lexicon, CODES, words.axes, frozenset()),
         settings={"suspicions": "off"},
-        syntax=spelling("drawing", words),
+        syntax=spelling("drawing", words, rf"{OF_SENSES}|CC?W(?!\w)", rf"{OF_CORNERS}|(?:ROUNDING|CHAMFER)[ \t]++"),
         follow=follow,
     )
     return Dialect(

@@ -410,7 +410,7 @@ def _corner_circumstances(members: Sequence[ChainMember], number: int) -> Iterat
     pair = members[number - 1 : number + 1]
     has_corner = bool(pair[0].corners)
     holds = {
-        FIRST_CORNER: has_corner and pair[0].corners[0][1] is pair[0].block,
+        FIRST_CORNER: has_corner and pair[0].corners[0][1] is pair[0].block and pair[0].function not in FREE,
         LAST_CORNER: has_corner and len(pair) == 1,
         CORNERED: has_corner or (number > 1 and bool(members[number - 2].corners)),
         AT_ARC: has_corner and any(each.function not in STRAIGHT for each in pair),

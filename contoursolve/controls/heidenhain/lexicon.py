@@ -146,19 +146,24 @@ def _value(prefix: str) -> str:
     return rf"(?:(?P<{prefix}_number>{_NUMBER})(?![\d.,\w])|[+-]?+Q[LRS]?+\d++|(?P<{prefix}_asked>\?))"
 
 
+_SENSES = {"CW": ("DR", "-1", False), "CCW": ("DR", "+1", False)}
+"""Senses as drawings have them."""
+
+
 def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
     """The parts of a word; a comma stands for a point, and a sign alone for 1."""
     found = token.groupdict()
     if found["label"] is not None:
         return "N", found["label"].strip().lstrip("Nn"), False
     if found["sense"] is not None:
-        return found["sense"].upper(), f"{found['sign'] or '+'}1", False
+        turned = _SENSES.get(found["sense"].upper())
+        return turned or (found["sense"].upper(), f"{found['sign'] or '+'}1", False)
     if found["feed"] is not None:
         return found["feed"][0].upper(), None, False
     kind = next(kind for kind in ("long", "corner", "letter", "foreign") if found[kind] is not None)
     address, number = found[kind].upper(), found[f"{kind}_number"]
     if kind == "corner":
-        address = ROUNDING if address.startswith("RND") else CHAMFER
+        address = ROUNDING if address.startswith("R") else CHAMFER
     return address, number and number.replace(",", "."), found[f"{kind}_asked"] is not None
 
 
@@ -169,7 +174,12 @@ BLOCK_NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
 """The begin of a statement: its sign to skip it and its number, if any."""
 
 
-def spelling(name: str, words: PlaneWords) -> Syntax:
+OF_SENSES = r"DR(?=[ \t]*+[+-])|CLSD(?!\w)"
+OF_CORNERS = r"RND(?![A-Z])[ \t]*+R[ \t]*+|CHF(?![A-Z])[ \t]*+(?!R)"
+"""Words with a sign alone, and those of corners."""
+
+
+def spelling(name: str, words: PlaneWords, senses: str = OF_SENSES, corners: str = OF_CORNERS) -> Syntax:
     """The spelling of blocks with these words: letters and a number without an equals sign, comments behind a
     semicolon, a number before each block."""
     long = _long(words)
@@ -184,10 +194,10 @@ def spelling(name: str, words: PlaneWords) -> Syntax:
     )
     each_word = (
         r"(?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))",
-        r"(?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)",
+        rf"(?P<sense>{senses})[ \t]*+(?P<sign>[+-]?+)",
         rf"(?P<feed>F[ \t]*+(?:AUTO|MAX)\b|F[UZ][ \t]*+{_NUMBER}|M[BT][ \t]*+(?:MAX|{_NUMBER}))",
         rf"(?P<long>{long})[ \t]*+{_value('long')}",
-        rf"(?P<corner>RND(?![A-Z])[ \t]*+R[ \t]*+|CHF(?![A-Z])[ \t]*+(?!R)){_value('corner')}",
+        rf"(?P<corner>{corners}){_value('corner')}",
         # R0 is no radius: it ends the compensation.
         rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?!(?!Q[LRS]?\d)[A-Z])[ \t]*+{_value('letter')}",
         # Such as LEM20 or ANG=30: no word of Klartext.

@@ -17,6 +17,7 @@ from contoursolve.geometry.statements.statement import (
     EqualLengths,
     EqualSizes,
     LengthIs,
+    LiesOn,
     LineAt,
     Meeting,
     MeetsLine,
@@ -111,6 +112,12 @@ class _Reader:
         quantity = self._quantity()
         if quantity is not None:
             return self._equation(quantity)
+        part = self._part()
+        if part:
+            element = self._element("an element")
+            if not any(map(self._accept, _LYING)):
+                raise self._error("`lies on`")
+            return LiesOn(part, element, self.touched())
         element = self._element("an element, or a quantity such as `length of`, `radius of`, `Z of`")
         for row in _RELATIONS:
             if any(map(self._accept, row.verbs)):
@@ -300,6 +307,10 @@ class _Reader:
         return GrammarError(f"expected {expected}, found {found}", self.at, rest.end() if rest else self.at)
 
 
+_LYING = ("lies on", "is on")
+"""The verb that says of a part of an element where it lies, as it is written first."""
+
+
 class _Relation(Struct, frozen=True):
     """A verb that says something of an element: what stands behind it, as it is written first, and what follows."""
 
@@ -324,6 +335,8 @@ def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
         element, *objects = astuple(statement)
         texts = (_object(each, plane, unit) for each in objects if each is not None)
         return " ".join([element, relation.verbs[0], *texts])
+    if isinstance(statement, LiesOn):
+        return f"{statement.part} of {statement.of} {_LYING[0]} {_object(statement.on, plane, unit)}"
     if isinstance(statement, EqualLengths | EqualSizes):
         what = next(row.begins[0] for row in _MEASURES if row.equal is type(statement))
         return f"{what} {statement.first} = {what} {statement.second}"

@@ -7,7 +7,7 @@ is None is asked for instead of stated. `state` adds the equations to a draft un
 from decimal import Decimal
 
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from contoursolve.geometry.fact import Fact
 from contoursolve.geometry.figure import Arc, Corner, CornerShape, Line
@@ -175,6 +175,27 @@ class PassesBeside(Statement, frozen=True):
         element = _whole(draft, self.element)
         around = draft.around(name, draft.place(f"{name}.place", self.place), self.distance)
         return _named(draft, put_beside(element, around.center, around.radius, f"{name}.side", name))
+
+
+class LiesOn(Statement, frozen=True):
+    """The begin, the end or the center of an element lies on another element, or on the line or circle that it is part
+    of: a line that is drawn as far as another one."""
+
+    part: str
+    """`begin`, `end` or `center`."""
+    of: str
+    on: str | CircleAt | LineAt
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        point = draft.point(self.part, self.of)
+        if isinstance(self.on, CircleAt):
+            return _named(draft, put_on(draft.circle(name, self.on.center, self.on.radius), point, name))
+        if isinstance(self.on, LineAt):
+            return _named(draft, put_on(draft.line(draft.given_line(f"{name}.line", *astuple(self.on))), point, name))
+        element = draft.element(self.on)
+        if point in (getattr(element, "tail", ""), getattr(element, "head", "")):
+            raise StatementError(f"the {self.part} of {self.of} lies on {self.on} whatever the drawing gives")
+        return _named(draft, put_on(_whole(draft, self.on), point, name))
 
 
 class ParallelTo(Statement, frozen=True):

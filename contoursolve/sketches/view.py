@@ -1,0 +1,121 @@
+"""A sketch as a page shows it: all that is known of it as plain data, and its picture."""
+
+from collections.abc import Iterator, Mapping
+from decimal import Decimal
+from itertools import pairwise
+from typing import Any
+
+from contoursolve.diagnosis import length_text
+from contoursolve.diagnostics import plain
+from contoursolve.pictures import (
+    Mark,
+    MarkKind,
+    Part,
+    Picture,
+    Role,
+    TextRun,
+    Theme,
+    Trail,
+    Weight,
+    draw_sketched,
+    middle,
+)
+from contoursolve.sketches.known_part import PartState, SketchAnswer, SketchFinding, solve_sketch
+from contoursolve.sketches.sketch import ContourSketch
+from contoursolve.sketches.sketch_file import plain_element
+from contoursolve.solving import ArcSegment, LineSegment, Segment
+
+_ROLES = {
+    PartState.KNOWN: Role.INK,
+    PartState.SLIDING: Role.FREE,
+    PartState.CONTRADICTING: Role.CONFLICTING,
+    PartState.GUESSED: Role.GUESSED,
+    PartState.UNKNOWN: Role.MUTED,
+}
+
+
+def draw_sketch(found: SketchAnswer, *, theme: Theme = Theme.LIGHT) -> Picture | None:
+    """The picture of what is known of a sketch; None where nothing is. What is known is solid, what slides is dashed
+    with its way, what contradicts has its amount, what a guess has chosen is dotted."""
+    if found.answer is None:
+        return None
+    title = found.missing or f"sketch: {found.status}"
+    return draw_sketched(found.answer, [*_drawn(found)], title, " ".join(_told(found)), theme=theme)
+
+
+def _drawn(found: SketchAnswer) -> Iterator[Part]:
+    assert found.answer is not None
+    for each in found.elements:
+        role = _ROLES[each.state]
+        for number, way in enumerate(each.ways):
+            pieces = (LineSegment(f"way {number}", *ends) for ends in pairwise(way))
+            yield Trail(tuple(pieces), role, Weight.GHOST)
+        if each.segment is not None:
+            yield Trail((each.segment,), role)
+        if each.segment is not None and each.off_mm is not None:
+            text = f"off by {length_text(each.off_mm, found.answer.unit)}"
+            yield Mark(middle(each.segment)[0], MarkKind.OTHER, (TextRun(text, role),), role=role)
+
+
+def _told(found: SketchAnswer) -> Iterator[str]:
+    assert found.answer is not None
+    for each in found.elements:
+        off = f", off by {length_text(each.off_mm, found.answer.unit)}" if each.off_mm is not None else ""
+        yield f"{each.name}: {each.state.value}{off}."
+    yield from (f"{each[0].upper()}{each[1:]}." for each in (found.missing, *found.remarks) if each)
+
+
+def sketch_view(sketch: ContourSketch, *, with_ranges: bool = False, theme: Theme = Theme.PAGE) -> dict[str, Any]:
+    """All that is known of a sketch, and its picture as SVG, as plain data; numbers of fields are texts."""
+    found = solve_sketch(sketch, with_ranges=with_ranges)
+    picture = draw_sketch(found, theme=theme)
+    return {
+        "status": found.status,
+        "is_finished": found.is_finished,
+        "axes": [*sketch.axes],
+        "diameters": [*sketch.control.plane.diameters],
+        "program": found.program.text,
+        "start": found.program.start,
+        "elements": [plain(each) | {"segment": each.segment and _segment(each.segment)} for each in found.elements],
+        "missing": found.missing,
+        "remarks": [*found.remarks],
+        "entries": plain(found.entries),
+        "findings": [_finding(each) for each in found.findings],
+        "solutions": [
+            {
+                "name": each.name,
+                "segments": [*map(_segment, each.segments)],
+                "is_chosen": each.is_chosen,
+                "guess": {"number": each.guess[0], "place": _texts(each.guess[1])},
+            }
+            for each in found.solutions
+        ],
+        "picture": picture.svg if picture is not None else "",
+    }
+
+
+def _finding(finding: SketchFinding) -> dict[str, Any]:
+    fixes = [
+        {"title": each.title, "elements": {str(n): _texts(plain_element(now)) for n, now in each.elements.items()}}
+        for each in finding.fixes
+    ]
+    told: dict[str, Any] = plain(finding)
+    return told | {"fixes": fixes}
+
+
+def _segment(segment: Segment) -> dict[str, Any]:
+    """A line or an arc; places in mm, X as radius."""
+    told: dict[str, Any] = {"name": segment.name, "kind": "line", "start": segment.start, "end": segment.end}
+    if isinstance(segment, ArcSegment):
+        turn = segment.turn.value
+        told |= {"kind": "arc", "center": segment.center, "radius": segment.radius, "turn": turn}
+    return {name: plain(value) for name, value in told.items()}
+
+
+def _texts(value: Any) -> Any:
+    """Plain data in which numbers are texts, with the digits that they have."""
+    if isinstance(value, Decimal):
+        return f"{value:f}"
+    if isinstance(value, Mapping):
+        return {name: _texts(each) for name, each in value.items()}
+    return value
