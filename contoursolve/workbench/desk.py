@@ -8,9 +8,10 @@ import base64
 import binascii
 import logging
 from codecs import BOM_UTF8
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from secrets import token_hex
 from threading import Lock
 from typing import Any
 
@@ -21,7 +22,7 @@ from contoursolve.controls import DIALECTS, ChainFinder
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import Blocks
 from contoursolve.output import notebook_style
-from contoursolve.program import find_settings, likely_fixes, mend_open, safe_fixes
+from contoursolve.program import likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import ActionError, Data, read_field
 from contoursolve.workbench.files import ENCODINGS, FileConflictError, FileText, Folder, safe_name, text_of
@@ -29,9 +30,11 @@ from contoursolve.workbench.open_view import ProgramView
 
 logger = logging.getLogger(__name__)
 
-MOST_WINDOWS, MOST_PROGRAMS, MOST_EXAMINED = 32, 16, 8
-"""Windows that are known, programs that each has, and programs of all windows of which more than the text is kept. The
-oldest go first; a page opens them again with its own text."""
+MOST_WINDOWS, MOST_PROGRAMS = 32, 16
+"""Windows that are known, and programs that each has. The oldest go first; a page opens them again with its text."""
+
+MOST_EXAMINED, MOST_LINES = 8, 200_000
+"""Programs of all windows, and their lines, that stay examined: 10,000 lines take 40 MB."""
 
 
 class PageWindow:
@@ -39,7 +42,7 @@ class PageWindow:
 
     def __init__(self) -> None:
         self.programs: dict[str, ProgramView] = {}
-        self.opened, self.may_write = 0, True
+        self.may_write, self.busy = True, 0
 
 
 class Desk:
@@ -56,6 +59,8 @@ class Desk:
         self.folder = Folder(folder) if folder is not None else None
         self.first, self.can_unlock = first, can_unlock
         self._windows: dict[str, PageWindow] = {}
+        self._examined: dict[str, tuple[PageWindow, ProgramView]] = {}
+        """The programs that may be examined, the newest last."""
         self._lock = Lock()
 
     def answer(self, action: Mapping[str, Any], *, may_write: bool = True) -> Data:
@@ -66,9 +71,9 @@ class Desk:
                 raise ActionError(f"nothing is called {do!r} here")
             if do in WRITING and not may_write:
                 raise ActionError("this window may only read; your text is still here")
-            window = self._window(action)
-            window.may_write = may_write
-            return ACTIONS[do](self, window, action)
+            with self._window(action) as window:
+                window.may_write = may_write
+                return ACTIONS[do](self, window, action)
         except FileConflictError as error:
             return {"trouble": str(error), "conflict": error.mark}
         except ActionError as error:
@@ -79,15 +84,32 @@ class Desk:
             logger.exception("%s", do)
             return {"trouble": f"{do} did not work: {type(error).__name__}: {error}; please report it"}
 
-    def _window(self, action: Mapping[str, Any]) -> PageWindow:
-        """The window of an action, the newest from now on."""
+    @contextmanager
+    def _window(self, action: Mapping[str, Any]) -> Iterator[PageWindow]:
+        """The window of an action, the newest from now on; afterwards, the oldest programs are put to rest."""
         name = str(action.get("window", ""))[:_LONGEST_NAME]
         with self._lock:
             window = self._windows.pop(name, None) or PageWindow()
             self._windows[name] = window
+            window.busy += 1
             while len(self._windows) > MOST_WINDOWS:
                 del self._windows[next(iter(self._windows))]
-        return window
+        try:
+            yield window
+        finally:
+            with self._lock:
+                window.busy -= 1
+                self._rest()
+
+    def _rest(self) -> None:
+        lines = sum(view.line_count for _, view in self._examined.values())
+        for number, (window, view) in [*self._examined.items()][:-1]:
+            if len(self._examined) <= MOST_EXAMINED and lines <= MOST_LINES:
+                break
+            if not window.busy:
+                lines -= view.line_count
+                view.rest()
+                del self._examined[number]
 
     def program(self, window: PageWindow, action: Mapping[str, Any]) -> ProgramView:
         """The program of an action, the newest of its window from now on. Raises ActionError."""
@@ -95,22 +117,32 @@ class Desk:
         found = window.programs.pop(number, None)
         if found is None:
             raise ActionError("the workbench does not have this program any more; open it again", is_gone=True)
-        window.programs[number] = found
+        self._keep(window, found)
         return found
+
+    def _keep(self, window: PageWindow, view: ProgramView) -> None:
+        """Take a program for the newest of its window, and of all."""
+        window.programs[view.number] = view
+        while len(window.programs) > MOST_PROGRAMS:
+            self.close(window, next(iter(window.programs)))
+        with self._lock:
+            self._examined.pop(view.number, None)
+            self._examined[view.number] = window, view
 
     def add(self, window: PageWindow, file: FileText, control: str | None) -> ProgramView:
         """Another program of a window."""
-        window.opened += 1
         path = self.folder.path / file.name if self.folder is not None else None
-        view = ProgramView(str(window.opened), file, control, self.settings(), path)
-        window.programs[view.number] = view
-        while len(window.programs) > MOST_PROGRAMS:
-            del window.programs[next(iter(window.programs))]
+        # No page may take it for one that it has from a desk before.
+        view = ProgramView(token_hex(8), file, path)
+        view.configure(control)
+        self._keep(window, view)
         return view
 
-    def settings(self) -> dict[str, str]:
-        """The settings of the project file of the folder. Raises SettingError."""
-        return find_settings(self.folder.path) if self.folder is not None else {}
+    def close(self, window: PageWindow, number: str) -> None:
+        """Forget a program of a window."""
+        with self._lock:
+            window.programs.pop(number, None)
+            self._examined.pop(number, None)
 
     def files(self) -> Folder:
         """The folder. Raises ActionError where there is none."""
@@ -243,7 +275,7 @@ def _check_seq(program: ProgramView, action: Mapping[str, Any]) -> None:
 
 def _set_control(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     program = desk.program(window, action)
-    program.configure(_control_of(action), desk.settings())
+    program.configure(_control_of(action))
     return program.view(is_whole=True)
 
 
@@ -306,8 +338,8 @@ def _make(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     return answer_with(action["do"], desk.program(window, action), action)
 
 
-def _close(_desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    window.programs.pop(str(action.get("program", "")), None)
+def _close(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    desk.close(window, str(action.get("program", "")))
     return {}
 
 

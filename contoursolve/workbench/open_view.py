@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import rank
 from contoursolve.diagnostics import Diagnostic, Fix, Severity, Span, UserError
+from contoursolve.notebook import project_settings
 from contoursolve.output import effect_of
 from contoursolve.program import CONTROL, OpenProgram, changes_of
 from contoursolve.solving import Status
@@ -38,13 +39,13 @@ class OldEditError(UserError, ValueError):
 class ProgramView:
     """One program of a window. `seq` counts its texts; `view` is what a page does not have yet."""
 
-    def __init__(
-        self, number: str, file: FileText, control: str | None, settings: Mapping[str, str], path: Path | None
-    ) -> None:
-        self.path = path
-        """The place of its file, beside which are subprograms and the project file; None without a folder."""
-        self.number, self.seq, self.file = number, 0, replace(file, text="")
-        self.control, self.settings = control, settings
+    def __init__(self, number: str, file: FileText, path: Path | None) -> None:
+        self.number, self.seq, self.file, self.path = number, 0, replace(file, text=""), path
+        """The path is that of its file, beside which are subprograms and the project file; None without a folder."""
+        self.control: str | None = None
+        self.settings: Mapping[str, str] = {}
+        self._project = ""
+        """The trouble with the project file, if there is any."""
         self._text = file.text
         self._program: OpenProgram | None = None
         self.explored: Explored | None = None
@@ -80,10 +81,19 @@ class ProgramView:
         if self._program is not None:
             self._text, self._program, self.explored, self._shown = self._program.text, None, None, {}
 
-    def configure(self, control: str | None, settings: Mapping[str, str]) -> None:
-        """Read it as a program for this control; None is the one that it shows."""
-        self.control, self.settings = control, settings
-        self.program.configure(control, settings)
+    def configure(self, control: str | None) -> None:
+        """Read it as a program for this control, or, with None, for the one that it shows; by the settings of the
+        project file as that is now."""
+        found = project_settings(self.path)
+        self._project, self.settings = (found, {}) if isinstance(found, str) else ("", found)
+        self.control = control
+        if self._program is not None:
+            self._program.configure(control, self.settings)
+
+    @property
+    def line_count(self) -> int:
+        """The number of lines that are examined; 0 while it rests."""
+        return len(self._program.blocks) if self._program is not None else 0
 
     # Text --------------------------------------------------------------------------------------------------------
 
@@ -201,7 +211,7 @@ class ProgramView:
             "has_changes": self.has_changes,
             "control": {"name": dialect.name, "title": dialect.title} if dialect is not None else None,
             "control_from": self._source(),
-            "trouble_control": program.trouble,
+            "trouble_control": "; ".join(filter(None, (self._project, program.trouble))),
             "lines": len(program.blocks),
             "examined": program.examined,
             "counts": {

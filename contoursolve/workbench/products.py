@@ -151,7 +151,7 @@ def _dxf(view: ProgramView, _: Mapping[str, Any]) -> Data:
 
         drawn = drawing_for_cad(view.program.result(), _stated(view))
     if drawn is None:
-        raise ActionError("no contour is solved, so that there is nothing to draw")
+        raise ActionError("no contour is solved, so that nothing can be drawn")
     return _file(view, ".dxf", *drawn)
 
 

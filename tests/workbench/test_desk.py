@@ -10,6 +10,7 @@ import contoursolve
 from contoursolve.controls import DIALECTS
 from contoursolve.pictures import Theme
 from contoursolve.workbench import Desk
+from contoursolve.workbench.desk import MOST_EXAMINED
 from contoursolve.workbench.open_view import ProgramView
 
 BROKEN = b"%\r\nO1\r\n\r\nG00 X40. Z0.\r\n  G111 X100. A180. K-30. B120. P60. \r\nM30\n"
@@ -112,3 +113,33 @@ def test_the_variables_of_a_subprogram_have_fields_and_their_values_show_what_it
     assert asked["contours"][0]["status"] == "underdetermined"
     assert page.ask("variables", values={"#1": 100.0, "#2": 120})["contours"][0]["status"] == "solved"
     assert "there is no variable" in page.ask("variables", values={"nothing": 1})["trouble"]
+
+
+def test_programs_that_nobody_has_used_lately_rest_and_come_back_as_they_were(monkeypatch):
+    desk = Desk()
+    pages = [Page(desk, f"window {number}") for number in range(2 * MOST_EXAMINED)]
+    for page in pages:
+        page.ask("open", name="a.nc", text=BROKEN.decode())
+        page.type("P60.", "P5.")
+    resting = [each for window in desk._windows.values() for each in window.programs.values() if not each.line_count]
+    assert len(resting) == MOST_EXAMINED
+    for page in pages:
+        seen = page.ask("view")
+        assert (seen["text"], seen["has_changes"], seen["seq"]) == (page.text, True, 1)
+        assert page.type("P5.", "P60.")["counts"]["errors"] == 1
+    # A page that comes back has its own programs, and never one of another desk.
+    other = Page(Desk())
+    other.ask("open", name="b.nc", text="M30")
+    assert Page(other.desk).ask("view", program=pages[0].program)["is_gone"]
+
+
+def test_a_project_file_that_is_wrong_is_told_and_keeps_no_program_closed(tmp_path):
+    (tmp_path / "contoursolve.toml").write_text('control = "none"\n')
+    (tmp_path / "a.nc").write_bytes(BROKEN)
+    page = Page(Desk(tmp_path))
+    assert "none" in page.ask("open", name="a.nc")["trouble_control"]
+    assert page.ask("control", control="yasnac-lx3")["counts"]["errors"] == 1
+    (tmp_path / "contoursolve.toml").write_text('control = "yasnac-lx3"\n')
+    assert page.ask("control", control=None)["control_from"] == "project file"
+    (tmp_path / "contoursolve.toml").write_text("nothing = [")
+    assert page.ask("open", name="a.nc")["trouble_control"]

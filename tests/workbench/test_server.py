@@ -29,7 +29,7 @@ class Served:
             text=True,
             env={**os.environ, "PYTHONUNBUFFERED": "1", **environment},
         )
-        printed = ""
+        self.programs, printed = {}, ""
         while "Ctrl-C" not in printed:
             line = self.process.stdout.readline()
             assert line, self.process.stderr.read()
@@ -48,9 +48,12 @@ class Served:
     def ask(self, do, window="a", headers=None, **fields):
         """The status and the reply of an action."""
         own = {"Content_Type": "application/json", "X_Token": self.token, **(headers or {})}
+        fields = {"program": self.programs.get(window), **fields}
         body = json.dumps({"window": window, "do": do, **fields}).encode()
         status, _, data = self.send("POST", "/ask", body, **own)
         reply = json.loads(data)
+        if do == "open":
+            self.programs[window] = reply.get("id")
         while reply.get("examined", 0) < reply.get("lines", 0):
             more = self.ask("go_on", window, headers, program=reply["id"])[1]
             reply |= {**more, "seq": reply["seq"]}
@@ -141,17 +144,17 @@ def test_two_windows_on_one_file_and_what_is_told_where_both_save(serve, tmp_pat
     assert served.ask("hello")[1]["open"] == "part.nc"
     for window, words in (("a", "P5."), ("b", "P6.")):
         _, opened = served.ask("open", window, name="part.nc")
-        _, changed = served.ask("edit", window, program="1", text=opened["text"].replace("P60.", words))
+        _, changed = served.ask("edit", window, text=opened["text"].replace("P60.", words))
         assert changed["counts"]["errors"] == 0
-    assert served.ask("save", "a", program="1")[1]["saved"] == "part.nc"
-    _, refused = served.ask("save", "b", program="1")
+    assert served.ask("save", "a")[1]["saved"] == "part.nc"
+    _, refused = served.ask("save", "b")
     assert "another window or program changed the file" in refused["trouble"]
     assert (tmp_path / "part.nc").read_bytes() == BROKEN.replace("P60.", "P5.").encode()
-    assert served.ask("save", "b", program="1", name="other.nc")[1]["saved"] == "other.nc"
+    assert served.ask("save", "b", name="other.nc")[1]["saved"] == "other.nc"
     assert (tmp_path / "other.nc").read_bytes() == BROKEN.replace("P60.", "P6.").encode()
-    served.ask("view", "b", program="1")
+    served.ask("view", "b")
     (tmp_path / "other.nc").write_bytes(b"by hand")
-    assert served.ask("save", "b", program="1", over=served.ask("save", "b", program="1")[1]["conflict"])[1]["saved"]
+    assert served.ask("save", "b", over=served.ask("save", "b")[1]["conflict"])[1]["saved"]
 
 
 def test_a_server_that_is_killed_while_it_saves_leaves_the_old_file_or_the_new_one(serve, tmp_path):
@@ -161,8 +164,8 @@ def test_a_server_that_is_killed_while_it_saves_leaves_the_old_file_or_the_new_o
     def save(served):
         with suppress(OSError, http.client.HTTPException):
             for number in range(1_000):
-                served.ask("edit", program="1", text=texts[number % 2].replace("\r", ""))
-                served.ask("save", program="1")
+                served.ask("edit", text=texts[number % 2].replace("\r", ""))
+                served.ask("save")
 
     for moment in range(4):
         served = serve(tmp_path)
@@ -181,7 +184,7 @@ def test_actions_of_a_window_run_in_their_order_while_another_window_waits_for_n
     replies = []
 
     def type_line(number):
-        replies.append(served.ask("edit", program="1", text=f"(line {number})\n" * number)[1])
+        replies.append(served.ask("edit", text=f"(line {number})\n" * number)[1])
 
     typing = [threading.Thread(target=type_line, args=(number,)) for number in range(1, 20)]
     for each in typing:
@@ -212,13 +215,13 @@ def test_a_network_reads_and_who_knows_the_password_writes(serve, tmp_path):
         assert served.send("GET", f"/?token={served.token}", host=f"{served.host}:{served.port}")[0] == 200
         assert served.send("GET", f"/?token={served.token}", host="evil.example")[0] == 403
         _, opened = served.ask("open", name="part.nc")
-        served.ask("edit", program="1", text=opened["text"].replace("P60.", "P5."))
-        assert "only read" in served.ask("save", program="1")[1]["trouble"]
+        served.ask("edit", text=opened["text"].replace("P60.", "P5."))
+        assert "only read" in served.ask("save")[1]["trouble"]
         assert served.ask("unlock", password="wrong")[0] == 403
         status, given = served.ask("unlock", password=password)
         assert (status == 200) == bool(password)
         keyed = {"X_Key": given.get("key", "")}
-        saved = served.ask("save", headers=keyed, program="1")[1]
+        saved = served.ask("save", headers=keyed)[1]
         assert ("saved" in saved) == bool(password)
         if password:
             assert served.ask("hello", headers=keyed)[1]["may_write"]
