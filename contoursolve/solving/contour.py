@@ -209,7 +209,8 @@ def is_on(segment: Segment, at: Point, slack: float = 0.0) -> bool:
     ends."""
     way = way_to(segment, at)
     if isinstance(segment, LineSegment):
-        return -slack <= way <= segment.length + slack
+        # Every place has the same way along a point.
+        return -slack <= way <= segment.length + slack and (segment.length > 0 or dist(segment.start, at) <= slack)
     slack += _TURN * segment.radius
     return way <= segment.length + slack or tau * segment.radius - way <= slack
 
