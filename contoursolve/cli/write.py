@@ -1,17 +1,18 @@
 """The command `write`: a sketch as a small program for a control, or in the words of all controls."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
+from contoursolve.cli.drawing import drawing_options, read_drawn
 from contoursolve.cli.expand import target_of
 from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, control_option, settings_option
 from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import json_text, members
-from contoursolve.gcode import STANDARD_INPUT, decode, read_bytes, write_whole
+from contoursolve.gcode import STANDARD_INPUT, write_whole
 from contoursolve.output import Style
 from contoursolve.postprocess import NumberGround, Written, WrittenContour, WrittenWord
 from contoursolve.program import find_settings, read_setting
@@ -19,7 +20,6 @@ from contoursolve.reading import Dialect
 from contoursolve.sketches import (
     ContourSketch,
     UnfinishedError,
-    read_sketch,
     solve_sketch,
     write as write_contour,
     write_for_all,
@@ -36,6 +36,7 @@ from contoursolve.sketches import (
 @click.option(
     "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
 )
+@drawing_options
 @click.pass_context
 def write(
     context: click.Context,
@@ -47,8 +48,12 @@ def write(
     output: str | None,
     is_forced: bool,
     format_: str,
+    drawing: Mapping[str, Any],
 ) -> None:
     """Write SKETCH (a TOML or JSON file, or - for standard input) as a small program for a control.
+
+    SKETCH may be a DXF drawing, too: a chain of its lines and arcs. The numbers of its dimensions are the given ones,
+    else its coordinates. --sketch keeps them as a sketch, to change what is given. Needs the extra contoursolve[dxf].
 
     write looks for the fewest words that rest on the drawing's own numbers, then for round ones. Each candidate is read
     back as the control reads it, and is the same contour. What the control has no words for is written as G01, G02 and
@@ -60,13 +65,14 @@ def write(
     contoursolve write plate.toml --to fanuc-mill -o plate.nc
     contoursolve write plate.toml --to heidenhain --all
     contoursolve write plate.toml
+    contoursolve write part.dxf --to fanuc-lathe --layer contour
     """
     if output is not None and (shows_all or to is None or format_ == "json"):
         raise click.UsageError("-o goes with --to, and without --all and --format json")
     if shows_all and to is None:
         raise click.UsageError("--all goes with --to")
     target = target_of(sketch, output, is_forced=is_forced)
-    drawn = read_sketch(decode(read_bytes(sketch, "a sketch"), sketch))
+    drawn = read_drawn(sketch, to, drawing)
     folder = Path() if sketch == STANDARD_INPUT else Path(sketch).parent
     settings = find_settings(folder) | dict(map(read_setting, assignments))
     try:

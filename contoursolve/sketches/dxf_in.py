@@ -178,15 +178,20 @@ class _Placing(Struct, frozen=True):
 def _opened(drawing: str | Path | bytes) -> tuple[Any, list[str]]:
     """The document of a drawing, and what is damaged in it. Raises DxfError, OSError, MissingExtraError."""
     with importing("dxf", "reading a DXF drawing"):
-        from ezdxf.lldxf.const import DXFError as FormatError  # noqa: PLC0415 - an extra
-        from ezdxf.recover import read  # noqa: PLC0415 - an extra
+        from ezdxf.recover import read as recover  # noqa: PLC0415 - an extra
     data = drawing if isinstance(drawing, bytes) else Path(drawing).read_bytes()
     if data.startswith(b"AC10"):
         raise DxfError("this is a DWG drawing; save it as DXF in your CAD")
+    notes = list[str]()
     try:
-        document, audit = read(io.BytesIO(data))
-    except (FormatError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        # ezdxf meets damage of every kind.
+        try:
+            document = _strictly(data)
+        except Exception as error:  # ezdxf meets damage of every kind
+            # Reading with repairs leaves out whatever is odd, also what a strict reader takes.
+            document, audit = recover(io.BytesIO(data))
+            notes.append(f"the file is damaged, and read as far as it goes: {error}")
+            notes += [each.message for each in (*audit.errors, *audit.fixes)]
+    except Exception as error:  # the same
         raise DxfError(f"the file is no DXF drawing that can be read: {error}") from None
     if b"SECTION" not in data:
         raise DxfError("the file is no DXF drawing: it has no sections")
@@ -194,7 +199,19 @@ def _opened(drawing: str | Path | bytes) -> tuple[Any, list[str]]:
         is_on_paper = any(len(each) for each in document.layouts if not each.is_modelspace)
         told = "; it has something on paper, which is not read: export the model" if is_on_paper else ""
         raise DxfError(f"the drawing has nothing in its model space{told}")
-    return document, [f"the file is damaged: {each.message}" for each in audit.errors]
+    return document, notes
+
+
+def _strictly(data: bytes) -> Any:
+    """The document of a file without damage. Raises whatever ezdxf does."""
+    from ezdxf.document import Drawing  # noqa: PLC0415 - an extra
+    from ezdxf.filemanagement import dxf_stream_info, read  # noqa: PLC0415 - an extra
+    from ezdxf.lldxf.tagger import binary_tags_loader  # noqa: PLC0415 - an extra
+
+    if data.startswith(b"AutoCAD Binary DXF"):
+        return Drawing.load(binary_tags_loader(data))
+    encoding = dxf_stream_info(io.StringIO(data.decode("latin-1"), newline=None)).encoding
+    return read(io.StringIO(data.decode(encoding, "surrogateescape"), newline=None))
 
 
 def _unit(document: Any, wanted: _Unit | None, notes: list[str]) -> tuple[_Unit, float]:
@@ -243,7 +260,9 @@ def _chosen(
     rest = [f"{len(chains) - _MOST} smaller chains"] if len(chains) > _MOST else []
     lines = [*listed, *rest, *apart, *(f"no line and no arc: {name}" for name in strange)]
     advice = "; close gaps in your CAD, or by a larger distance (join)" if apart else ""
-    message = f"the lines and arcs make {len(chains)} chains; choose one by its number (chain) or layer{advice}"
+    count = f"{len(chains)} chains" if len(chains) > 1 else "one chain"
+    lacks = "" if wanted is None else f", and there is no chain {wanted}"
+    message = f"the lines and arcs make {count}{lacks}; choose one by its number (chain) or layer{advice}"
     raise DxfError("\n  ".join([message, *lines]), layers, chains)
 
 

@@ -40,7 +40,8 @@ def one_side(curves: Sequence[DrawnCurve], near: float) -> tuple[list[DrawnCurve
     """The profile above the axis Y0, and what is told of it: of a whole profile the upper half, of one below the axis
     its mirror image. Raises DxfError for a profile that is not the same on both sides."""
     low, high = _reach(curves)
-    notes = list[str]()
+    notes, on_axis = list[str](), [each for each in curves if all(abs(at[1]) <= near for at in each.points())]
+    curves = [each for each in curves if each not in on_axis]
     if low < -near and high <= near:
         notes.append("the profile lies below the axis: it is taken above it")
         curves = [replace(each, segment=_mirrored(each.segment)) for each in curves]
@@ -48,8 +49,7 @@ def one_side(curves: Sequence[DrawnCurve], near: float) -> tuple[list[DrawnCurve
         if not _is_symmetrical(curves, 0.0, near):
             raise DxfError("the profile lies on both sides of the axis, and is not the same on both; say where it is")
         curves = [replace(each, segment=part) for each in curves for part in _above(each.segment, near)]
-    on_axis = [each for each in curves if all(abs(at[1]) <= near for at in each.points())]
-    net = Net([each for each in curves if each not in on_axis], near)
+    net = Net(curves, near)
     meeting = net.meeting()
     edges = [
         curve
@@ -61,7 +61,7 @@ def one_side(curves: Sequence[DrawnCurve], near: float) -> tuple[list[DrawnCurve
     ]
     for left, what in ((on_axis, "on the axis"), (edges, "from the contour to the axis, an edge that is seen")):
         notes += [f"left out: {each.segment.name}, {what}" for each in left]
-    left_over = [each for each in curves if each not in on_axis and each not in edges]
+    left_over = [each for each in curves if each not in edges]
     if not left_over:
         raise DxfError("all lines of the profile lie on the axis; say where it is (zero)")
     return left_over, notes

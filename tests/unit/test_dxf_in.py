@@ -9,10 +9,12 @@ from pathlib import Path
 
 import ezdxf
 import pytest
+from click.testing import CliRunner
 from ezdxf import units
 
 import contoursolve
 from contoursolve import ArcSegment, DxfError, LineSegment, read_dxf
+from contoursolve.__main__ import commands
 from contoursolve.geometry import Turn
 from contoursolve.sketches import solve_sketch
 
@@ -394,6 +396,7 @@ def test_an_axis_is_never_guessed():
         (b"", "is no DXF drawing"),
         (b"0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nx\n", "drawing"),
         (b"0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n", "nothing in its model space"),
+        (b"AutoCAD Binary DXF\r\n\x1a\0", "is no DXF drawing"),
     ],
 )
 def test_a_file_that_is_no_drawing_is_refused_in_one_sentence(file, told):
@@ -411,3 +414,64 @@ def test_a_dimension_that_is_not_of_the_chain_or_of_another_scale_is_told():
         f"DIMENSION {scaled.dxf.handle} is left out: it is shown 0.5 times as large as it is drawn",
         "no dimension gives a number: the coordinates of the drawing are given",
     )
+
+
+def test_a_binary_drawing_is_read_and_a_damaged_one_is_told():
+    document, space = plate()
+    document.layers.add("Außenkontur")
+    space[0].dxf.layer = "Außenkontur"
+    stream = io.BytesIO()
+    document.write(stream, fmt="bin")
+    for form in (stream.getvalue(), data(document), data(document).replace(b"\n", b"\r\n")):
+        found = read_dxf(form, part="milled", layer="außenkontur")
+        assert (len(found.sketch.elements), found.layers) == (6, {"Außenkontur": 6})
+    cut = data(document)[:-2000]
+    assert any("the file is damaged" in each for each in read_dxf(cut, part="milled", unit="mm").notes)
+
+
+# On the command line ------------------------------------------------------------------------------------------------
+
+SHAFT = ROOT / "docs" / "programs" / "shaft.dxf"
+
+
+def run(*arguments):
+    done = CliRunner().invoke(commands(), ["write", *map(str, arguments)])
+    return done.exit_code, done.stdout, done.stderr
+
+
+def test_write_takes_a_drawing_and_keeps_its_sketch(tmp_path):
+    kept = tmp_path / "shaft.toml"
+    status, program, told = run(SHAFT, "--to", "fanuc-lathe", "--layer", "contour", "--sketch", kept)
+    assert status == 0
+    assert "G01 X18.\nX20. Z-1.\nZ-30. ,R2.\nX40.\nX50. Z-60.\nX0\n" in program
+    assert "the profile is drawn whole" in told
+    assert told.count("given: DIMENSION") == 8
+    assert run(kept, "--to", "fanuc-lathe")[:2] == (0, program)
+    assert run(SHAFT, "--to", "fanuc-lathe", "--layer", "contour", "--sketch", kept)[0] == 2
+    assert run(SHAFT, "--part", "turned", "--layer", "contour", "--reverse", "--to", "siemens-840d")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ([SHAFT], "add --part turned or --part milled"),
+        ([SHAFT, "--to", "fanuc-mill"], "chain 1: 12 closed, 60 x 50 mm, layer 'contour'"),
+        ([SHAFT, "--to", "fanuc-lathe", "--chain", "3"], "there is no chain 3"),
+        ([SHAFT, "--to", "fanuc-lathe", "--layer", "no"], "no layer 'no' has lines or arcs"),
+        ([SHAFT, "--to", "fanuc-lathe", "--zero", "1"], "write two numbers"),
+        ([ROOT / "tests" / "sketches" / "no.toml"], "no.toml"),
+    ],
+)
+def test_write_refuses_a_drawing_in_one_sentence(arguments, told):
+    status, output, errors = run(*arguments)
+    assert (status, output) == (2, "")
+    assert told in errors
+    assert "Traceback" not in errors
+
+
+def test_options_for_a_drawing_are_for_drawings(tmp_path):
+    sketch = tmp_path / "a.toml"
+    sketch.write_text('sketch = 1\npart = "milled"\nstart = { X = 0, Y = 0 }\n', encoding="utf-8")
+    for options in (["--layer", "a"], ["--sketch", "b.toml"], ["--reverse"]):
+        status, _, told = run(sketch, *options)
+        assert (status, f"{options[0]} is for a DXF drawing" in told) == (2, True)
