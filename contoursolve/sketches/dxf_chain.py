@@ -22,7 +22,7 @@ _NEAR, _MOST = 5.0, 5
 _BESIDE = frozenset(
     ("TEXT", "MTEXT", "ATTRIB", "ATTDEF", "POINT", "HATCH", "LEADER", "MULTILEADER", "TOLERANCE", "VIEWPORT", "IMAGE")
 )
-"""What a drawing has beside its lines and dimensions."""
+"""Entities that are no lines of a contour."""
 _NO_POLYLINE = 2 | 4 | 16 | 64
 """Flags of a POLYLINE that is a curve through its points, a spline or a mesh."""
 

@@ -89,7 +89,7 @@ class Chained:
         return {name: number(float(at[axis]) * self.factor(axis)) for axis, name in enumerate(self.axes)}
 
     def factor(self, axis: int) -> int:
-        """How often a word counts a length along an axis: twice where it is a diameter."""
+        """The times that a word counts a length along an axis: twice where it is a diameter."""
         return 2 if self.is_turned and axis == 1 else 1
 
     def nodes_at(self, at: Point) -> set[int]:
