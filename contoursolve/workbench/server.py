@@ -8,6 +8,7 @@ import asyncio
 import hashlib
 import hmac
 import json
+import logging
 import mimetypes
 import secrets
 import socket
@@ -189,6 +190,8 @@ class Workbench:
             async with turn:
                 work = partial(self._work, action, may_write=may_write)
                 data = await asyncio.get_running_loop().run_in_executor(self._pool, work)
+        except asyncio.CancelledError:  # at Ctrl-C; what is computed is given up
+            return _refused(503, "the workbench was ended; your text stays on the page")
         finally:
             turn, waiting = self._turns.pop(window)
             if waiting > 1:
@@ -267,4 +270,6 @@ def run(desk: Desk, access: Access, own: socket.socket) -> None:
         server_header=False,
         timeout_graceful_shutdown=2,
     )
+    # What Ctrl-C gives up is no error.
+    logging.getLogger("uvicorn.error").addFilter(lambda record: not record.getMessage().startswith("Cancel "))
     uvicorn.Server(config).run(sockets=[own])

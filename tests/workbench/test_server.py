@@ -202,7 +202,16 @@ def test_ctrl_c_ends_it_and_a_port_that_is_taken_is_told(serve, tmp_path):
     assert done.returncode == 2
     assert done.stderr.startswith(f"Error: port {served.port} cannot be served")
     assert "Traceback" not in done.stderr
+    # Also while it works: what is computed is given up.
+    long = "G111 X100. A180. K-30. B120. P5.\n" * 1_000
+    served.ask("open", name="a.nc", text=f"G00 X40. Z0.\n{long}")
+    given_up = []
+    working = threading.Thread(target=lambda: given_up.append(served.ask("report")))
+    working.start()
+    working.join(0.5)
     code, printed = served.end()
+    working.join()
+    assert given_up[0][0] == 503
     assert (code, printed) == (130, "stopped\n")
 
 
