@@ -147,14 +147,14 @@ def _beside_tool(
     from contoursolve.tool_radius import is_compensated, look_at_tool, path_of_tool, wanted_tool  # noqa: PLC0415
 
     found: list[ToolPath] = []
-    for (result, dialect, asked), path in zip(sides, paths, strict=True):
+    for (result, _, asked), path in zip(sides, paths, strict=True):
         own = stated if not found else {**stated, "side": None}
         if not is_compensated(path) and own["side"] is None:
             found.append(path)
             continue
         name = result.program.name
         with naming(name):
-            report = look_at_tool(result, dialect, asked, wanted_tool(name, tool, **own), path.axes)
+            report = look_at_tool(result, asked, wanted_tool(name, tool, **own), path.axes)
         error = next((each for each in report.findings if each.is_error), None)
         if error is not None:
             told = f"{error.message}; contoursolve check {name} --tool {tool} tells more"

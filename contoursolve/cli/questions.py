@@ -211,7 +211,7 @@ def _find_tool(
         run = follow_program(program, settings=settings, **options)
         check_start(run.asked)
         wanted = wanted_tool(program.name, None, *tool)
-        trials = ToolTrials(result := run.collect(), run.asked.dialect, run.asked, wanted)
+        trials = ToolTrials(result := run.collect(), run.asked, wanted)
         found = largest_tools(trials, result, within)
     if format_ == "json":
         print_json(tools_data(found, trials.path.unfollowed))

@@ -21,8 +21,8 @@ from contoursolve.tool_radius import (
     ToolReport,
     ToolRun,
     lines_of,
+    look_at_tool,
     moves_of,
-    report_on,
     result_beside_tool,
     title_of,
     tool_of,
@@ -101,7 +101,7 @@ def open_beside_tool(
         source = replace(source, data=BytesIO(data), size=len(data), stamp=None)
         program, options = parse(source.read(), source.name), {**options, "control": dialect}
         run = follow_program(program, start=start, **options)
-    report = report_on(run, result := run.collect(), wanted_tool(program.name, **tool))
+    report = look_at_tool(result := run.collect(), run.asked, wanted_tool(program.name, **tool))
     return BesideTool(source, blocks, dialect, _moved_program(program, result, report))
 
 

@@ -36,7 +36,6 @@ from .runs import (
     is_compensated as is_compensated,
 )
 from .stated import (
-    report_on as report_on,
     result_beside_tool as result_beside_tool,
     wanted_tool as wanted_tool,
 )

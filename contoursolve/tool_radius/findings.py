@@ -46,7 +46,7 @@ from contoursolve.tool_radius.offset import (
     without_short,
 )
 from contoursolve.tool_radius.runs import CuttingRun, ToolRequest, find_runs, nothing_cut, place_of, segment_of
-from contoursolve.tool_radius.tool import OutsideCorner
+from contoursolve.tool_radius.tool import OutsideCorner, ToolError
 from contoursolve.tool_radius.tool_settings import ToolSettings, settings_of
 
 
@@ -210,30 +210,27 @@ class ToolReport(Struct, frozen=True):
     """The path of the program, of which the runs are parts."""
 
 
-def look_at_tool(
-    result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()
-) -> ToolReport:
+def look_at_tool(result: Result, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()) -> ToolReport:
     """The runs of a solved program with the paths of the tool, and what it cannot cut; places of its path are in these
     axes, or in those of its control. Raises ToolError."""
-    path, runs = _tool_runs(result, dialect, asked, wanted, axes)
+    dialect, path, rules, runs = runs_beside(result, asked, wanted, axes)
     if not runs and all(answer.contour is not None for answer in result.answers):
         raise nothing_cut(path)
-    told = ToolFindings(result, dialect, asked, wanted)
-    found = [each for number, tool_run in enumerate(runs) for each in told.of(tool_run, is_first=not number)]
-    return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), path)
+    told, made = ToolFindings(result, dialect, asked, wanted), tuple(map(rules.at, runs))
+    found = [each for number, tool_run in enumerate(made) for each in told.of(tool_run, is_first=not number)]
+    return ToolReport(made, tuple(sorted(found, key=rank)), path)
 
 
-def _tool_runs(
-    result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()
-) -> tuple[ToolPath, list[ToolRun]]:
+def runs_beside(
+    result: Result, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()
+) -> tuple[Dialect, ToolPath, ToolRules, list[CuttingRun]]:
+    """The control of a solved program, its path, the ground on which its runs are looked at, and the runs. Raises
+    ToolError."""
+    if (dialect := asked.dialect) is None:
+        raise ToolError("no block shows the control, which says how moves are read; say which with --control")
     path = follow(result, dialect, asked.unit, axes or dialect.modes.axes, finishes=True)
-    rules = rules_of(dialect, wanted, path.axes)
-    return path, [rules.at(each) for each in find_runs(path, wanted, dialect)]
-
-
-def rules_of(dialect: Dialect, wanted: ToolRequest, axes: tuple[str, ...]) -> ToolRules:
-    """The ground on which the runs of a program are looked at."""
-    return ToolRules(axes, wanted.outside, TOOL_FACTS.get(dialect.name, ToolFacts()), settings_of(dialect))
+    rules = ToolRules(path.axes, wanted.outside, TOOL_FACTS.get(dialect.name, ToolFacts()), settings_of(dialect))
+    return dialect, path, rules, find_runs(path, wanted, dialect)
 
 
 class ToolFindings:
@@ -413,8 +410,8 @@ class ToolFindings:
         tried = run(program, self.asked)
         if sum(each.is_error for each in tried.diagnostics) > sum(each.is_error for each in self.result.diagnostics):
             return False
-        _, runs = _tool_runs(tried, self.dialect, self.asked, self.wanted)
-        return all(not each.offset.faults for each in runs if {*each.run.lines} & {*own.lines})
+        _, _, rules, runs = runs_beside(tried, self.asked, self.wanted)
+        return all(not rules.at(each).offset.faults for each in runs if {*each.lines} & {*own.lines})
 
 
 _MOST_PLACES = 6

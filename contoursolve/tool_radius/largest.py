@@ -7,7 +7,6 @@ from typing import Unpack
 
 from msgspec.structs import replace
 
-from contoursolve.comparison import follow
 from contoursolve.diagnosis import Depth, inward, limit_text
 from contoursolve.diagnostics import choice_of
 from contoursolve.families import (
@@ -25,12 +24,12 @@ from contoursolve.families import (
 )
 from contoursolve.geometry import Length
 from contoursolve.program import Request, Result
-from contoursolve.reading import Dialect, join_premises
+from contoursolve.reading import join_premises
 from contoursolve.tolerance import LARGEST
 from contoursolve.tool_radius.faults import ToolFaultKind
-from contoursolve.tool_radius.findings import ToolFindings, rules_of, with_radius
+from contoursolve.tool_radius.findings import ToolFindings, runs_beside, with_radius
 from contoursolve.tool_radius.offset import GOUGE, largest_radius
-from contoursolve.tool_radius.runs import ToolRequest, find_runs, nothing_cut
+from contoursolve.tool_radius.runs import ToolRequest, nothing_cut
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, make_tool
 
 _REACH = 1000.0
@@ -43,13 +42,9 @@ _UNSTATED = Tool(Decimal(1))
 class ToolTrials:
     """The runs of a solved program, and what keeps tools of any radius from each. Raises ToolError."""
 
-    def __init__(self, result: Result, dialect: Dialect | None, asked: Request, wanted: ToolRequest) -> None:
-        if dialect is None:
-            raise ToolError("no block shows the control, which says how moves are read")
-        self.rules = rules_of(dialect, wanted, dialect.modes.axes)
+    def __init__(self, result: Result, asked: Request, wanted: ToolRequest) -> None:
+        dialect, self.path, self.rules, self.runs = runs_beside(result, asked, replace(wanted, default=_UNSTATED))
         self.told = ToolFindings(result, dialect, asked, wanted)
-        self.path = path = follow(result, dialect, asked.unit, self.rules.axes, finishes=True)
-        self.runs = find_runs(path, replace(wanted, default=_UNSTATED), dialect)
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
 
     def radii(self, number: int, within: tuple[float, float] | None) -> Feasible:
@@ -139,7 +134,7 @@ def find_tools(
     wanted, rest = request_of(options)
     template = spec_of(text, **rest).template()
     result = template.examined(Depth.VERDICT)
-    return largest_tools(ToolTrials(result, template.asked.dialect, template.asked, wanted), result, within)
+    return largest_tools(ToolTrials(result, template.asked, wanted), result, within)
 
 
 def request_of(options: ToolOptions) -> tuple[ToolRequest, BlockOptions]:

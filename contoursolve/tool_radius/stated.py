@@ -20,7 +20,7 @@ FROM_PROGRAM = "program"
 
 def result_beside_tool(run: Run, wanted: ToolRequest) -> tuple[Result, ToolReport]:
     """The result of a run with the findings about its tool, and the path of the tool. Raises ToolError."""
-    report = report_on(run, result := run.collect(), wanted)
+    report = look_at_tool(result := run.collect(), run.asked, wanted)
     is_cut = bool(report.runs)
     kept = [each for each in result.diagnostics if not (is_cut and each.about is ReadIssue.NO_CONTOUR)]
     return replace(result, diagnostics=tuple(sorted((*kept, *report.findings), key=rank))), report
@@ -38,13 +38,6 @@ def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | Non
         OutsideCorner(outside) if outside else None,
         find_tool_table(folder, _tool_of) if is_own else {},
     )
-
-
-def report_on(run: Run, result: Result, wanted: ToolRequest) -> ToolReport:
-    """The report about a tool. Raises ToolError."""
-    if run.asked.dialect is None:
-        raise ToolError("no block shows the control, which says how moves are read; say which with --control")
-    return look_at_tool(result, run.asked.dialect, run.asked, wanted)
 
 
 def _tool_of(name: str, row: Mapping[str, Any]) -> Tool:

@@ -69,7 +69,7 @@ class ToolSweep(CompiledSweep, eq=False, kw_only=True):
     def _stops(self, values: Mapping[str, float], radii: NDArray[numpy.float64]) -> dict[float, Stop]:
         """The reasons that stop each tool at one contour."""
         filled = self.template.filled(values)
-        trials = ToolTrials(filled.examined(Depth.VERDICT), filled.asked.dialect, filled.asked, self.tool)
+        trials = ToolTrials(filled.examined(Depth.VERDICT), filled.asked, self.tool)
 
         @cache
         def stop_of(radius: float) -> Stop:
@@ -101,7 +101,7 @@ def sweep_tools(
     template = spec.template()
     as_it_stands = template.examined(Depth.VERDICT)
     # What is wrong with the tool is told before anything is solved.
-    ToolTrials(as_it_stands, template.asked.dialect, template.asked, wanted)
+    ToolTrials(as_it_stands, template.asked, wanted)
     if not values and not as_it_stands.answers:
         raise FamilyError("the block has no contour words; contoursolve range --word tool tells which tools cut it")
     contours = compile_sweep(spec, Ranges(values, is_paired=is_paired))
