@@ -198,8 +198,9 @@ _TURN = 1e-12
 def way_to(segment: Segment, at: Point) -> float:
     """The way along the line or the circle of an element to a place of it, mm; around a circle from its start on."""
     if isinstance(segment, LineSegment):
-        parts = zip(segment.start, segment.end, at, strict=True)
-        return sum((end - start) * (here - start) for start, end, here in parts) / (segment.length or 1.0)
+        (a, b), (c, d), length = segment.start, segment.end, segment.length
+        # What has no length is only where it is.
+        return ((c - a) * (at[0] - a) + (d - b) * (at[1] - b)) / length if length else dist(segment.start, at)
     begin, angle = (atan2(here[1] - segment.center[1], here[0] - segment.center[0]) for here in (segment.start, at))
     return (((angle - begin) * segment.turn.sign + _TURN) % tau - _TURN) * segment.radius
 
