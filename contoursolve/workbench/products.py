@@ -21,6 +21,9 @@ from contoursolve.workbench.open_view import ProgramView
 MOST_VARIABLES = 200
 """Variables of a program that have fields."""
 
+MOST_VALUE = 1_000_000_000
+"""Of a variable, either way; NaN is not below it."""
+
 
 def answer_with(make: str, view: ProgramView, action: Mapping[str, Any]) -> Data:
     """The answer of one of `PRODUCTS`, of a program that is examined. Raises ActionError, ValueError."""
@@ -79,8 +82,8 @@ def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
     program = view.program
     language = program.dialect.modes.language if program.dialect is not None else None
     values = read_field(action, "values", dict, {})
-    if not all(isinstance(each, int | float) and not isinstance(each, bool) for each in values.values()):
-        raise ActionError("values of variables are numbers")
+    if not all(isinstance(each, int | float) and abs(each) <= MOST_VALUE for each in values.values()):
+        raise ActionError(f"values of variables are numbers up to {MOST_VALUE:,}")
     found = named_variables(language, view.lines()) if language is not None else []
     result = contoursolve.solve(program.text, control=program.dialect, name=program.name, variables=values)
     return {

@@ -171,7 +171,7 @@ class Workbench:
                 most = f"{MOST_BYTES // 1_000_000} MB"
                 return _refused(413, f"this is more than {most}, the most that is taken at once; nothing was changed")
         try:
-            action = json.loads(data)
+            action = json.loads(data, parse_constant=_not_finite)
         except (ValueError, RecursionError):
             return _refused(400, "the action did not arrive whole; nothing was changed")
         if not isinstance(action, dict):
@@ -201,7 +201,7 @@ class Workbench:
     def _work(self, action: Mapping[str, Any], *, may_write: bool) -> bytes:
         reply = self.desk.answer(action, may_write=may_write)
         # Surrogates that a program holds are no UTF-8; JSON has an escape for them.
-        return json.dumps(reply, separators=(",", ":"), allow_nan=False).encode("ascii")
+        return json.dumps(reply, separators=(",", ":")).encode("ascii")
 
     async def _unlock(self, password: str) -> Response:
         """A key for a password. A wrong one takes seconds, twice as many each time, and only one is tried at a time."""
@@ -216,6 +216,10 @@ class Workbench:
         finally:
             self._trying = False
         return JSONResponse({"may_write": True, "key": key})
+
+
+def _not_finite(name: str) -> float:
+    raise ValueError(f"{name} is no number of JSON")
 
 
 _LONGEST_WAIT = 60

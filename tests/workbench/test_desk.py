@@ -101,6 +101,8 @@ def test_each_product_is_that_of_the_command_of_its_name(tmp_path):
         {"do": "expand", "post": "none"},
         {"do": "expand", "decimals": True},
         {"do": "variables", "values": {"Q": "x"}},
+        {"do": "variables", "values": {"#1": float("nan")}},
+        {"do": "variables", "values": {"#1": 10**400}},
     ):
         assert [*page.ask(**wrong)] == ["trouble"]
 

@@ -3,6 +3,7 @@
 import gc
 import random
 import sys
+import threading
 from base64 import b64encode
 from itertools import accumulate
 
@@ -118,3 +119,26 @@ def test_random_actions_raise_nothing_and_lose_no_text(tmp_path):
 def test_ten_thousand_random_actions_and_memory_stays_flat(tmp_path):
     sizes = walk(tmp_path, 10_000, 2)
     assert max(sizes[2:]) < 1.1 * max(sizes[:2])
+
+
+@pytest.mark.slow
+def test_windows_at_the_same_time_find_what_each_finds_alone(tmp_path):
+    desk, differences = CheckedDesk(tmp_path), []
+
+    def work(number):
+        draw, page = random.Random(number), RandomPage(desk, f"window {number}")
+        for _ in range(40):
+            page.open_anything(draw) if not page.program or draw.random() < 0.2 else page.type_anything(draw)
+            if page.program and page.view["control"]:
+                alone = Page(CheckedDesk()).ask(
+                    "open", name=page.view["name"], text=page.text, control=page.view["control"]["name"]
+                )
+                differences.extend([page.text] * (alone["findings"] != page.ask("view")["findings"]))
+        differences.append("")
+
+    working = [threading.Thread(target=work, args=(number,)) for number in range(4)]
+    for each in working:
+        each.start()
+    for each in working:
+        each.join()
+    assert differences == [""] * 4

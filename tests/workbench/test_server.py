@@ -129,7 +129,7 @@ def test_the_page_is_given_to_who_knows_the_token(serve, tmp_path):
 
 def test_what_is_no_action_is_refused_in_a_sentence(serve, tmp_path):
     served = serve(tmp_path)
-    for body in (b"", b"{", b"[]", b"\xff", b"[" * 100_000, b"null"):
+    for body in (b"", b"{", b"[]", b"\xff", b"[" * 100_000, b"null", b'{"do":NaN}'):
         status, _, data = served.send("POST", "/ask", body, Content_Type="application/json", X_Token=served.token)
         assert status == 400
         assert json.loads(data)["trouble"]
