@@ -19,6 +19,7 @@ from .drawing import (
 from .fields import words_of as words_of
 from .known_points import (
     Known as Known,
+    in_part as in_part,
 )
 from .layout import (
     path_data as path_data,

@@ -18,7 +18,7 @@ from contoursolve.diagnosis import (
     list_solutions,
 )
 from contoursolve.diagnostics import Diagnostic, Severity
-from contoursolve.pictures import find_known, list_trails
+from contoursolve.pictures import find_known, in_part, list_trails
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program, element_of
 from contoursolve.sketches.finishing import (
     SketchEntry,
@@ -197,6 +197,7 @@ class _Reading:
     def __init__(self, sketch: ContourSketch, program: SketchProgram, answer: Answer) -> None:
         self.sketch, self.program, self.answer = sketch, program, answer
         self.remarks: list[str] = []
+        self.sure: set[str] = set()
         self.errors = [each for each in answer.diagnostics if each.is_error]
         self.blamed = dict(self._blamed())
         path = answer.profile.figure.path
@@ -291,7 +292,10 @@ class _Reading:
         if answer.contour is not None:
             drawn = {each.name: each for each in answer.contour.elements}
         else:
-            drawn = {each.name: each for trail in list_trails(answer, find_known(answer)) for each in trail.segments}
+            known = find_known(answer)
+            drawn = {each.name: each for trail in list_trails(answer, known) for each in trail.segments}
+            # What follows from directions as they are is no less sure than what does so whatever they are.
+            self.sure = {*known.points} - known.several | {*in_part(answer.profile).points}
         shared = {name for name in drawn if not several or _is_shared(name, several)}
         completed = self._completed(loose, drawn)
         for number, element in enumerate(self.sketch.elements, 1):
@@ -321,6 +325,8 @@ class _Reading:
             return PartState.UNKNOWN
         ends = [end for each in around for end in (each.tail, each.head, getattr(each, "center", each.head))]
         freedom = max(loose.freedom.get(each, 0) for each in ends)
+        # What moves nowhere may still lie in several places.
+        freedom = freedom or (0 if self.sure.issuperset(ends) else 2)
         return (PartState.KNOWN, PartState.SLIDING, PartState.UNKNOWN)[min(freedom, 2)]
 
     def _completed(self, loose: Loose | None, drawn: Mapping[str, Segment]) -> dict[str, Segment]:

@@ -31,10 +31,10 @@ MOST_STEPS = 20
 """Steps of the Gauss-Newton method from a natural place."""
 
 OTHERS = 3
-"""Other places from which the same drawing is looked for: a point that none of them moves is known."""
+"""Further places from which a drawing is looked for, beside the natural one."""
 
 SAME = 1e-5
-"""mm. Two drawings have a point in one place."""
+"""mm. What is less is nothing."""
 
 FAR = 2.5
 """Sizes of the drawing beyond which a way is of no use."""
@@ -141,14 +141,10 @@ class _Drawing:
     def at(self, place: Array) -> Loose:
         """All that a place tells."""
         moves, (points, radii) = self.moves(place), self.named(place)
-        tried = filter(lambda other: other is not None, map(self.solve, range(1, 1 + OTHERS)))
-        others = [self.named(other)[0] for other in tried if other is not None]
         freedom = {self.profile.figure.start: 0}
         for name in self.profile.figure.points:
             values = svd(self._of(name, moves))[1] if len(moves) else numpy.zeros(1)
             freedom[name] = int((values > RANK).sum())
-            if not freedom[name] and any(dist(points[name], other[name]) > SAME for other in others):
-                freedom[name] = 2  # it may be elsewhere
         off_mm: dict[str, float] = {}
         for fact, off in zip(self.doubted, self.equations.residuals(self.doubted, place).tolist(), strict=True):
             off_mm[fact.given] = max(off_mm.get(fact.given, 0.0), abs(off) * self.size)

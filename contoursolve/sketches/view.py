@@ -35,8 +35,11 @@ _ROLES = {
 
 
 def draw_sketch(found: SketchAnswer, *, theme: Theme = Theme.LIGHT) -> Picture | None:
-    """The picture of what is known of a sketch; None where nothing is. What is known is solid, what slides is dashed
-    with its way, what contradicts has its amount, what a guess has chosen is dotted."""
+    """The picture of what is known of a sketch; None where nothing is.
+
+    What is known is solid; what slides is dashed, with its way. What contradicts has its amount, and what a guess has
+    chosen is dotted.
+    """
     if found.answer is None:
         return None
     title = found.missing or f"sketch: {found.status}"

@@ -53,7 +53,7 @@ def write_for_all(
 def _answer_of(contour: Answer | Result | ContourSketch) -> Answer:
     if isinstance(contour, ContourSketch):
         known = solve_sketch(contour)
-        if known.answer is None or known.answer.contour is None:
+        if known.answer is None or not known.is_finished:
             told = known.missing or "; ".join(each.message for each in known.findings)
             raise UnfinishedError(f"the sketch is {known.status}: {told}")
         return known.answer
