@@ -128,7 +128,12 @@ def _entities(entities: Iterable[Any], layer: str, inside: str, found: Contents)
         name = f"{kind}{inside}" if inside else f"{kind} {entity.dxf.handle}"
         if kind == "INSERT":
             block = f" in block {entity.dxf.name} ({inside.strip() or name})"
-            lost: list[Any] = []
+            own_block, lost = entity.block(), list[Any]()
+            if own_block is None or own_block.block.is_xref:
+                found.strange.append((f"{name}: block {entity.dxf.name} is not in the file", own, []))
+                continue
+            if f" {entity.dxf.name} (" in inside:
+                raise DxfError(f"block {entity.dxf.name} of the drawing contains itself")
             for each in entity.multi_insert() if entity.mcount > 1 else [entity]:
                 parts = each.virtual_entities(skipped_entity_callback=lambda part, _, lost=lost: lost.append(part))
                 yield from _entities(list(parts), own, block, found)
@@ -277,14 +282,14 @@ def gaps(chains: Sequence[DxfChain], per_mm: float) -> list[str]:
     ends = [
         (at, each.name)
         for chain in chains
-        if not chain.is_closed
+        if not chain.is_closed and (len(chain.elements) > 1 or len(chains) > 1)
         for each, at in ((chain.elements[0], chain.elements[0].start), (chain.elements[-1], chain.elements[-1].end))
     ]
     near = sorted(
         (dist(at, other) / per_mm, at, name, further)
         for place, (at, name) in enumerate(ends)
         for other, further in ends[place + 1 :]
-        if dist(at, other) <= _NEAR * per_mm
+        if dist(at, other) <= _NEAR * per_mm and name != further
     )
     return [
         f"a gap of {size:.6g} mm between {name} and {further} at {told(at)}" for size, at, name, further in near[:_MOST]
@@ -293,7 +298,7 @@ def gaps(chains: Sequence[DxfChain], per_mm: float) -> list[str]:
 
 def told(at: Point) -> str:
     """A place of the drawing."""
-    return f"({at[0]:.6g}, {at[1]:.6g})"
+    return f"({round(at[0], 6) + 0.0:.6g}, {round(at[1], 6) + 0.0:.6g})"
 
 
 def several(names: Sequence[str]) -> str:

@@ -84,7 +84,7 @@ class Chained:
         return groups
 
     def place(self, node: int) -> dict[str, Decimal]:
-        """Where an end lies, as words say it."""
+        """The coordinates of an end, as words say them."""
         at = self.at[self.nodes[node]]
         return {name: number(float(at[axis]) * self.factor(axis)) for axis, name in enumerate(self.axes)}
 

@@ -39,6 +39,7 @@ from contoursolve.sketches.known_part import solve_sketch
 from contoursolve.sketches.sketch import ContourSketch, Value
 from contoursolve.sketches.turned_profile import axis_of, one_side
 from contoursolve.solving import ArcSegment, LineSegment, Point
+from contoursolve.tolerance import LARGEST
 
 _Unit = Literal["mm", "inch"]
 _Part = Literal["turned", "milled"]
@@ -104,8 +105,11 @@ def read_dxf(
     Raises:
         DxfError: a file that cannot be read, no unit, no chain or several, gaps, an axis that is not known.
         OSError: a file that cannot be opened.
+        ValueError: another part or unit.
         MissingExtraError: without the package of `contoursolve[dxf]`.
     """
+    if part not in DRAWINGS or unit not in (None, *_MM):
+        raise ValueError(f"part is turned or milled, and unit mm or inch, not {part!r} and {unit!r}")
     document, notes = _opened(drawing)
     named, scale = _unit(document, unit, notes)
     near = join / _MM[named]
@@ -118,6 +122,9 @@ def read_dxf(
     if not wanted:
         raise DxfError(_no_lines(contents, layers, layer), layers)
     curves = [each for each in contents.curves if each.layer in wanted]
+    for segment in (each.segment for each in curves):
+        if not all(abs(each) * _MM[named] <= LARGEST for each in (*segment.start, *segment.end)):
+            raise DxfError(f"{segment.name} lies farther away than a control can travel: {told(segment.end)}", layers)
     if part == "turned":
         if zero is None:
             axis, about = axis_of(curves, near, contents.curves)
@@ -127,10 +134,12 @@ def read_dxf(
         curves, about = one_side(curves, near)
         notes += about
     net = Net(curves, near)
+    if not net.curves:
+        raise DxfError(f"the drawing has no lines and arcs with a length; {net.notes[0]}", layers)
     strange = [each for each in contents.strange if layer is None or each[1] in wanted]
     chosen = _chosen(net.chains(), chain, layers, named, [name for name, *_ in strange], notes)
     _check(chosen, curves, strange, near)
-    beside = Counter(kind for kind, own in contents.beside if own in wanted)
+    beside = Counter(kind for kind, own in contents.beside if layer is None or own in wanted)
     notes += [*net.notes, *(f"left out, no line and no arc: {name}" for name, *_ in strange)]
     notes += [f"left out, beside the contour: {count} {kind}" for kind, count in beside.items()]
     is_backward = part == "turned" and not chosen.is_closed and chosen.elements[0].start[0] < chosen.elements[-1].end[0]

@@ -16,7 +16,11 @@ import pytest
 pytestmark = pytest.mark.desktop
 
 ROOT = Path(__file__).parents[2]
-PROGRAMS = [ROOT / "notebooks" / "programs" / "shaft_broken.nc", ROOT / "docs" / "programs" / "cam.h"]
+PROGRAMS = [
+    ROOT / "notebooks" / "programs" / "shaft_broken.nc",
+    ROOT / "docs" / "programs" / "cam.h",
+    ROOT / "docs" / "programs" / "shaft.dxf",
+]
 SUFFIX = ".exe" if sys.platform == "win32" else ""
 PLACE = "Prüfung der Wellen"
 """A folder with a blank and an umlaut."""
@@ -83,6 +87,7 @@ ARGUMENTS = [
     ("plot", "cam.h", "-o", "a.svg"),
     ("plot", "cam.h", "-o", "a.png"),
     ("plot", "cam.h", "-o", "a.dxf"),
+    ("write", "shaft.dxf", "--to", "fanuc-lathe", "--sketch", "ö.toml"),
     ("report", "cam.h", "-o", "a.html"),
     ("sweep", *BLOCK, "--vary", "A=170:180:5", "-o", "a.csv", "--workers", "2"),
     ("rules", "--control", "nct-99m"),

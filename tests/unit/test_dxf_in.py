@@ -429,6 +429,30 @@ def test_a_binary_drawing_is_read_and_a_damaged_one_is_told():
     assert any("the file is damaged" in each for each in read_dxf(cut, part="milled", unit="mm").notes)
 
 
+def test_what_a_drawing_may_have_else_is_told():
+    document, space = drawing()
+    document.layers.add("off").off()
+    space.add_line((0, 0), (10, 0), dxfattribs={"layer": "off"})
+    space.add_line((0, 0), (0, 5))
+    space.add_blockref("lost", (0, 0))
+    notes = read_dxf(data(document), part="milled").notes
+    assert "left out, beside the contour: 1 LINE on a layer that is off" in notes
+    assert any(each.endswith("block lost is not in the file") for each in notes)
+    block = document.blocks.new("lost")
+    block.add_blockref("lost", (1, 0))
+    assert "block lost of the drawing contains itself" in refused(document, part="milled")
+    for end, told in ((1e12, "farther away than a control can travel"), (0, "no lines and arcs with a length")):
+        document, space = drawing()
+        space.add_line((0, 0), (end, 0))
+        assert told in refused(document, part="turned")
+    document, space = drawing()
+    document.layout("Layout1").add_line((0, 0), (1, 0))
+    assert "it has something on paper" in refused(document, part="milled")
+    for options in ({"part": "round"}, {"part": "milled", "unit": "cm"}):
+        with pytest.raises(ValueError, match="part is turned or milled, and unit mm or inch"):
+            read_dxf(data(document), **options)
+
+
 # On the command line ------------------------------------------------------------------------------------------------
 
 SHAFT = ROOT / "docs" / "programs" / "shaft.dxf"
