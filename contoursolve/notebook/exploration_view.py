@@ -84,7 +84,7 @@ def view_of(
         "is_changed": exploration.text != exploration.origin[0],
         "status": _status(exploration),
         "picture": drawn.svg if drawn is not None else "",
-        "frame": _frame_of(drawn),
+        "frame": drawn.frame if drawn is not None else {},
         "handles": [_handle(handle) for handle in handles],
         "elements": to_builtins(moving_of(motion, drawn, moved)) if motion is not None and drawn is not None else [],
         "fields": [*_fields(answer, pinned), *_tool_field(exploration, answer)] if answer else [],
@@ -109,14 +109,6 @@ def picture_of(answer: Answer, like: Picture | None = None, tool: ToolReport | N
         return draw_answer(answer, theme=Theme.PAGE, like=like, has_remarks=False, beside=beside_of(tool, answer))
     except Exception:  # the tables say the same, and the next value may be drawn again
         return None
-
-
-def _frame_of(drawn: Picture | None) -> Data:
-    """The frame of a picture: its origin, pixels for each mm, and the size of the page."""
-    if drawn is None or drawn.sheet.placement is None:
-        return {}
-    view = drawn.sheet.placement.view
-    return {"origin": view.place((0.0, 0.0)), "scale": view.scale, "width": drawn.width, "height": drawn.height}
 
 
 def _handle(handle: Handle) -> Data:

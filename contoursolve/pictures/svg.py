@@ -12,6 +12,7 @@ from functools import cache
 from hashlib import sha256
 from math import pi, tau
 from pathlib import Path
+from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 from zlib import crc32
 
@@ -46,6 +47,15 @@ class Picture:
     height: float
     sheet: Sheet = field(repr=False)
     theme: Theme = Theme.LIGHT
+
+    @property
+    def frame(self) -> dict[str, Any]:
+        """The place of the plane's zero, pixels for each mm, and the size of the page, for what a page draws over it;
+        empty for a picture of no plane."""
+        if self.sheet.placement is None:
+            return {}
+        view = self.sheet.placement.view
+        return {"origin": [*view.place((0.0, 0.0))], "scale": view.scale, "width": self.width, "height": self.height}
 
     def _repr_svg_(self) -> str:
         """The drawing, as a notebook asks for it."""

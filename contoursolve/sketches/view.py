@@ -93,7 +93,7 @@ def sketch_view(sketch: ContourSketch, *, with_ranges: bool = False, theme: Them
             }
             for each in found.solutions
         ],
-        "picture": picture.svg if picture is not None else "",
+        "picture": {"svg": picture.svg, "frame": picture.frame} if picture is not None else None,
     }
 
 

@@ -18,7 +18,7 @@ from typing import Any
 from msgspec.structs import replace
 
 import contoursolve
-from contoursolve.controls import DIALECTS, ChainFinder
+from contoursolve.controls import DIALECTS, DRAWINGS, ChainFinder, words_of_drawing
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import Blocks
 from contoursolve.output import notebook_style
@@ -169,6 +169,9 @@ def _hello(desk: Desk, window: PageWindow, _action: Mapping[str, Any]) -> Data:
         "can_unlock": desk.can_unlock and not window.may_write,
         "open": desk.first,
         "style": notebook_style(has_tool=True),
+        "drawing_words": {
+            part: {kind: dict(words_of_drawing(part, kind)) for kind in ("line", "arc")} for part in DRAWINGS
+        },
         "examples": [{"control": name, "title": each.title} for name, each in DIALECTS.items()],
     }
 
@@ -323,6 +326,8 @@ def _explored(program: ProgramView, explored: Explored | None, changed: Data | N
 
 
 def _save(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    if action.get("program") is None:
+        return _save_other(desk, action)
     program, folder = desk.program(window, action), desk.files()
     file = program.file
     name = read_field(action, "name", str, file.name)
@@ -332,10 +337,53 @@ def _save(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     return {"saved": name, "base": mark, "has_changes": False, "seq": program.seq}
 
 
+def _save_other(desk: Desk, action: Mapping[str, Any]) -> Data:
+    """Save what is no program that is open: a sketch, or what was made of a program."""
+    name, base = read_field(action, "name", str), read_field(action, "base", str, "")
+    data = _bytes(action) if "base64" in action else read_field(action, "text", str).encode("utf-8")
+    return {"saved": name, "base": desk.files().write(name, data, read_field(action, "over", str, base))}
+
+
 def _make(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     from contoursolve.workbench.products import answer_with  # noqa: PLC0415 - a page is shown before it asks for one
 
     return answer_with(action["do"], desk.program(window, action), action)
+
+
+def _sketch(_desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
+    from contoursolve.workbench.sketching import known_of_sketch  # noqa: PLC0415 - as above
+
+    return known_of_sketch(action)
+
+
+def _sketch_words(_desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
+    from contoursolve.workbench.sketching import words_of_sketch  # noqa: PLC0415 - as above
+
+    return words_of_sketch(action)
+
+
+def _sketch_open(desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
+    from contoursolve.workbench.sketching import sketch_in  # noqa: PLC0415 - as above
+
+    file = _file_of(desk, action)
+    return {**sketch_in(file.text), "name": file.name, "base": file.mark}
+
+
+def _dxf_in(desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
+    from contoursolve.workbench.sketching import sketch_in_drawing  # noqa: PLC0415 - as above
+
+    data = _bytes(action) if "base64" in action else desk.files().read_bytes(read_field(action, "name", str))
+    return sketch_in_drawing(data, action)
+
+
+def _file_of(desk: Desk, action: Mapping[str, Any]) -> FileText:
+    """The file that an action brings, or names in the folder. Raises ActionError and FileRefusedError."""
+    name = read_field(action, "name", str)
+    if "base64" in action:
+        return text_of(_bytes(action), name, is_file=False)
+    if "text" in action:
+        return FileText(name, read_field(action, "text", str))
+    return desk.files().read(name)
 
 
 def _close(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
@@ -366,6 +414,10 @@ ACTIONS: dict[str, Callable[[Desk, PageWindow, Mapping[str, Any]], Data]] = {
     "dxf": _make,
     "png": _make,
     "verify": _make,
+    "sketch": _sketch,
+    "sketch_words": _sketch_words,
+    "sketch_open": _sketch_open,
+    "dxf_in": _dxf_in,
 }
 """Functions that answer, by the name of the action."""
 

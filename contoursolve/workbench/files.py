@@ -136,15 +136,18 @@ class Folder:
 
     def read(self, name: str) -> FileText:
         """A file's text. Raises FileRefusedError, UnreadableProgramError."""
+        return text_of(self.read_bytes(name), name)
+
+    def read_bytes(self, name: str) -> bytes:
+        """A file's bytes, one more than the most at most. Raises FileRefusedError."""
         path = self._inside(name)
         try:
             if not path.is_file():
                 raise FileRefusedError(f"{name}: no such file in the folder {self.name}")
             with path.open("rb") as file:
-                data = file.read(MOST_BYTES + 1)
+                return file.read(MOST_BYTES + 1)
         except OSError as error:
             raise FileRefusedError(f"{name} cannot be read: {error.strerror}") from None
-        return text_of(data, name)
 
     def _mark(self, path: Path) -> str:
         """The mark of the bytes that are there now; empty if there is no file."""

@@ -196,8 +196,8 @@ def test_a_page_is_told_all_as_plain_data():
         assert [each["state"] for each in view["elements"]] == [each.state.value for each in found.elements]
         roles = {"sliding": "s-free", "contradicting": "s-conflicting", "guessed": "s-guessed", "known": "s-ink"}
         for state in {*states(found).values()} & roles.keys():
-            assert f'class="{roles[state]}"' in view["picture"]
-        assert 'data-element="line 1"' in view["picture"]
+            assert f'class="{roles[state]}"' in view["picture"]["svg"]
+        assert 'data-element="line 1"' in view["picture"]["svg"]
 
 
 def test_a_key_costs_little():

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from browsing import Watched
+from served_page import SCREENS, said
 from test_server import Served
 
 from contoursolve.controls import DIALECTS
@@ -11,53 +11,11 @@ from contoursolve.workbench import Desk
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs("starlette", "uvicorn")]
 SHAFT = "%\r\nG00 X40. Z0.\r\nG111 X100. A180. K-30. B120. P6.\r\nG00 X150. Z10.\r\nM30\r\n"
-SCREENS = {
-    "desktop": {"viewport": {"width": 1300, "height": 900}},
-    "desktop, dark": {"viewport": {"width": 1300, "height": 900}, "color_scheme": "dark"},
-    "phone": {"viewport": {"width": 390, "height": 844}, "has_touch": True},
-    "phone, dark": {"viewport": {"width": 390, "height": 844}, "has_touch": True, "color_scheme": "dark"},
-}
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("parts")
-
-
-@pytest.fixture(scope="module")
-def served(folder):
-    server = Served(folder)
-    yield server
-    server.end()
-
-
-@pytest.fixture
-def opened(browser, served):
-    """Opens the workbench on a screen; afterwards the page has asked nobody but the server."""
-    pages = []
-
-    def open_page(program=None, screen="desktop", server=served):
-        watched = Watched(browser, **SCREENS[screen])
-        pages.append(watched)
-        watched.page.goto(f"http://{server.host}:{server.port}/?token={server.token}")
-        if program is not None:
-            watched.page.get_by_role("button", name=program, exact=True).click()
-            watched.page.locator(".cm-line").first.wait_for()
-        return watched.page
-
-    yield open_page
-    for each in pages:
-        each.check()
-        each.page.close()
 
 
 def text_of(page) -> str:
     """The text of a short program, all of which is in sight."""
     return "\n".join(line.removesuffix("\n") for line in page.locator(".cm-line").all_inner_texts())
-
-
-def said(page, text) -> None:
-    page.locator(".head .said", has_text=text).wait_for()
 
 
 def wait_for_text(page, text) -> None:

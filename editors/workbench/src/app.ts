@@ -1,20 +1,33 @@
 // The page: programs as tabs, opened, saved and taken along; what goes wrong is said at the top.
 import { button, bytesOf, copyText, dialog, download, type Entry, labelled, make, menu, newId, showTabs } from "./dom";
+import { ChainPane } from "./chain";
+import { type Chain, chainOf, newChain, type Plain, Sketch } from "./chainSketch";
+import { decimal } from "./forms";
 import { ProgramPane } from "./pane";
-import type { Program } from "./program";
+import { Program } from "./program";
 import { type Hello, type Made, type Transport, Trouble, type View } from "./protocol";
+import type { Work } from "./work";
 
 const PAUSE = 300; // ms without a change until the address follows; browsers forbid to write it often
 const LONGEST_LINK = 6000; // characters of a program
+
+interface Opening {
+  name?: string;
+  text?: string;
+  base64?: string;
+  example?: string;
+  control?: string;
+}
 
 export class App {
   private hello: Hello | null = null;
   private isGreeted = false; // whether the Desk was asked for its hello
   private readonly isEmbedded: boolean;
   private told = ""; // what the address holds
-  private programs: Program[] = [];
-  private active: Program | null = null;
+  private works: Work[] = [];
+  private active: Work | null = null;
   private readonly pane: ProgramPane;
+  private readonly chain: ChainPane;
   private readonly trouble = make("p", { class: "trouble", role: "alert" });
   private readonly rescue = make("div", { class: "rescue bar", hidden: true });
   private readonly said = make("span", { class: "said", role: "status" });
@@ -43,7 +56,14 @@ export class App {
       openText: (name, text) => void this.open({ name, text }),
       keep: isEmbedded ? null : (made) => void this.keep(made),
     });
-    this.actions = make("div", { class: "actions" }, this.save, actions, labelled("Control", this.control), this.facts);
+    this.chain = new ChainPane(
+      () => this.hello?.drawing_words ?? {},
+      () => this.hello?.controls ?? [],
+      (name, text) => void this.open({ name, text }),
+    );
+    const control = labelled("Control", this.control);
+    this.ofProgram = [actions, control, this.facts];
+    this.actions = make("div", { class: "actions" }, this.save, ...this.ofProgram);
     root.replaceChildren(
       this.trouble,
       this.rescue,
@@ -53,7 +73,7 @@ export class App {
       this.host,
       this.picker,
     );
-    this.host.append(this.pane.node);
+    this.host.append(this.pane.node, this.chain.node);
     this.picker.addEventListener("change", () => {
       void this.openFiles(this.picker.files);
       this.picker.value = "";
@@ -63,6 +83,7 @@ export class App {
   }
 
   private readonly actions: HTMLElement;
+  private readonly ofProgram: HTMLElement[]; // of the actions, those that a sketch has not
 
   private listen(): void {
     const { root } = this;
@@ -87,7 +108,7 @@ export class App {
       event.preventDefault();
     });
     addEventListener("beforeunload", (event) => {
-      if (!this.isEmbedded && this.programs.some((each) => each.isChanged && each.text)) event.preventDefault();
+      if (!this.isEmbedded && this.works.some((each) => each.isChanged && !each.isEmpty)) event.preventDefault();
     });
   }
 
@@ -148,7 +169,7 @@ export class App {
     const files = make("ul", { class: "files", "aria-label": "Programs in the folder" });
     const choices = examples.map((each) => make("li", {}, button(each.title, () => void this.open({ example: each.control }))));
     this.start.replaceChildren(
-      make("h2", { text: "Open a program" }),
+      make("h2", { text: "Open a program, or build a contour" }),
       make(
         "ol",
         {},
@@ -156,7 +177,7 @@ export class App {
         make("li", { text: "What is wrong is underlined and listed with its fixes. Touch a fix, and the text changes." }),
         make("li", { text: "The drawing shows every contour. Touch one to see its words and to drag its points." }),
       ),
-      make("div", { class: "bar" }, button("Open a file…", () => this.picker.click(), { class: "main" }), button("New program", () => void this.open({ name: "", text: "" }))),
+      make("div", { class: "bar" }, button("Open a file…", () => this.picker.click(), { class: "main" }), button("New program", () => void this.open({ name: "", text: "" })), ...this.newContour()),
       ...(note ? [note] : []),
       ...(folder ? [make("h2", { text: `In the folder ${folder}` }), files] : []),
       make("h2", { text: "An example for each control" }),
@@ -179,6 +200,7 @@ export class App {
       { text: "Open a file…", key: "Ctrl+O", act: () => this.picker.click() },
       { text: hello?.folder ? "Open from the folder, or an example…" : "Open an example…", act: () => this.choose(null) },
       { text: "New program", act: () => void this.open({ name: "", text: "" }) },
+      ...(hello?.drawing_words || this.isEmbedded ? [{ text: "New contour from a drawing", act: () => void this.newSketch() }] : []),
       ...(hello?.may_write ? [{ text: "Save", key: "Ctrl+S", act: () => void this.saveActive(), isOff: !active }, { text: "Save as…", key: "Ctrl+Shift+S", act: () => void this.saveAs(), isOff: !active }] : []),
       { text: "Download", act: () => this.downloadActive(), isOff: !active },
       ...(this.isEmbedded ? [{ text: "Copy a link to this program", act: () => void this.copyLink(), isOff: !active || !this.told }] : []),
@@ -190,20 +212,83 @@ export class App {
 
   // Programs -------------------------------------------------------------------------------------------------------
 
-  private async open(what: { name?: string; text?: string; base64?: string; example?: string; control?: string }): Promise<void> {
-    if (!this.isGreeted) {
-      const hello = await this.asked<Hello>({ do: "hello" });
-      if (!hello) return;
-      this.greet(hello);
-    }
-    const known = what.text === undefined && what.base64 === undefined && what.name && this.programs.find((each) => each.name === what.name && each.view.base);
+  private async greeted(): Promise<boolean> {
+    if (this.isGreeted) return true;
+    const hello = await this.asked<Hello>({ do: "hello" });
+    if (hello) this.greet(hello);
+    return hello !== null;
+  }
+
+  private async open(what: Opening): Promise<void> {
+    const isNew = what.text === undefined && what.base64 === undefined;
+    const known = isNew && what.name && this.works.find((each) => each.name === what.name && each.base);
     if (known) return this.choose(known);
+    if (!(await this.greeted())) return;
+    if (/\.(toml|json)$/i.test(what.name ?? "")) return this.openSketch(what);
+    if (/\.dxf$/i.test(what.name ?? "")) return this.openDrawing(what);
     const view = await this.asked<View>({ do: "open", ...what });
     if (!view) return;
     const program = this.pane.make(view);
-    this.programs.push(program);
+    this.works.push(program);
     this.choose(program);
     this.pane.focus();
+  }
+
+  private newContour(): HTMLElement[] {
+    return this.hello?.drawing_words || this.isEmbedded ? [button("New contour from a drawing", () => void this.newSketch())] : [];
+  }
+
+  private async newSketch(): Promise<void> {
+    if (await this.greeted()) this.addSketch(newChain("turned"), "", "");
+  }
+
+  private addSketch(chain: Chain, name: string, base: string): void {
+    const sketch: Sketch = new Sketch(this.transport, chain, name, base, (own, why) => {
+      if (own === this.active) this.chain.follow();
+      this.changed(own, why);
+    });
+    this.works.push(sketch);
+    this.choose(sketch);
+    this.chain.focus();
+  }
+
+  private async openSketch(file: Opening): Promise<void> {
+    const read = await this.asked<{ sketch: Plain; name: string; base: string }>({ do: "sketch_open", ...file });
+    if (read) this.addSketch(chainOf(read.sketch), read.name, read.base);
+  }
+
+  // The contour of a CAD drawing: what the file does not tell is asked.
+  private async openDrawing(file: Opening): Promise<void> {
+    const options = (all: [string, string][]) => make("select", {}, ...all.map(([value, text]) => make("option", { value, text })));
+    const part = options([["turned", "Turned part"], ["milled", "Milled part"]]);
+    const unit = options([["", "as the drawing says"], ["mm", "mm"], ["inch", "inch"]]);
+    const layer = make("input", { type: "text", autocomplete: "off", placeholder: "all layers" });
+    const chain = make("input", { type: "text", inputmode: "numeric", autocomplete: "off", placeholder: "the only one" });
+    const zero = ["Zero point, first axis of the drawing", "Zero point, second axis"].map((text) => [text, make("input", { type: "text", inputmode: "decimal", autocomplete: "off" })] as const);
+    const reverse = make("input", { type: "checkbox" });
+    const said = make("p", { class: "wrong", role: "alert" });
+    const fields = [labelled("Kind of part", part), labelled("Unit", unit), labelled("Layer", layer), labelled("Number of the contour, the largest is 1", chain), ...zero.map(([text, input]) => labelled(text, input)), make("label", { class: "check" }, reverse, "the other way round"), said];
+    while (await dialog(this.root, `Contour of ${file.name ?? "the drawing"}`, fields, "Open")) {
+      const place = zero.map(([, input]) => decimal(input.value));
+      const request = {
+        ...file,
+        part: part.value,
+        unit: unit.value,
+        layer: layer.value.trim(),
+        reverse: reverse.checked,
+        ...(chain.value.trim() ? { chain: Number(chain.value) } : {}),
+        ...(place.every((each) => each && Number.isFinite(Number(each))) ? { zero: place.map(Number) } : {}),
+      };
+      try {
+        const read = await this.transport.ask<{ sketch: Plain; notes: string[] }>({ do: "dxf_in", ...request });
+        this.addSketch(chainOf(read.sketch), (file.name ?? "").replace(/\.dxf$/i, ".toml"), "");
+        if (read.notes.length) await dialog(this.root, "What the drawing says", read.notes.map((text) => make("p", { text })), "Go on");
+        return;
+      } catch (error) {
+        if (!(error instanceof Trouble) || !error.reply) return this.tell(error);
+        said.textContent = error.message;
+      }
+    }
   }
 
   private async openFiles(files: FileList | null): Promise<void> {
@@ -215,54 +300,63 @@ export class App {
     }
   }
 
-  private choose(program: Program | null): void {
-    this.active = program;
-    if (program) this.pane.show(program);
+  private choose(work: Work | null): void {
+    this.active = work;
+    if (work instanceof Program) this.pane.show(work);
+    else if (work instanceof Sketch) this.chain.show(work);
     else if (this.hello) this.showStart();
     this.follow();
   }
 
-  private async close(program: Program): Promise<void> {
-    if (program.isChanged && program.text && !this.isEmbedded) {
-      const answer = await dialog(this.root, `Close ${titleOf(program)}?`, [make("p", { text: "Its changes are not saved." })], "Close without saving", this.hello?.may_write ? ["Save"] : ["Download"]);
+  private async close(work: Work): Promise<void> {
+    if (work.isChanged && !work.isEmpty && !this.isEmbedded) {
+      const answer = await dialog(this.root, `Close ${titleOf(work)}?`, [make("p", { text: "Its changes are not saved." })], "Close without saving", this.hello?.may_write ? ["Save"] : ["Download"]);
       if (!answer) return;
       if (answer === "Download") this.downloadActive();
       if (answer === "Save" && !(await this.saveActive())) return;
     }
-    void this.asked({ do: "close", program: program.view.id });
-    const at = this.programs.indexOf(program);
-    this.programs = this.programs.filter((each) => each !== program);
-    this.choose(this.programs[Math.min(at, this.programs.length - 1)] ?? null);
+    void work.close();
+    const at = this.works.indexOf(work);
+    this.works = this.works.filter((each) => each !== work);
+    this.choose(this.works[Math.min(at, this.works.length - 1)] ?? null);
   }
 
-  private changed(program: Program, why: Trouble | null): void {
+  private changed(work: Work, why: Trouble | null): void {
     if (why) this.tell(why);
     else if (this.trouble.textContent) this.tell(null);
-    if (program === this.active) this.follow();
+    if (work === this.active) this.follow();
   }
 
   private follow(): void {
     const { active } = this;
     this.start.hidden = active !== null;
     this.host.hidden = this.actions.hidden = active === null;
-    this.tabs.hidden = !this.programs.length;
-    const names = this.programs.map((each, number) => ({
+    this.tabs.hidden = !this.works.length;
+    const names = this.works.map((each, number) => ({
       name: String(number),
-      text: `${titleOf(each)}${each.isChanged && each.text ? " •" : ""}`,
+      text: `${titleOf(each)}${each.isChanged && !each.isEmpty ? " •" : ""}`,
       title: each.isChanged ? `${titleOf(each)}: changes are not saved` : titleOf(each),
       panel: this.host.id,
     }));
-    showTabs(this.tabs, names, String(active ? this.programs.indexOf(active) : -1), (name) => this.choose(this.programs[Number(name)]!));
+    showTabs(this.tabs, names, String(active ? this.works.indexOf(active) : -1), (name) => this.choose(this.works[Number(name)]!));
     if (!active) return;
+    const isProgram = active instanceof Program;
+    for (const each of this.ofProgram) each.hidden = !isProgram;
+    this.pane.node.hidden = !isProgram;
+    this.chain.node.hidden = isProgram;
+    this.save.textContent = this.hello?.may_write ? "Save" : "Download";
+    this.save.setAttribute("aria-disabled", String(Boolean(this.hello?.may_write) && !active.isChanged));
+    if (!this.isEmbedded) document.title = `${active.isChanged ? "• " : ""}${titleOf(active)} - contoursolve`;
+    if (isProgram) this.followProgram(active);
+  }
+
+  private followProgram(active: Program): void {
     const { view } = active;
     const open = this.control.options[0];
     if (open) open.text = view.control && view.control_from !== "choice" ? `${view.control.title} (the ${view.control_from === "program" ? "words" : view.control_from} say so)` : "as the words tell";
     if (this.control !== (this.root.getRootNode() as Document).activeElement) this.control.value = this.pane.control;
     this.facts.textContent = [view.unit, view.trouble_control].filter(Boolean).join(" · ");
-    this.save.textContent = this.hello?.may_write ? "Save" : "Download";
-    this.save.setAttribute("aria-disabled", String(Boolean(this.hello?.may_write) && !active.isChanged));
     if (this.isEmbedded) this.writeAddress(active);
-    else document.title = `${active.isChanged ? "• " : ""}${titleOf(active)} - contoursolve`;
   }
 
   // Saving ---------------------------------------------------------------------------------------------------------
@@ -274,42 +368,33 @@ export class App {
       this.downloadActive();
       return true;
     }
-    if (!active.view.base) return this.saveAs();
+    if (!active.base) return this.saveAs();
     return this.write(active, {});
   }
 
   private async saveAs(): Promise<boolean> {
     const { active } = this;
     if (!active) return false;
-    const name = make("input", { type: "text", value: active.name || "program.nc", autocomplete: "off" });
+    const name = make("input", { type: "text", value: active.name || fileOf(active), autocomplete: "off" });
     const folder = this.hello?.folder;
     const answer = await dialog(this.root, "Save as", [labelled(folder ? `Name in the folder ${folder}` : "Name", name)], "Save");
     return answer !== null && name.value.trim() !== "" && this.write(active, { name: name.value.trim() });
   }
 
-  private async write(program: Program, options: { name?: string; over?: string }): Promise<boolean> {
-    let doc = program.state.doc;
+  private async write(work: Work, options: { name?: string; over?: string }): Promise<boolean> {
     let conflict = "";
-    const saved = await program.ask<{ saved: string; base: string }>(
-      () => {
-        doc = program.state.doc;
-        return { do: "save", ...options };
-      },
-      false,
-      (why) => {
-        conflict = String(why.reply?.["conflict"] ?? "");
-        return conflict !== "";
-      },
-    );
+    const saved = await work.save(options, (why) => {
+      conflict = String(why.reply?.["conflict"] ?? "");
+      return conflict !== "";
+    });
     if (conflict) {
-      const what = make("p", { text: "Somebody else has changed this file since it was opened. Your text is still here." });
-      const answer = await dialog(this.root, `${options.name ?? program.name} has changed`, [what], "Save under another name", ["Replace it"]);
-      if (answer === "Replace it") return this.write(program, { ...options, over: conflict });
+      const what = make("p", { text: options.name ? "There is a file with this name already. Your text is still here." : "Somebody else has changed this file since it was opened. Your text is still here." });
+      const answer = await dialog(this.root, options.name ? `${options.name} exists` : `${work.name} has changed`, [what], "Save under another name", ["Replace it"]);
+      if (answer === "Replace it") return this.write(work, { ...options, over: conflict });
       return answer !== null && this.saveAs();
     }
     if (!saved) return false;
-    program.view = { ...program.view, name: saved.saved, base: saved.base };
-    program.saved = doc;
+    work.wasSaved(saved.saved, saved.base);
     this.say(`Saved as ${saved.saved}.`);
     this.follow();
     return true;
@@ -323,7 +408,7 @@ export class App {
 
   private downloadActive(): void {
     if (!this.active) return;
-    download(this.active.name || "program.nc", this.active.text);
+    download(this.active.name || fileOf(this.active), this.active.text);
     this.say("Downloaded.");
   }
 
@@ -374,7 +459,7 @@ export class App {
     this.rescue.hidden = !error || error.reply !== null;
     if (this.rescue.hidden) return;
     this.rescue.replaceChildren(
-      button("Try again", () => void (this.hello ? (this.active?.ask(() => ({ do: "view" })) ?? this.asked({ do: "hello" })) : this.begin())),
+      button("Try again", () => void (this.hello ? (this.active?.again() ?? this.asked({ do: "hello" })) : this.begin())),
       ...(this.active ? [button("Copy the text", () => void this.copyActive()), button("Download the text", () => this.downloadActive())] : []),
     );
   }
@@ -393,4 +478,5 @@ function unpacked(text: string): string {
   }
 }
 
-const titleOf = (program: Program): string => program.name || "new program";
+const titleOf = (work: Work): string => work.name || (work instanceof Sketch ? "new contour" : "new program");
+const fileOf = (work: Work): string => `${work instanceof Sketch ? "contour" : "program"}.${work.ending}`;

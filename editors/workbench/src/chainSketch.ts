@@ -2,7 +2,8 @@
 import { type Transport, Trouble } from "./protocol";
 import type { Work } from "./work";
 
-const PAUSE = 120; // ms in which keys are gathered
+const PAUSE = 60; // ms in which keys are gathered
+const REST = 300; // ms without a key after which ranges are asked for
 const MOST_PAST = 500;
 
 export type Values = Record<string, string>;
@@ -34,7 +35,14 @@ export interface Piece {
   end: [number, number];
   center?: [number, number];
   radius?: number;
-  turn?: number;
+  turn?: string;
+}
+
+export interface Frame {
+  width: number;
+  height: number;
+  scale: number; // px for each mm
+  origin: [number, number];
 }
 
 export interface ChainEntry {
@@ -44,19 +52,19 @@ export interface ChainEntry {
   example: string;
   ranges: { low: string; high: string }[];
   is_complete: boolean;
-  beside: [number, string, string][];
 }
 
 export interface ChainView {
   status: string;
+  is_finished: boolean;
   text: string;
-  elements: { name: string; number: number; state: string; off_mm: number | null }[];
+  elements: { name: string; number: number; state: string; off_mm: number | null; segment: Piece | null }[];
   missing: string;
   entries: ChainEntry[];
-  findings: { severity: string; message: string; help: string; fields: [number, string][]; fixes: { title: string; elements: Record<string, Plain> }[] }[];
-  solutions: { name: string; segments: Piece[]; is_chosen: boolean; guess: [number, Values] }[];
+  findings: { code: string; severity: string; message: string; help: string; fields: [number, string][]; fixes: { title: string; elements: Record<string, Plain> }[] }[];
+  solutions: { name: string; segments: Piece[]; is_chosen: boolean; guess: { number: number; place: Values } }[];
   remarks: string[];
-  picture: { svg: string; frame: { width: number; height: number; scale: number; origin: [number, number] } } | null;
+  picture: { svg: string; frame: Frame } | null;
 }
 
 export type Plain = Record<string, unknown>;
@@ -202,13 +210,18 @@ export class Sketch implements Work {
     this.shown(this, null);
   }
 
-  // What is known of it. Of several answers under way, only the last counts.
+  // What is known of it, and when its user rests, ranges and fixes, too. Of several answers under way, the last counts.
   async ask(): Promise<void> {
     clearTimeout(this.timer);
     this.asked += 1;
     const number = this.asked;
+    await this.askedFor(number, false);
+    if (number === this.asked && !this.trouble) this.timer = setTimeout(() => void this.askedFor(number, true), REST);
+  }
+
+  private async askedFor(number: number, ranges: boolean): Promise<void> {
     try {
-      const view = await this.transport.ask<ChainView>({ do: "sketch", sketch: plainOf(this.chain), ranges: true });
+      const view = await this.transport.ask<ChainView>({ do: "sketch", sketch: plainOf(this.chain), ranges, ...(ranges ? { window: "ranges" } : {}) });
       if (number !== this.asked) return;
       [this.view, this.trouble, this.place] = [view, "", null];
       this.shown(this, null);
@@ -216,8 +229,10 @@ export class Sketch implements Work {
       if (!(error instanceof Trouble)) throw error;
       if (number !== this.asked) return;
       if (error.reply) {
-        this.trouble = error.message;
-        this.place = [Number(error.reply["number"] ?? 0), String(error.reply["field"] ?? "")];
+        // "element 2: X is ..." names the field.
+        const [, number, field] = /^(?:element (\d+): )?([\w.]+) /.exec(error.message) ?? [];
+        this.place = [Number(number ?? 0), field ?? ""];
+        this.trouble = error.message.replace(/^element (\d+)/, (whole, at) => (this.chain.elements[at - 1] ? `${this.chain.elements[at - 1]!.kind} ${at}` : whole));
       }
       this.shown(this, error.reply ? null : error);
     }

@@ -70,6 +70,7 @@ export interface Hello {
   can_unlock: boolean;
   examples: { title: string; control: string }[];
   style?: string;
+  drawing_words?: Record<string, Record<"line" | "arc", Record<string, string>>>;
   open?: string;
 }
 

@@ -1,0 +1,111 @@
+// The picture of a sketch: what is known of it, the ghost of a solution, and guesses, which a touch sets.
+import { button, make, picture } from "./dom";
+import { AXES, type Chain, type ChainView, type Frame, type Piece } from "./chainSketch";
+
+const SVG = "http://www.w3.org/2000/svg";
+const INCH = 25.4;
+
+export interface ChainPicture {
+  node: HTMLElement;
+  show(chain: Chain, view: ChainView | null, chosen: number): void;
+  ghost(pieces: Piece[] | null): void;
+}
+
+export function chainPicture(select: (number: number) => void, guess: (number: number, place: [number, number]) => void): ChainPicture {
+  let isGuessing = false;
+  let frame: Frame | null = null;
+  let now = 0;
+  let shown: string | null = null;
+  const over = document.createElementNS(SVG, "svg");
+  over.setAttribute("class", "over");
+  over.setAttribute("aria-hidden", "true");
+  const drawn = make("div", { class: "drawn" });
+  const paper = make("div", { class: "canvas contoursolve" }, drawn);
+  const toggle = button("Guess by touch", () => set(!isGuessing), { "aria-pressed": "false" });
+  const told = make("span", { class: "muted" });
+  const node = make("div", { class: "chain-picture" }, make("div", { class: "bar" }, toggle, told), paper);
+  let elements: ChainView["elements"] = [];
+  let ghostly: Piece[] | null = null;
+  let guesses: [number, number][] = [];
+
+  function set(wanted: boolean): void {
+    isGuessing = wanted;
+    toggle.setAttribute("aria-pressed", String(wanted));
+    paper.classList.toggle("guessing", wanted);
+    told.textContent = wanted ? "Touch the drawing about where the element ends." : "";
+  }
+
+  const at = ([x, y]: [number, number]): [number, number] => [frame!.origin[0] + x * frame!.scale, frame!.origin[1] - y * frame!.scale];
+
+  paper.addEventListener("click", (event) => {
+    if (!isGuessing) {
+      const number = Number((event.target as Element).closest?.("[data-number]")?.getAttribute("data-number") ?? 0);
+      if (number) select(number);
+      return;
+    }
+    const box = drawn.getBoundingClientRect();
+    if (!frame || !now || !box.width) return;
+    const x = ((event.clientX - box.left) / box.width) * frame.width;
+    const y = ((event.clientY - box.top) / box.height) * frame.height;
+    guess(now, [(x - frame.origin[0]) / frame.scale, (frame.origin[1] - y) / frame.scale]);
+    set(false);
+  });
+
+  function path(piece: Piece): string {
+    const [start, end] = [at(piece.start), at(piece.end)];
+    if (piece.kind !== "arc" || !piece.center) return `M${start}L${end}`;
+    const center = piece.center;
+    const angle = ([x, y]: [number, number]) => Math.atan2(y - center[1], x - center[0]);
+    const turn = piece.turn === "cw" ? -1 : 1;
+    const swept = ((angle(piece.end) - angle(piece.start)) * turn + 4 * Math.PI) % (2 * Math.PI);
+    const radius = (piece.radius ?? 0) * frame!.scale;
+    return `M${start}A${radius},${radius} 0 ${swept > Math.PI ? 1 : 0} ${turn > 0 ? 0 : 1} ${end}`;
+  }
+
+  function mark(kind: string, attributes: Record<string, string>): SVGElement {
+    const element = document.createElementNS(SVG, kind);
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+    return element;
+  }
+
+  function overlay(): void {
+    over.replaceChildren();
+    if (!frame) return;
+    over.setAttribute("viewBox", `0 0 ${frame.width} ${frame.height}`);
+    for (const { number, segment } of elements) {
+      if (segment) over.append(mark("path", { d: path(segment), class: number === now ? "hit lit" : "hit", "data-number": String(number) }));
+    }
+    for (const piece of ghostly ?? []) over.append(mark("path", { d: path(piece), class: "ghost" }));
+    for (const each of guesses) {
+      const [x, y] = at(each).map((value) => value.toFixed(2)) as [string, string];
+      over.append(mark("circle", { cx: x, cy: y, r: "9", class: "guess" }), mark("circle", { cx: x, cy: y, r: "2.5", class: "guess dot" }));
+    }
+  }
+
+  return {
+    node,
+    ghost(pieces) {
+      ghostly = pieces;
+      overlay();
+    },
+    show(chain, view, chosen) {
+      now = chosen;
+      toggle.setAttribute("aria-disabled", String(!chosen || !view?.picture));
+      toggle.textContent = chosen ? `Guess by touch: end of ${chain.elements[chosen - 1]?.kind ?? "line"} ${chosen}` : "Guess by touch";
+      frame = view?.picture?.frame.scale ? view.picture.frame : null;
+      elements = view?.elements ?? [];
+      const svg = view?.picture?.svg ?? "";
+      if (svg !== shown) {
+        shown = svg;
+        const made = svg ? picture(svg) : null;
+        drawn.replaceChildren(...(made ? [made, over] : []));
+      }
+      const scale = chain.unit === "inch" ? INCH : 1;
+      guesses = chain.elements.flatMap((each) => {
+        const place = AXES[chain.part].map((axis, number) => (Number((each.guess[axis] ?? "").replace(",", ".") || NaN) * scale) / (chain.part === "turned" && number === 1 ? 2 : 1));
+        return place.every(Number.isFinite) ? [place as [number, number]] : [];
+      });
+      overlay();
+    },
+  };
+}

@@ -1,0 +1,184 @@
+"""The contour editor of the workbench in a real browser: contours of drawings are built by keyboard alone."""
+
+from pathlib import Path
+
+import pytest
+from served_page import SCREENS, said
+
+import contoursolve
+from contoursolve.sketches import plain_sketch, read_sketch
+
+pytestmark = [pytest.mark.browser, pytest.mark.needs("starlette", "uvicorn")]
+SKETCHES = sorted((Path(__file__).parents[1] / "sketches").glob("*.toml"))
+CONTROLS = {"turned": ("yasnac-lx3", "fanuc-lathe", "haas-lathe"), "milled": ("nct-99m", "heidenhain", "fanuc-mill")}
+WAY = """([number, field]) => {
+  const place = number ? `[data-number="${number}"]` : ".chain-head";
+  const wanted = [...document.querySelectorAll(`${place} :is([data-field], button, summary)`)]
+    .find(each => (each.dataset.field ?? each.textContent) === field);
+  if (wanted === document.activeElement) return "";
+  const isBehind = document.activeElement.compareDocumentPosition(wanted) & Node.DOCUMENT_POSITION_FOLLOWING;
+  return isBehind ? "Tab" : "Shift+Tab";
+}"""
+
+MOST_TABS = 200
+
+
+class Keyboard:
+    """The keyboard of a page: goes to fields by the tab key, and fills them in."""
+
+    def __init__(self, page):
+        self.page, self.press, self.type = page, page.keyboard.press, page.keyboard.type
+
+    def go(self, number, field):
+        for _ in range(MOST_TABS):
+            key = self.page.evaluate(WAY, [number, field])
+            if not key:
+                return
+            self.press(key)
+        raise AssertionError(f"no tab leads to {field} of {number}")
+
+    def fill(self, number, field, text):
+        self.go(number, field)
+        self.press("Control+a")
+        self.type(str(text))
+
+    def choose(self, number, field, text):
+        self.go(number, field)
+        self.type(text)
+
+    def build(self, plain):
+        """Build the sketch of a table."""
+        self.choose(0, "part", plain["part"].capitalize())
+        if plain.get("unit") == "inch":
+            self.choose(0, "unit", "inch")
+        if plain.get("closed"):
+            self.go(0, "closed")
+            self.press("Space")
+        for axis, value in plain["start"].items():
+            self.fill(0, f"start.{axis}", value)
+        if plain.get("facts") or plain.get("pole"):
+            self.go(0, "More")
+            self.press("Enter")
+            for axis, value in plain.get("pole", {}).items():
+                self.fill(0, f"pole.{axis}", value)
+            self.fill(0, "facts", "\n".join(plain.get("facts", ())))
+        for number, each in enumerate(plain["element"], 1):
+            self.press("Control+Enter" if each["kind"] == "line" else "Control+Shift+Enter")
+            self.element(number, dict(each))
+
+    def element(self, number, each):
+        del each["kind"]
+        turn = each.pop("turn", None)
+        if turn:
+            self.choose(number, "turn", {"cw": "Clock", "ccw": "Counter"}[turn])
+        if each.pop("tangent", False):
+            self.go(number, "tangent")
+            self.press("Space")
+        corner, guess, facts = (each.pop(name, {}) for name in ("corner", "guess", "facts"))
+        for shape, size in corner.items():
+            self.choose(number, "shape", shape.capitalize())
+            self.fill(number, "corner", size)
+        usual = {"X", "Y", "Z", "AN", "LEN", "R", "CCX", "CCY", "CCZ"} - ({"AN", "LEN"} if turn else set())
+        rest = {**{n: v for n, v in each.items() if n not in usual}, **{f"guess.{n}": v for n, v in guess.items()}}
+        for name in usual & {*each}:
+            self.fill(number, name, each[name])
+        if rest or facts:
+            self.go(number, "More")
+            self.press("Enter")
+        for name, value in rest.items():
+            self.fill(number, name, value)
+        if facts:
+            self.fill(number, "facts", "\n".join(facts))
+
+
+@pytest.mark.parametrize("path", SKETCHES, ids=lambda path: path.stem)
+def test_a_contour_is_built_by_keyboard_alone_and_written_for_three_controls(path, opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    sketch = read_sketch(path.read_text(encoding="utf-8"))
+    page = opened()
+    page.get_by_role("button", name="New contour").press("Enter")
+    page.locator("[data-field=part]").wait_for()
+    keyboard = Keyboard(page)
+    keyboard.build(plain_sketch(sketch))
+    page.locator(".missing.done").wait_for()
+    # Decimal commas are those of the reader: the file has points.
+    keyboard.press("Control+Shift+s")
+    page.get_by_label("Name in the folder").fill(path.name)
+    keyboard.press("Enter")
+    said(page, f"Saved as {path.name}.")
+    assert read_sketch((folder / path.name).read_text(encoding="utf-8")) == sketch
+    page.get_by_role("tab", name="Words").click()
+    for control in CONTROLS[sketch.part]:
+        page.get_by_label("Write it for").select_option(control)
+        wanted = contoursolve.write(sketch, control).candidates
+        expect(page.locator(".candidate pre")).to_have_text(["\n".join(each.lines) for each in wanted])
+
+
+OPEN = """sketch = 1
+part = "turned"
+start = { Z = 0, X = 20 }
+[[element]]
+kind = "line"
+AN = 180
+[[element]]
+kind = "line"
+AN = 90
+X = 60
+"""
+
+
+WRONG = {
+    "open": ("", ""),
+    "asked": ("AN = 180", 'AN = "?"'),
+    "contradicting": ("AN = 180", "AN = 180\nZ = -30\nLEN = 20"),
+    "twice": ("X = 60", "X = 60\nZ = -30\nLEN = 9"),
+}
+
+
+@pytest.mark.parametrize(("old", "new"), WRONG.values(), ids=WRONG)
+def test_what_is_missing_or_wrong_is_said_as_python_says_it(old, new, opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    text = OPEN.replace(old, new, 1)
+    (folder / "wrong.toml").write_text(text, encoding="utf-8")
+    page = opened()
+    page.get_by_role("button", name="wrong.toml").click()
+    page.locator(".card").first.wait_for()
+    known = contoursolve.sketch_view(read_sketch(text), with_ranges=True)
+    errors = [each["message"] for each in known["findings"] if each["severity"] == "error"]
+    expect(page.locator(".missing")).to_have_text(known["missing"] or errors[0])
+    states = [each["state"] for each in known["elements"] if not each["name"].startswith("corner")]
+    for number, state in enumerate(states):
+        expect(page.locator(".card").nth(number)).to_have_attribute("data-state", state)
+    expect(page.locator(".entries button")).to_have_count(len(known["entries"]))
+
+
+def test_a_value_that_is_no_number_is_marked_and_undone(opened) -> None:
+    page = opened()
+    page.get_by_role("button", name="New contour").click()
+    page.get_by_role("button", name="Add a line").click()
+    field = page.get_by_label("line 1: Length")
+    field.fill("3O")
+    page.locator(".missing.wrong").wait_for()
+    page.wait_for_function("() => document.querySelector('[data-field=LEN]').getAttribute('aria-invalid') === 'true'")
+    page.keyboard.press("Control+z")
+    assert field.input_value() == ""
+    page.keyboard.press("Control+z")
+    page.locator(".card").wait_for(state="detached")
+    page.keyboard.press("Control+y")
+    page.locator(".card").wait_for()
+
+
+@pytest.mark.parametrize("screen", SCREENS)
+def test_every_view_of_the_editor_can_be_reached_and_read(screen, axe, opened, folder, artefacts) -> None:
+    (folder / "axe.toml").write_text(OPEN, encoding="utf-8")
+    page = opened(screen=screen)
+    page.get_by_role("button", name="axe.toml").click()
+    page.locator(".missing:not(:empty)").wait_for()
+    assert axe(page) == []
+    for tab in page.locator(".pane.chain .views button").all():
+        tab.click()
+        assert axe(page) == []
+        page.screenshot(path=artefacts / f"chain-{screen.replace(', ', '-')}-{tab.inner_text()}.png")
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
