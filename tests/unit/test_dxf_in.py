@@ -444,7 +444,7 @@ def test_what_a_drawing_may_have_else_is_told():
     for end, told in ((1e12, "farther away than a control can travel"), (0, "no lines and arcs with a length")):
         document, space = drawing()
         space.add_line((0, 0), (end, 0))
-        assert told in refused(document, part="turned")
+        assert told in refused(document, part="milled")
     document, space = drawing()
     document.layout("Layout1").add_line((0, 0), (1, 0))
     assert "it has something on paper" in refused(document, part="milled")
