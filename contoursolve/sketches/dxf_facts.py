@@ -4,13 +4,13 @@ many facts those are chosen that do not follow from others."""
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from decimal import Decimal
-from math import atan2, degrees, dist, hypot
+from math import atan2, degrees, dist, hypot, nan
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
 
-from contoursolve.sketches.dxf_chain import JOINED, DxfChain
+from contoursolve.sketches.dxf_chain import DxfChain
 from contoursolve.sketches.sketch import SketchElement, Value
 from contoursolve.solving import ArcSegment, LineSegment, Point
 
@@ -60,10 +60,10 @@ class DrawnFact(Struct, frozen=True):
 
 class Chained:
     """A chain with its places: the start, the end of each element, then the centres of its arcs. Of a closed chain the
-    last end is the start."""
+    last end is the start. `near` is how near the points of dimensions lie."""
 
-    def __init__(self, chain: DxfChain, axes: tuple[str, str], *, is_turned: bool) -> None:
-        self.elements, self.axes = chain.elements, axes
+    def __init__(self, chain: DxfChain, axes: tuple[str, str], near: float, *, is_turned: bool) -> None:
+        self.elements, self.axes, self.near = chain.elements, axes, near
         self.is_turned, self.is_closed = is_turned, chain.is_closed
         count = len(self.elements)
         self.nodes = [*range(count), 0 if chain.is_closed else count]
@@ -77,7 +77,7 @@ class Chained:
     def _classes(self, axis: int) -> list[set[int]]:
         groups = [{node} for node in range(len(self.nodes))]
         for place, each in enumerate(self.elements):
-            if isinstance(each, LineSegment) and abs(each.start[axis] - each.end[axis]) <= JOINED / 10:
+            if isinstance(each, LineSegment) and abs(each.start[axis] - each.end[axis]) <= self.near / 10:
                 both = groups[place] | groups[place + 1]
                 for node in both:
                     groups[node] = both
@@ -94,7 +94,7 @@ class Chained:
 
     def nodes_at(self, at: Point) -> set[int]:
         """The ends that lie at a place of the drawing."""
-        return {node for node, row in enumerate(self.nodes) if dist(self.at[row], at) <= JOINED}
+        return {node for node, row in enumerate(self.nodes) if dist(self.at[row], at) <= self.near}
 
     def difference(self, axis: int, second: int, first: int | None = None) -> Measure:
         """A coordinate of an end, or how far it lies beyond that of another."""
@@ -155,7 +155,7 @@ def relations(chained: Chained) -> Iterator[DrawnFact]:
     for place, element in enumerate(chained.elements):
         if isinstance(element, LineSegment):
             for axis in (0, 1):
-                if abs(element.end[axis] - element.start[axis]) <= JOINED / 10:
+                if abs(element.end[axis] - element.start[axis]) <= chained.near / 10:
                     value = Decimal(round(element.angle) % 360)
                     yield DrawnFact(place, "AN", value, chained.difference(axis, place + 1, place))
         is_round = place in chained.arcs or place - 1 in chained.arcs
@@ -225,7 +225,7 @@ class _Dimension(Struct, frozen=True):
 
     def at(self, name: str) -> Point:
         """A point of it on the drawing; below the axis of a turned part too."""
-        return self.place(self.entity.dxf.get(name))
+        return self.place(self.entity.dxf.get(name, (nan, nan)))
 
     def over(self, at: Point) -> Point:
         """That point on the side of the profile."""
@@ -253,7 +253,7 @@ class _Dimension(Struct, frozen=True):
             center = at if kind == _RADIUS else ((at[0] + end[0]) / 2, (at[1] + end[1]) / 2)
             radius = dist(center, end)
             for place, arc in self.chained.arcs.items():
-                if dist(arc.center, self.over(center)) <= JOINED and abs(arc.radius - radius) <= JOINED:
+                if dist(arc.center, self.over(center)) <= self.chained.near >= abs(arc.radius - radius):
                     real = arc.radius * (1 if kind == _RADIUS else 2)
                     yield self.fact(
                         place, "R", number(real) / (2 if kind == _DIAMETER else 1), self.chained.radius(place), real
@@ -264,11 +264,11 @@ class _Dimension(Struct, frozen=True):
             if kind == _BY_POINTS:
                 ends = (corner, self.at("defpoint2")), (corner, self.at("defpoint3"))
             yield from self._angles(*ends)
-        elif kind == _ORDINATE and hypot(*self.at("defpoint")) <= JOINED:
+        elif kind == _ORDINATE and hypot(*self.at("defpoint")) <= self.chained.near:
             axis = 0 if dxf.dimtype & _IS_OF_X else 1
             at = self.over(self.at("defpoint2"))
             for node in sorted(self.chained.nodes_at(at)):
-                yield from self._absolute(axis, node, at[axis])
+                yield from self._absolute(axis, node, abs(at[axis]))
 
     def _absolute(self, axis: int, node: int, real: float) -> Iterator[DrawnFact]:
         """A coordinate of an end."""
@@ -283,7 +283,7 @@ class _Dimension(Struct, frozen=True):
         chained, real = self.chained, abs(second[axis] - first[axis])
         if chained.is_turned and axis == 1:
             low, high = sorted((first, second), key=lambda at: abs(at[1]))
-            if abs(low[1]) <= JOINED or abs(low[1] + high[1]) <= JOINED:
+            if abs(low[1]) <= self.chained.near or abs(low[1] + high[1]) <= self.chained.near:
                 for node in self._same(axis, chained.nodes_at(self.over(high))):
                     yield from self._absolute(axis, node, real)
                 return
@@ -347,7 +347,9 @@ class _Dimension(Struct, frozen=True):
         return [
             place
             for place, each in enumerate(self.chained.elements)
-            if length > JOINED and isinstance(each, LineSegment) and max(off(each.start), off(each.end)) <= JOINED
+            if length > self.chained.near
+            and isinstance(each, LineSegment)
+            and max(off(each.start), off(each.end)) <= self.chained.near
         ]
 
 

@@ -144,7 +144,7 @@ def read_dxf(
     notes += [f"left out, beside the contour: {count} {kind}" for kind, count in beside.items()]
     is_backward = part == "turned" and not chosen.is_closed and chosen.elements[0].start[0] < chosen.elements[-1].end[0]
     chosen = _directed(chosen, is_reversed=is_backward != reverse)
-    chained = Chained(chosen, DRAWINGS[part].plane.axes, is_turned=part == "turned")
+    chained = Chained(chosen, DRAWINGS[part].plane.axes, JOINED / _MM[named], is_turned=part == "turned")
     taken, known = _numbers(chained, contents.dimensions, place, notes)
     sketch, given = _sketch(chained, taken, known, named, part, notes)
     return DxfSketch(sketch, given, tuple(notes), dict(layers), tuple(_measured(chained, known)))
@@ -165,7 +165,7 @@ def _sketch(
         answer = solve_sketch(found).answer
         path = answer.contour.elements if answer is not None and answer.contour is not None else ()
         ends = [(each.end[0] / _MM[unit], each.end[1] / _MM[unit]) for each in path]
-        same = [dist(end, each.end) <= JOINED for end, each in zip(ends, chained.elements, strict=False)]
+        same = [dist(end, each.end) <= chained.near for end, each in zip(ends, chained.elements, strict=False)]
         if len(same) == len(chained.elements) == len(path) and all(same):
             return found, tuple(dict.fromkeys(fact.given for fact in taken if fact.given))
     notes += (
