@@ -9,7 +9,7 @@ from math import dist
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import NUMBERS, Answer, Depth, absent_words, either, helping_words
+from contoursolve.diagnosis import NUMBERS, Answer, AskedValue, Depth, absent_words, either, helping_words
 from contoursolve.diagnostics import OpenNumber
 from contoursolve.gcode import parse
 from contoursolve.geometry import Arc, Profile, Unit, assemble
@@ -61,6 +61,13 @@ def written_place(answer: Answer, at: Point, decimals: int = 4) -> dict[str, Dec
 def _written(answer: Answer, value: float, is_diameter: bool, decimals: int) -> Decimal:
     number = value * (2 if is_diameter else 1) / float(answer.unit.in_mm)
     return Decimal(f"{number:z.{decimals}f}")
+
+
+def asked_number(asked: AskedValue, answer: Answer) -> Decimal:
+    """A value that was asked for, to three decimals, as it is written."""
+    value, question = asked.value or 0.0, asked.question
+    is_length = question.unit is Unit.MM
+    return _written(answer, value, question.is_diameter, 3) if is_length else Decimal(f"{value:z.3f}")
 
 
 def drawn_plainly(profile: Profile, loose: Loose) -> Iterator[Segment]:
@@ -151,11 +158,7 @@ def with_examples(
     for asked in found.answers if found is not None else ():
         field = program.field_at(asked.question.word.span)
         if field is not None and asked.value is not None:
-            row = sketch.control.modes.lexicon.addresses[field[1]]
-            is_angle = row.unit is Unit.DEGREE
-            values[field] = (
-                Decimal(f"{asked.value:z.3f}") if is_angle else _written(answer, asked.value, row.is_diameter, 3)
-            )
+            values[field] = asked_number(asked, answer)
     told = list[SketchEntry]()
     for each in entries:
         value = values.get((each.number, each.field))

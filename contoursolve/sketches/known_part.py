@@ -22,6 +22,7 @@ from contoursolve.pictures import find_known, in_part, list_trails
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program, element_of
 from contoursolve.sketches.finishing import (
     SketchEntry,
+    asked_number,
     drawn_plainly,
     examined,
     missing_fields,
@@ -97,7 +98,8 @@ class SketchAnswer(Struct, frozen=True):
     """All that is known of a sketch.
 
     `answer` is that of its program (None where it has no element, or begins nowhere), with the solution that a guess
-    has chosen. `missing` says in one line what is missing, empty if nothing is; `remarks` tell of guesses.
+    has chosen. `missing` says in one line what is missing, empty if nothing is; `remarks` tell of guesses, `asked` are
+    the values of fields with `?`, as they are written, None where nothing tells one.
     """
 
     sketch: ContourSketch
@@ -110,6 +112,7 @@ class SketchAnswer(Struct, frozen=True):
     findings: tuple[SketchFinding, ...] = ()
     solutions: tuple[SketchSolution, ...] = ()
     remarks: tuple[str, ...] = ()
+    asked: Mapping[Field, Decimal | None] = {}
 
     @property
     def is_finished(self) -> bool:
@@ -131,9 +134,21 @@ def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchA
     >>> found.missing, found.elements[0].state.value
     ('one entry is missing: X, LEN or IX of line 1', 'sliding')
     """
-    last = sketch.elements[-1] if sketch.elements else None
+    number = len(sketch.elements)
+    last = sketch.elements[-1] if number else None
     if last is not None and last.corner is not None:
-        return _with_open_corner(solve_sketch(_without_last_corner(sketch, last), with_ranges=with_ranges), sketch)
+        name, advice = f"corner {number}", "add the next line or arc, or leave the corner out"
+        without = (*sketch.elements[:-1], replace(last, corner=None))
+        found = solve_sketch(replace(sketch, elements=without), with_ranges=with_ranges)
+        found = replace(found, elements=(*found.elements, SketchPart(name, number, PartState.UNKNOWN)))
+        message = f"{name} needs an element behind it, and none follows"
+        if sketch.closed:
+            message, advice = f"{name} lies where the closed contour begins", "let it begin in the middle of an element"
+        return _with_error(found, sketch, "corner-without-next", message, advice, (number, "corner"))
+    if sketch.closed and len(sketch.elements) == 1:
+        message = "a closed contour has two lines or arcs, or more"
+        found = solve_sketch(replace(sketch, closed=False), with_ranges=with_ranges)
+        return _with_error(found, sketch, "closed-alone", message, "add the next line or arc", (0, "closed"))
     program = as_program(sketch)
     answer = None
     if program.start is not None and sketch.elements:
@@ -151,23 +166,13 @@ def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchA
     return replace(found, elements=tuple(each if is_same else _unknown(each) for each, is_same in parts))
 
 
-def _without_last_corner(sketch: ContourSketch, last: SketchElement) -> ContourSketch:
-    return replace(sketch, elements=(*sketch.elements[:-1], replace(last, corner=None)))
-
-
-def _with_open_corner(found: SketchAnswer, sketch: ContourSketch) -> SketchAnswer:
-    """The answer about a sketch whose last element has a corner, from that about it without."""
-    number = len(sketch.elements)
-    name, advice = f"corner {number}", "add the next line or arc, or leave the corner out"
-    message = f"{name} needs an element behind it, and none follows"
-    finding = SketchFinding("drawing-corner-without-next", Severity.ERROR, message, advice, ((number, "corner"),))
-    return replace(
-        found,
-        sketch=sketch,
-        elements=(*found.elements, SketchPart(name, number, PartState.UNKNOWN)),
-        missing=found.missing or f"{message}: {advice}",
-        findings=(*found.findings, finding),
-    )
+def _with_error(
+    found: SketchAnswer, sketch: ContourSketch, code: str, message: str, advice: str, field: Field
+) -> SketchAnswer:
+    """The answer about a sketch with something that is not finished, from that about it without."""
+    finding = SketchFinding(f"drawing-{code}", Severity.ERROR, message, advice, (field,))
+    missing = found.missing or f"{message}: {advice}"
+    return replace(found, sketch=sketch, missing=missing, findings=(*found.findings, finding))
 
 
 def _is_known_alike(one: SketchPart, other: SketchPart) -> bool:
@@ -212,6 +217,8 @@ class _Reading:
         has_guess = any(each.guess for each in self.sketch.elements)
         if has_guess and answer.contour is not None:
             self.remarks.append("the guess is not used: what is given has one solution")
+        elif has_guess and answer.status is Status.UNDERDETERMINED:
+            self.remarks.append("the guess is no dimension: it only shows where an element may be")
         missing, loose = "", None
         entries: Iterable[SketchEntry] = ()
         if chosen is not None:
@@ -228,10 +235,17 @@ class _Reading:
             tuple(self._parts(answer, several, chosen, loose)),
             missing,
             tuple(entries),
-            tuple(map(self._finding, answer.diagnostics)),
+            tuple(self._findings(answer)),
             tuple(self._solutions(several, chosen)) if len(several) > 1 else (),
             tuple(self.remarks),
+            dict(self._asked(answer)),
         )
+
+    def _asked(self, answer: Answer) -> Iterator[tuple[Field, Decimal | None]]:
+        for each in answer.answers:
+            field = self.program.field_at(each.question.word.span)
+            if field is not None:
+                yield field, asked_number(each, answer) if each.value is not None else None
 
     # Guesses -------------------------------------------------------------------------------------------------
 
@@ -359,6 +373,14 @@ class _Reading:
             entries = with_examples(self.sketch, self.answer, loose, entries)
         return missing_text(self.sketch, count, fields), entries
 
+    def _findings(self, answer: Answer) -> Iterator[SketchFinding]:
+        """The findings; that a field agrees with others is not told where it also contradicts."""
+        found = [*map(self._finding, answer.diagnostics)]
+        wrong = {field for each in found if each.severity is Severity.ERROR for field in each.fields}
+        for each in found:
+            if each.severity is not Severity.INFO or not each.fields or not wrong.issuperset(each.fields):
+                yield each
+
     # Findings ------------------------------------------------------------------------------------------------
 
     def _finding(self, finding: Diagnostic) -> SketchFinding:
@@ -411,7 +433,7 @@ _OPEN = (Status.UNDERDETERMINED, Status.AMBIGUOUS)
 
 _LINE = re.compile(r"program line (?P<line>-?\d+)")
 _CORNERS = (("RND R", "rounding "), ("CHF ", "chamfer "))
-_WORDS = {"FLT": "tangent", "FCT": "tangent", "DR+": "ccw", "DR-": "cw"}
+_WORDS = {"CLSD-": "closed", "CLSD+": "closed", "FLT": "tangent", "FCT": "tangent", "DR+": "ccw", "DR-": "cw"}
 _WORD = re.compile(rf"(?<!\w)(?:{'|'.join(map(re.escape, _WORDS))})(?!\w)")
 
 

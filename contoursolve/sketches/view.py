@@ -82,6 +82,7 @@ def sketch_view(sketch: ContourSketch, *, with_ranges: bool = False, theme: Them
         "elements": [plain(each) | {"segment": each.segment and _segment(each.segment)} for each in found.elements],
         "missing": found.missing,
         "remarks": [*found.remarks],
+        "asked": [{"number": n, "field": name, "value": _texts(each)} for (n, name), each in found.asked.items()],
         "entries": plain(found.entries),
         "findings": [_finding(each) for each in found.findings],
         "solutions": [
