@@ -4,6 +4,9 @@ from .block_numbers import (
     block_number_at as block_number_at,
     rename_block as rename_block,
 )
+from .chain_wordings import (
+    language_of as language_of,
+)
 from .expansion_report import (
     Conversion as Conversion,
     ConversionError as ConversionError,
@@ -36,9 +39,6 @@ from .rewrite import (
     Rewritten as Rewritten,
     Writer as Writer,
     rewrite as rewrite,
-)
-from .translate import (
-    language_of as language_of,
 )
 from .wordings import (
     NumberGround as NumberGround,

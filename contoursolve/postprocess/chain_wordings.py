@@ -3,25 +3,54 @@
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise, product
 
-from contoursolve.controls import Element, Joining, Language, compose, names_of
+from contoursolve.controls import ChainFinder, Element, Joining, Language, compose, names_of
 from contoursolve.gcode import spell
 from contoursolve.geometry import Turn
 from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, begins_smoothly, size_as
-from contoursolve.postprocess.wordings import GCodeSpeller, NumberGround, Wording, WrittenBlock, WrittenWord, values_of
+from contoursolve.postprocess.wordings import (
+    GCodeSpeller,
+    NumberGround,
+    Surroundings,
+    Wording,
+    WrittenBlock,
+    WrittenWord,
+    values_of,
+)
 from contoursolve.reading import Dialect, State
 from contoursolve.solving import ArcSegment, LineSegment
+
+
+def language_of(target: Dialect) -> Language | None:
+    """The language of a target that writes lines and arcs in a row; None for another target."""
+    return target.find.language if isinstance(target.find, ChainFinder) else None
+
 
 _LONGEST = 4
 """Elements that are tried at once in a chain of computed intersections."""
 _HALF_TURN = 180.0
+_ENDS = ("1:first", "1:second")
+
+
+def _call(name: str) -> str:
+    """The name of a given without that of its element."""
+    return name.partition(":")[2]
+
+
 _ORDER = {letter: place for place, letter in enumerate("XYZUVW,AIJKR")}
 
 
 class ChainWordings(GCodeSpeller):
     """The words of a language for elements of a contour."""
 
-    def __init__(self, drawn: ContourDrawing, dialect: Dialect, state: State, language: Language) -> None:
-        super().__init__(drawn, dialect, state)
+    def __init__(
+        self,
+        drawn: ContourDrawing,
+        dialect: Dialect,
+        state: State,
+        language: Language,
+        around: Surroundings | None = None,
+    ) -> None:
+        super().__init__(drawn, dialect, state, around)
         self.language = language
 
     def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
@@ -31,17 +60,20 @@ class ChainWordings(GCodeSpeller):
                 yield self.word(self.language.address_of(address), size)
 
     def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
-        for kinds in self._kinds(self.language, index):
+        is_incremental = self.around is not None and self.around.form.is_incremental
+        for kinds in self._kinds(self.language, index) if not is_incremental else ():
             yield from self._of_kinds(self.language, kinds, index, is_cut=is_cut)
 
     def _kinds(self, language: Language, index: int) -> Iterator[tuple[Element, ...]]:
         """The kinds of the elements from one on: each by itself, or several that meet in computed intersections."""
         elements = self.drawn.elements[index:]
-        yield (Element(_turn(elements[0])),)
         is_arc = isinstance(elements[0].segment, ArcSegment)
+        if not is_arc:
+            yield (Element(),)
         if (
             is_arc
             and language.arc.tangent is not None
+            and self.around is None
             and index
             and begins_smoothly(self.drawn.elements[index - 1], elements[0])
         ):
@@ -92,7 +124,7 @@ class ChainWordings(GCodeSpeller):
                     for words in self._choosing(language, own, kinds, number)
                 ]
                 for number, (each, kind, (said, *_)) in enumerate(zip(row, kinds, corners, strict=True))
-                for motion in (_motion(language, kind),)
+                for motion in (self._motion(language, kind),)
             ]
             for found in product(*blocks):
                 needs_side = is_open and language.meeting.joining is Joining.OVER_DEFINED
@@ -106,12 +138,10 @@ class ChainWordings(GCodeSpeller):
         element: DrawnElement,
         kind: Element,
     ) -> Iterator[tuple[WrittenWord, ...]]:
-        """The words of a set of givens; none if it has one that tells nothing of the element, or no number of its own
-        where another set has."""
-        words, addresses = list[WrittenWord](), self._addresses(language)
-        is_arc = kind.turn is not None
-        for name in given:
-            call = name.partition(":")[2]
+        """The words of a set of givens; none if it has one that tells nothing of the element, or is rounded where an
+        arc or an increment would lead elsewhere."""
+        words, addresses, calls = list[WrittenWord](), self._addresses(language), [_call(name) for name in given]
+        for name, call in zip(given, calls, strict=True):
             if call in ("turn", "point"):
                 continue
             if call not in addresses or name not in facts:
@@ -120,22 +150,30 @@ class ChainWordings(GCodeSpeller):
             if call == "R" and isinstance(element.segment, ArcSegment) and element.segment.sweep > _HALF_TURN:
                 value = -value
             words.append(self.word(addresses[call], value, axis))
-        is_angled = any(name.partition(":")[2] == language.angle.address for name in given)
-        is_plain = not (kind.is_over or kind.is_followed)
-        if is_plain and not is_arc and (len(given) == 1 or not is_angled):
-            # An angle alone says no line, and ends alone are written elsewhere.
+        is_open = kind.is_over or kind.is_followed
+        is_delicate = (kind.turn is not None and "R" not in calls and not kind.is_smooth) or any(
+            call.endswith("-step") for call in calls
+        )
+        if is_delicate and any(word.ground is NumberGround.COMPUTED for word in words):
             return
-        if is_plain and not is_arc:
-            axis = int(any(name.partition(":")[2].startswith("second") for name in given))
-            if abs(element.segment.end[axis] - element.segment.start[axis]) <= EXACT:
-                return
-        if any(word.ground is NumberGround.COMPUTED for word in words) and (
-            (is_arc and "R" not in {name.partition(":")[2] for name in given} and not kind.is_smooth)
-            or any(name.endswith("-step") for name in given)
-        ):
-            return
-        words.sort(key=lambda word: _ORDER.get(word.text[:1], 9))
-        yield tuple(words)
+        if is_open or kind.turn is not None or self._says_more(language, calls, element, facts):
+            yield tuple(sorted(words, key=lambda word: _ORDER.get(word.text[:1], 9)))
+
+    def _says_more(
+        self,
+        language: Language,
+        calls: Sequence[str],
+        element: DrawnElement,
+        facts: Mapping[str, tuple[float, int | None]],
+    ) -> bool:
+        """Whether the words of a line say more than its end does: an angle, and how far it goes."""
+        if len(calls) == 1 or language.angle.address not in calls:
+            return False
+        axis = int(any(call.startswith("second") for call in calls))
+        is_going = abs(element.segment.end[axis] - element.segment.start[axis]) > EXACT
+        ends = [self.word(self.plane.axes[n], *each) for n, name in enumerate(_ENDS) if (each := facts.get(name))]
+        is_exact = all(word.ground is not NumberGround.COMPUTED for word in ends)
+        return is_going and not (is_exact and self.around is not None)
 
     def _choosing(
         self, language: Language, words: tuple[WrittenWord, ...], kinds: tuple[Element, ...], number: int
@@ -149,6 +187,11 @@ class ChainWordings(GCodeSpeller):
         is_crossed = len({each.turn is None for each in kinds}) > 1 and not any(each.touches for each in kinds)
         if meeting.picks and kind.turn is not None and is_crossed:
             yield (*words, WrittenWord(spell(meeting.picks, "1")))
+
+    def _motion(self, language: Language, kind: Element) -> int:
+        if kind.is_smooth and language.arc.tangent is not None:
+            return language.arc.tangent
+        return self.line if kind.turn is None else 3 if kind.turn.sign > 0 else 2
 
     def _addresses(self, language: Language) -> dict[str, str]:
         """The addresses of what facts of a language are called."""
@@ -167,9 +210,3 @@ class ChainWordings(GCodeSpeller):
 
 def _turn(element: DrawnElement) -> Turn | None:
     return element.segment.turn if isinstance(element.segment, ArcSegment) else None
-
-
-def _motion(language: Language, kind: Element) -> int:
-    if kind.is_smooth and language.arc.tangent is not None:
-        return language.arc.tangent
-    return 1 if kind.turn is None else 3 if kind.turn.sign > 0 else 2

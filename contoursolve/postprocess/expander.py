@@ -31,8 +31,8 @@ from contoursolve.postprocess.emit import Format, MotionBlock, emit
 from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
 from contoursolve.postprocess.post_processors import SAME, MachineKind, machine_of
-from contoursolve.postprocess.translate import Moves, translate
 from contoursolve.postprocess.untranslatable import Watch
+from contoursolve.postprocess.written import Moves, translate
 from contoursolve.program import ELSEWHERE, Lines, Step, path_of
 from contoursolve.reading import (
     STANDING_ALONE,

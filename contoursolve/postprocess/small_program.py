@@ -7,7 +7,7 @@ from contoursolve.gcode import comment_out, parse_block
 from contoursolve.geometry import Length
 from contoursolve.postprocess.contour_drawing import ContourDrawing
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
-from contoursolve.postprocess.wordings import REFERENCE, WrittenBlock
+from contoursolve.postprocess.wordings import REFERENCE, Surroundings, WrittenBlock
 from contoursolve.reading import Dialect, Diameter, State, advance
 
 _ISO = ("%", "O0001"), ("M30", "%")
@@ -20,10 +20,10 @@ _FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 
 
 class SmallProgram:
-    """The lines around the blocks of a contour for a control."""
+    """The lines around the blocks of a contour for a control; or what stands for the program around them."""
 
-    def __init__(self, target: Dialect, drawn: ContourDrawing) -> None:
-        self.target, self.is_numbered = target, target.writing is not None
+    def __init__(self, target: Dialect, drawn: ContourDrawing, around: Surroundings | None = None) -> None:
+        self.target, self.is_numbered, self.around = target, target.writing is not None, around
         self.opening = () if self.is_numbered else tuple(_opening(target, drawn))
         self.frame = [
             [line.format(unit=drawn.unit.value.upper()) for line in lines] for lines in _FRAMES.get(target.name, _ISO)
@@ -47,10 +47,13 @@ class SmallProgram:
             first = " ".join(("L", *start, "R0 FMAX"))
         else:
             first = " ".join((codes[0].text, *sorted(start)))
-            if needs_side:
+            if self.around is not None:
+                opening[-1] += f" {self.around.side}"
+                first += f"\n{codes[91].text}" if self.around.form.is_incremental else ""
+            elif needs_side:
                 opening[-1] += f" {codes[_LEFT].text} D0"
-        head = [*before, *opening, first]
-        closing = [codes[_NO_SIDE].text] if needs_side else []
+        head = [*before, *opening, *first.split("\n")]
+        closing = [codes[_NO_SIDE].text] if needs_side and self.around is None else []
         numbers = {block.place: len(head) + n for n, block in enumerate(blocks) if block.place >= 0}
         own = [_REFERENCE.sub(lambda found: str(numbers.get(int(found[1]), "")), line) for line in lines]
         text = [*head, *own, *closing, *behind]

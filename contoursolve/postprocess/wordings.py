@@ -65,10 +65,24 @@ class Wording(Struct, frozen=True):
     """Whether they are lines and arcs by their ends."""
 
 
-class Speller:
-    """The words of a control for numbers of a contour; `state` is that behind its opening."""
+class Surroundings(Struct, frozen=True):
+    """A program in which the blocks stand: where the tool is before them (mm), how numbers and arcs are written,
+    whether its lines are rapid, the code that chooses a side of the contour."""
 
-    def __init__(self, drawn: ContourDrawing, dialect: Dialect, state: State) -> None:
+    here: Point
+    form: Format
+    is_rapid: bool
+    side: str
+
+
+class Speller:
+    """The words of a control for numbers of a contour; `state` is that behind its opening, `around` the program in
+    which they stand, if it is there already: then each block states both coordinates."""
+
+    def __init__(
+        self, drawn: ContourDrawing, dialect: Dialect, state: State, around: Surroundings | None = None
+    ) -> None:
+        self.around, self.line = around, 0 if around is not None and around.is_rapid else 1
         self.drawn, self.dialect, self.modes = drawn, dialect, dialect.modes
         self.plane, self.unit = state.plane, state.unit
         self.lexicon = dialect.modes.words(state)
@@ -76,11 +90,12 @@ class Speller:
         step = numbers.inch if self.unit is Length.INCH else numbers.mm
         decimals = -int(step.normalize().as_tuple().exponent)
         has_point = numbers.without_point is WithoutPoint.LEAST_INCREMENTS
-        self.formats = [
-            Format(self.plane, self.unit, decimals, has_point, arcs, radius=self.modes.radius) for arcs in Arcs
-        ]
+        radius = self.modes.radius
+        self.formats = [Format(self.plane, self.unit, decimals, has_point, arcs, radius=radius) for arcs in Arcs]
         rows = self.lexicon.addresses.values()
         self.steps = {row.axis: row.address for row in rows if row.is_increment and row.axis}
+        if around is not None:
+            self.formats, self.steps = [around.form], {}
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:
         """The word for a value, mm (radius) or degrees: a coordinate along an axis, a length or an angle. Of a text
@@ -157,7 +172,7 @@ class GCodeSpeller(Speller):
     def moves(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
         """An element by its end: as coordinates or as increments, an arc about its centre or by its radius."""
         axes = self.plane.axes
-        if isinstance(segment, ArcSegment):
+        if isinstance(segment, ArcSegment) or self.around is not None:
             yield from (tuple(self._written_out(segment, form)) for form in self.formats)
             return
         changed = [n for n, (a, b) in enumerate(zip(segment.start, segment.end, strict=True)) if abs(b - a) > EXACT]
@@ -166,23 +181,26 @@ class GCodeSpeller(Speller):
             step, end = self.steps.get(axes[axis]), segment.end[axis]
             words = [self.word(axes[axis], end, axis), *([self.word(step, end - segment.start[axis])] if step else [])]
             ways.append([word for n, word in enumerate(words) if not n or word.ground is not NumberGround.COMPUTED])
-        yield from ((WrittenBlock(1, self.code(1), words),) if words else () for words in product(*ways))
+        yield from (
+            (WrittenBlock(self.line, self.code(self.line), words),) if words else () for words in product(*ways)
+        )
 
-    def _written_out(self, arc: ArcSegment, form: Format) -> Iterator[WrittenBlock]:
-        """Plain moves, rounded so that an arc stays one."""
-        here = arc.start
-        for move in emit(arc, here, form):
+    def _written_out(self, segment: Segment, form: Format) -> Iterator[WrittenBlock]:
+        """Plain moves, rounded so that an arc stays one; increments count from where rounding has led before."""
+        here = _rounded(segment.start, form) if form.is_incremental else segment.start
+        for move in emit(segment, here, form, is_rapid=not self.line):
             words = list[WrittenWord]()
             for text in move.words:
                 address = next(a for a in (*self.plane.axes, *self.plane.centers, form.radius) if text.startswith(a))
                 if address in self.plane.axes:
                     axis = self.plane.axes.index(address)
-                    words.append(self.word(address, _near(arc.end[axis], move.end[axis]), axis, text))
-                elif address in self.plane.centers:
-                    axis = self.plane.centers.index(address)
-                    words.append(self.word(address, arc.center[axis] - here[axis], None, text))
-                else:
-                    words.append(self.word(address, arc.radius, None, text))
+                    end = _near(segment.end[axis], move.end[axis])
+                    word = self.word(address, end - here[axis] * form.is_incremental, axis, text)
+                elif isinstance(segment, ArcSegment):
+                    axis = self.plane.centers.index(address) if address in self.plane.centers else -1
+                    value = segment.radius if axis < 0 else segment.center[axis] - here[axis]
+                    word = self.word(address, value, None, text)
+                words.append(word)
             here = move.end
             if words:
                 yield WrittenBlock(move.code, self.code(move.code), tuple(words))
@@ -190,6 +208,13 @@ class GCodeSpeller(Speller):
     def code(self, motion: int) -> str:
         """The code of a motion."""
         return self.modes.codes[motion].text
+
+
+def _rounded(place: Point, form: Format) -> Point:
+    first, second = (
+        float(form.number(at / form.mm * n)) * form.mm / n for at, n in zip(place, form.scales, strict=True)
+    )
+    return first, second
 
 
 def _near(exact: float, rounded: float) -> float:

@@ -1,25 +1,27 @@
 """A contour in the words of a control: the wordings that its rules allow, read back and proven, the best first."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from heapq import heappop, heappush
 from itertools import count
 
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.comparison import Motion
 from contoursolve.diagnosis import Answer
-from contoursolve.postprocess.chain_wordings import ChainWordings
+from contoursolve.postprocess.chain_wordings import ChainWordings, language_of
 from contoursolve.postprocess.contour_drawing import ContourDrawing, draw, with_roundings
+from contoursolve.postprocess.emit import Format, MotionBlock
 from contoursolve.postprocess.expansion_report import ConversionError
 from contoursolve.postprocess.form_wordings import FormWordings
 from contoursolve.postprocess.klartext_wordings import KlartextWordings
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
-from contoursolve.postprocess.read_back import read_back
+from contoursolve.postprocess.read_back import ReadBack, read_back
 from contoursolve.postprocess.small_program import SmallProgram
-from contoursolve.postprocess.translate import language_of
-from contoursolve.postprocess.wordings import NumberGround, Speller, Wording, WrittenBlock, WrittenWord
+from contoursolve.postprocess.wordings import NumberGround, Speller, Surroundings, Wording, WrittenBlock, WrittenWord
 from contoursolve.program import for_kind
 from contoursolve.reading import Dialect
+from contoursolve.solving import Point
 
 MOST_CANDIDATES = 8
 """Candidates that are listed."""
@@ -31,7 +33,7 @@ _SHORT = 12
 """Elements of a contour for which that holds; of a longer one, fewer candidates are listed and read back."""
 
 Cost = tuple[int, int, int, int, int]
-"""Computed numbers, words, blocks, increments, and numbers that are not the drawing's own."""
+"""Computed numbers, words, blocks, increments with elements that others end, and numbers not of the drawing."""
 
 _NOTHING: Cost = (0, 0, 0, 0, 0)
 
@@ -137,6 +139,36 @@ def _words(wording: Wording) -> Iterator[WrittenWord]:
     return (word for block in wording.blocks for word in block.words)
 
 
+Moves = Mapping[str, tuple[MotionBlock, ...]]
+"""The moves for each element of a contour, by its name."""
+
+
+def translate(answer: Answer, target: Dialect, here: Point, form: Format, *, is_rapid: bool) -> Moves | None:
+    """The moves of a solved contour in the words of a target that writes lines and arcs in a row, in a program where
+    the tool is really `here`; None if the target refuses it, or has no words for any of it."""
+    if language_of(target) is None or answer.contour is None:
+        return None
+    side = {41: "G41", 42: "G42"}.get(answer.claim.before.compensation, "G40")
+    search = _Search(draw(answer), target, answer, Surroundings(here, form, is_rapid, side))
+    tried, candidate = set[str](), None
+    while candidate is None and search.read < MOST_READ and search.ahead(tried) is not None:
+        candidate = search.take(tried)
+    if candidate is None or candidate.is_plain:
+        return None
+    found = dict[str, tuple[MotionBlock, ...]]()
+    for choice in search.taken:
+        row = search.drawn.elements[choice.node.index : choice.node.index + choice.wording.count]
+        blocks, last = choice.wording.blocks, len(row) - 1
+        for place, element in enumerate(row):
+            own = blocks[place : place + 1] if place < last else blocks[last:]
+            end = search.back.end if element is search.drawn.elements[-1] else element.segment.end
+            found[element.segment.name] = tuple(
+                MotionBlock(each.motion or 0, tuple(word.text for word in each.words), end, candidate.deviation)
+                for each in own
+            )
+    return found
+
+
 class _Node(Struct, frozen=True):
     """A place on the way through the elements: the next one, whether it begins behind a cut corner, and the motion in
     force."""
@@ -156,19 +188,28 @@ class _Choice(Struct, frozen=True):
 class _Search:
     """The wordings of a whole contour, those first that cost less."""
 
-    def __init__(self, drawn: ContourDrawing, target: Dialect, answer: Answer, *, is_plain: bool = False) -> None:
-        self.drawn, self.target, self.is_plain = drawn, target, is_plain
-        self.around = SmallProgram(target, drawn)
+    def __init__(
+        self,
+        drawn: ContourDrawing,
+        target: Dialect,
+        answer: Answer,
+        around: Surroundings | None = None,
+        *,
+        is_plain: bool = False,
+    ) -> None:
+        self.drawn, self.target, self.is_plain, self.surroundings = drawn, target, is_plain, around
+        self.around = SmallProgram(target, drawn, around)
         state = self.around.state(drawn.unit)
         language = language_of(target)
         if target.writing is not None:
             self.wordings: Speller = KlartextWordings(drawn, target, state, answer, self._is_solved)
         elif language is not None:
-            self.wordings = ChainWordings(drawn, target, state, language)
+            self.wordings = ChainWordings(drawn, target, state, language, around)
         else:
             self.wordings = FormWordings(drawn, target, state)
         places = enumerate(zip(state.plane.axes, drawn.start, strict=True))
         self.start = tuple(self.wordings.word(axis, at, number) for number, (axis, at) in places)
+        self.back, self.taken = ReadBack(None), tuple[_Choice, ...]()
         self.read = 0
         """The number of programs that were read back."""
         self.banned = set[tuple[int, bool, Wording]]()
@@ -198,21 +239,22 @@ class _Search:
         blocks = tuple(block for each in choices for block in each.wording.blocks)
         needs_side = any(each.wording.needs_side for each in choices)
         program, first = self._program(blocks, lines, needs_side=needs_side)
-        deviation, line = self._read_back("\n".join(program) + "\n", self.drawn, cost)
-        if deviation is None:
-            self._ban(choices, line - first)
+        self.back = self._read_back("\n".join(program) + "\n", self.drawn, cost)
+        if self.back.deviation is None:
+            self._ban(choices, self.back.line - first)
             return None
+        self.taken = choices
         own = tuple(program[first - 1 : first - 1 + len(lines)])
         elements = self.drawn.elements
         cut = [(elements[n.node.index + n.wording.count - 1].corner, n.wording) for n in choices]
         written_out = tuple(corner.segment.name for corner, each in cut if corner and each.writes_corner)
         is_plain = all(each.wording.is_plain for each in choices)
-        return WrittenContour(blocks, own, "\n".join(program) + "\n", deviation, cost, written_out, is_plain)
+        return WrittenContour(blocks, own, "\n".join(program) + "\n", self.back.deviation, cost, written_out, is_plain)
 
     def _ban(self, choices: tuple[_Choice, ...], place: int) -> None:
         for each in choices:
             place -= len(each.wording.blocks)
-            if place < 0 and not each.wording.is_plain:
+            if place < 0 and len(self._at(each.node.index, each.node.is_cut)) > 1:
                 self.banned.add((each.node.index, each.node.is_cut, each.wording))
                 self.next, self.found = None, self._in_order()
                 break
@@ -270,7 +312,7 @@ class _Search:
             words += sum(map(bool, code)) + len(block.words)
             motion = motion if block.motion is None else block.motion
         rests = [word.ground for word in _words(wording)]
-        steps = sum(word.is_step for word in _words(wording))
+        steps = sum(word.is_step for word in _words(wording)) + wording.count - 1
         cost = rests.count(NumberGround.COMPUTED), words, len(wording.blocks), steps, rests.count(NumberGround.ROUND)
         return cost, _Node(node.index + wording.count, wording.is_cut, motion), tuple(texts)
 
@@ -280,12 +322,18 @@ class _Search:
         self, blocks: Sequence[WrittenBlock], lines: Sequence[str], *, needs_side: bool = False
     ) -> tuple[list[str], int]:
         start = [word.text for word in self.start]
+        if self.surroundings is not None:
+            form, here = self.surroundings.form, self.surroundings.here
+            places = (at / form.mm * scale for at, scale in zip(here, form.scales, strict=True))
+            start = [f"{axis}{at:.9f}" for axis, at in zip(form.plane.axes, places, strict=True)]
         return self.around.assemble(blocks, lines, start, needs_side=needs_side)
 
-    def _read_back(self, program: str, drawn: ContourDrawing, cost: Cost) -> tuple[float | None, int]:
+    def _read_back(self, program: str, drawn: ContourDrawing, cost: Cost) -> ReadBack:
         self.read += 1
         is_rounded = cost[0] or any(word.ground is NumberGround.COMPUTED for word in self.start)
-        return read_back(program, drawn, self.target, is_exact=not is_rounded)
+        is_rapid = self.surroundings is not None and self.surroundings.is_rapid
+        motion = Motion.RAPID if is_rapid else Motion.FEED
+        return read_back(program, drawn, self.target, is_exact=not is_rounded, motion=motion)
 
     def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:
         """Whether blocks alone make some elements in a row."""
@@ -301,7 +349,7 @@ class _Search:
         lines = [" ".join(filter(None, (each.code, *(word.text for word in each.words)))) for each in blocks]
         program, _ = self.around.assemble(blocks, lines, start, needs_side=False)
         self.read += 1
-        return read_back("\n".join(program), part, self.target, is_exact=True)[0] is not None
+        return read_back("\n".join(program), part, self.target, is_exact=True).deviation is not None
 
 
 def _add(one: Cost, other: Cost) -> Cost:

@@ -41,7 +41,7 @@ TAPER = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. {}F0.2\nG01 Z-60."
         (
             TAPER.format("P5. Q5. "),
             "fanuc-lathe",
-            ["G01 X40. Z-30. ,R5. F0.2", "G01 X95. Z-45.877", "G03 X100. Z-50.207 I-2.5 K-4.33"],
+            ["G01 X40. Z-30. ,R5. F0.2", "G01 X95. ,A120.", "G03 X100. Z-50.207 I-2.5 K-4.33"],
         ),
         # A bevel along the axes is ,C between lines along the axes alone.
         (
@@ -122,7 +122,7 @@ def test_the_command_writes_a_file_and_says_what_became_of_it(tmp_path):
     target = tmp_path / "new.nc"
     status, output, told = run("convert", SHAFT, "--to", "fanuc-lathe", "-o", target)
     assert (status, output) == (0, "")
-    assert "6 contours in the words of fanuc-lathe, 1 written out (program line 68); the same path" in told
+    assert "7 contours in the words of fanuc-lathe; the same path" in told
     assert run("diff", SHAFT, target, "--new-control", "fanuc-lathe", "--tolerance", "0.002")[0] == 0
     status, _, told = run("convert", SHAFT, "--to", "fanuc-lathe", "-o", target)
     assert (status, "--force" in told) == (2, True)
