@@ -9,8 +9,8 @@ from contoursolve.geometry import Turn
 from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, begins_smoothly, size_as
 from contoursolve.postprocess.wordings import (
     GCodeSpeller,
+    HostProgram,
     NumberGround,
-    Surroundings,
     Wording,
     WrittenBlock,
     WrittenWord,
@@ -48,7 +48,7 @@ class ChainWordings(GCodeSpeller):
         dialect: Dialect,
         state: State,
         language: Language,
-        around: Surroundings | None = None,
+        around: HostProgram | None = None,
     ) -> None:
         super().__init__(drawn, dialect, state, around)
         self.language = language

@@ -29,10 +29,16 @@ class ReadBack(Struct, frozen=True):
 
 
 def read_back(
-    program: str, drawn: ContourDrawing, target: Dialect, *, is_exact: bool, motion: Motion = Motion.FEED
+    program: str,
+    drawn: ContourDrawing,
+    target: Dialect,
+    *,
+    is_exact: bool,
+    motion: Motion = Motion.FEED,
+    depth: Depth = Depth.VERDICT,
 ) -> ReadBack:
     """Read a program as its control does, and compare its cuts with a contour."""
-    asked = Request(target, drawn.unit, depth=Depth.VERDICT, is_strict=True)
+    asked = Request(target, drawn.unit, depth=depth, is_strict=True)
     result = run(parse(program, syntax=target.modes.syntax), asked)
     for finding in result.diagnostics:
         if finding.about is not ReadIssue.NO_CONTOUR:

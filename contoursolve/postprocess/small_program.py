@@ -7,7 +7,7 @@ from contoursolve.gcode import comment_out, parse_block
 from contoursolve.geometry import Length
 from contoursolve.postprocess.contour_drawing import ContourDrawing
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
-from contoursolve.postprocess.wordings import REFERENCE, Surroundings, WrittenBlock
+from contoursolve.postprocess.wordings import REFERENCE, HostProgram, WrittenBlock
 from contoursolve.reading import Dialect, Diameter, State, advance
 
 _ISO = ("%", "O0001"), ("M30", "%")
@@ -22,7 +22,7 @@ _FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 class SmallProgram:
     """The lines around the blocks of a contour for a control; or what stands for the program around them."""
 
-    def __init__(self, target: Dialect, drawn: ContourDrawing, around: Surroundings | None = None) -> None:
+    def __init__(self, target: Dialect, drawn: ContourDrawing, around: HostProgram | None = None) -> None:
         self.target, self.is_numbered, self.around = target, target.writing is not None, around
         self.opening = () if self.is_numbered else tuple(_opening(target, drawn))
         self.frame = [

@@ -65,7 +65,7 @@ class Wording(Struct, frozen=True):
     """Whether they are lines and arcs by their ends."""
 
 
-class Surroundings(Struct, frozen=True):
+class HostProgram(Struct, frozen=True):
     """A program in which the blocks stand: where the tool is before them (mm), how numbers and arcs are written,
     whether its lines are rapid, the code that chooses a side of the contour."""
 
@@ -80,7 +80,7 @@ class Speller:
     which they stand, if it is there already: then each block states both coordinates."""
 
     def __init__(
-        self, drawn: ContourDrawing, dialect: Dialect, state: State, around: Surroundings | None = None
+        self, drawn: ContourDrawing, dialect: Dialect, state: State, around: HostProgram | None = None
     ) -> None:
         self.around, self.line = around, 0 if around is not None and around.is_rapid else 1
         self.drawn, self.dialect, self.modes = drawn, dialect, dialect.modes

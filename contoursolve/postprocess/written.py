@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison import Motion
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, Depth
 from contoursolve.postprocess.chain_wordings import ChainWordings, language_of
 from contoursolve.postprocess.contour_drawing import ContourDrawing, draw, with_roundings
 from contoursolve.postprocess.emit import Format, MotionBlock
@@ -18,7 +18,7 @@ from contoursolve.postprocess.klartext_wordings import KlartextWordings
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
 from contoursolve.postprocess.read_back import ReadBack, read_back
 from contoursolve.postprocess.small_program import SmallProgram
-from contoursolve.postprocess.wordings import NumberGround, Speller, Surroundings, Wording, WrittenBlock, WrittenWord
+from contoursolve.postprocess.wordings import HostProgram, NumberGround, Speller, Wording, WrittenBlock, WrittenWord
 from contoursolve.program import for_kind
 from contoursolve.reading import Dialect
 from contoursolve.solving import Point
@@ -115,7 +115,7 @@ def _reason(target: Dialect, found: Sequence[WrittenContour]) -> str:
     if best.written_out:
         return f"{target.name} has no word for {' and '.join(best.written_out)}: a block of its own makes it"
     if best.is_plain and best.cost[0]:
-        return f"{target.name} has no words for this contour: it is written as plain lines and arcs"
+        return f"no blocks in {target.name}'s own words pass its check: these are plain lines and arcs"
     return ""
 
 
@@ -149,7 +149,7 @@ def translate(answer: Answer, target: Dialect, here: Point, form: Format, *, is_
     if language_of(target) is None or answer.contour is None:
         return None
     side = {41: "G41", 42: "G42"}.get(answer.claim.before.compensation, "G40")
-    search = _Search(draw(answer), target, answer, Surroundings(here, form, is_rapid, side))
+    search = _Search(draw(answer), target, answer, HostProgram(here, form, is_rapid, side))
     tried, candidate = set[str](), None
     while candidate is None and search.read < MOST_READ and search.ahead(tried) is not None:
         candidate = search.take(tried)
@@ -193,7 +193,7 @@ class _Search:
         drawn: ContourDrawing,
         target: Dialect,
         answer: Answer,
-        around: Surroundings | None = None,
+        around: HostProgram | None = None,
         *,
         is_plain: bool = False,
     ) -> None:
@@ -333,7 +333,9 @@ class _Search:
         is_rounded = cost[0] or any(word.ground is NumberGround.COMPUTED for word in self.start)
         is_rapid = self.surroundings is not None and self.surroundings.is_rapid
         motion = Motion.RAPID if is_rapid else Motion.FEED
-        return read_back(program, drawn, self.target, is_exact=not is_rounded, motion=motion)
+        # In a program that is there already, it is told of what may be meant otherwise.
+        depth = Depth.FINDINGS if self.surroundings is None else Depth.VERDICT
+        return read_back(program, drawn, self.target, is_exact=not is_rounded, motion=motion, depth=depth)
 
     def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:
         """Whether blocks alone make some elements in a row."""
