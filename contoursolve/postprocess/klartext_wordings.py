@@ -44,7 +44,7 @@ class KlartextWordings(Speller):
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:
         found = super().word(address, value, axis, text)
-        return WrittenWord(_signed(found.text, address), found.ground, found.off, found.is_step)
+        return WrittenWord(_signed(found.text, address), found.ground, found.off, found.is_indirect)
 
     def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
         element = self.drawn.elements[index]

@@ -35,13 +35,15 @@ def read_back(
     *,
     is_exact: bool,
     motion: Motion = Motion.FEED,
+    is_strict: bool = True,
     depth: Depth = Depth.VERDICT,
 ) -> ReadBack:
-    """Read a program as its control does, and compare its cuts with a contour."""
-    asked = Request(target, drawn.unit, depth=depth, is_strict=True)
+    """Read a program as its control does, and compare its cuts with a contour. It has no error; if this `is_strict`, no
+    finding at all."""
+    asked = Request(target, drawn.unit, depth=depth, is_strict=is_strict)
     result = run(parse(program, syntax=target.modes.syntax), asked)
     for finding in result.diagnostics:
-        if finding.about is not ReadIssue.NO_CONTOUR:
+        if finding.is_error or (is_strict and finding.about is not ReadIssue.NO_CONTOUR):
             return ReadBack(None, finding.span.line)
     axes, numbers = drawn.plane.axes, target.modes.lexicon.numbers
     path = follow(result, target, drawn.unit, axes)

@@ -73,8 +73,9 @@ def _opening(target: Dialect, drawn: ContourDrawing) -> Iterable[str]:
         codes += [each.text for each in rows if each.plane and each.plane.code == drawn.plane.code]
     if 91 in modes.codes:  # noqa: PLR2004 - its code
         codes.append(modes.codes[90].text)
-    if target.diameter is not None and not is_mill:
-        codes += [each.text for each in rows if each.diameter is Diameter.ON][:1]
+    if target.diameter is not None and {*drawn.plane.axes} == {"X", "Z"}:
+        meant = Diameter.ON if any(drawn.plane.diameters) else Diameter.OFF
+        codes += [each.text for each in rows if each.diameter is meant][:1]
     stated = [f"{name}: {value}" for name, value in modes.settings.items() if name != "machine"]
     if stated:
         yield from comment_out(", ".join((f"contoursolve control: {target.name}", *stated)), modes.syntax)

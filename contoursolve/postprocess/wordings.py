@@ -36,8 +36,8 @@ class WrittenWord(Struct, frozen=True):
     text: str
     ground: NumberGround = NumberGround.NONE
     off: float = 0.0
-    is_step: bool = False
-    """Whether it is an increment along an axis."""
+    is_indirect: bool = False
+    """Whether it is an increment along an axis, or an angle that is rounded."""
 
 
 class WrittenBlock(Struct, frozen=True):
@@ -108,7 +108,9 @@ class Speller:
             number *= self.unit.in_mm / (2 if row.is_diameter else 1)
         off = abs(float(number) - (value if own is None else float(own)))
         ground = NumberGround.COMPUTED if off > EXACT else NumberGround.ROUND if own is None else NumberGround.DRAWING
-        return WrittenWord(text, ground, off if off > EXACT else 0.0, bool(row.axis and row.is_increment))
+        is_turned = row.unit is Unit.DEGREE and ground is NumberGround.COMPUTED
+        is_indirect = is_turned or bool(row.axis and row.is_increment)
+        return WrittenWord(text, ground, off if off > EXACT else 0.0, is_indirect)
 
     def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
         """All wordings of the elements from one on, which begins behind a corner that is cut or at its virtual end; or

@@ -33,7 +33,8 @@ _SHORT = 12
 """Elements of a contour for which that holds; of a longer one, fewer candidates are listed and read back."""
 
 Cost = tuple[int, int, int, int, int]
-"""Computed numbers, words, blocks, increments with elements that others end, and numbers not of the drawing."""
+"""Computed numbers, words, blocks, increments with elements that others end, and numbers not of the drawing. A
+rounded angle counts as an increment, too: it is farther from where the element ends."""
 
 _NOTHING: Cost = (0, 0, 0, 0, 0)
 
@@ -312,7 +313,7 @@ class _Search:
             words += sum(map(bool, code)) + len(block.words)
             motion = motion if block.motion is None else block.motion
         rests = [word.ground for word in _words(wording)]
-        steps = sum(word.is_step for word in _words(wording)) + wording.count - 1
+        steps = sum(word.is_indirect for word in _words(wording)) + wording.count - 1
         cost = rests.count(NumberGround.COMPUTED), words, len(wording.blocks), steps, rests.count(NumberGround.ROUND)
         return cost, _Node(node.index + wording.count, wording.is_cut, motion), tuple(texts)
 
@@ -334,8 +335,15 @@ class _Search:
         is_rapid = self.surroundings is not None and self.surroundings.is_rapid
         motion = Motion.RAPID if is_rapid else Motion.FEED
         # In a program that is there already, it is told of what may be meant otherwise.
-        depth = Depth.FINDINGS if self.surroundings is None else Depth.VERDICT
-        return read_back(program, drawn, self.target, is_exact=not is_rounded, motion=motion, depth=depth)
+        return read_back(
+            program,
+            drawn,
+            self.target,
+            is_exact=not is_rounded,
+            motion=motion,
+            is_strict=self.surroundings is None,
+            depth=Depth.FINDINGS if self.surroundings is None else Depth.VERDICT,
+        )
 
     def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:
         """Whether blocks alone make some elements in a row."""
