@@ -8,7 +8,7 @@ import click
 
 from contoursolve.cli.drawing import drawing_options, read_drawn
 from contoursolve.cli.expand import target_of
-from contoursolve.cli.options import FOUND_ERRORS, CouldNotRunError, control_option, settings_option
+from contoursolve.cli.options import COULD_NOT_RUN, FOUND_ERRORS, CouldNotRunError, control_option, settings_option
 from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import json_text, members
@@ -86,13 +86,14 @@ def write(
     found = several[0]
     if format_ == "json":
         click.echo(json_text([_data(each) for each in several]))
+        context.exit(0 if to is None or found.candidates else COULD_NOT_RUN)
     elif to is None:
         print_lines(_table_lines(several))
     elif not found.candidates:
         raise CouldNotRunError(found.reason)
     elif shows_all:
         print_lines(line for each in found.candidates for line in _candidate_lines(each))
-        _report(found)
+        print_lines(filter(None, (found.reason,)), err=True)
     elif target is None:
         click.echo(found.candidates[0].program, nl=False)
         _report(found)

@@ -175,7 +175,7 @@ COMMANDS = {
     "sensitivity": ("sensitivity", *LINE),
     "explain": ("explain", "3017"),
 }
-OF_THEIR_OWN = {"report", "verify", "rules", "facts", "lsp"}
+OF_THEIR_OWN = {"report", "verify", "rules", "facts", "lsp", "write", "serve"}
 """Tested below, or without a control."""
 
 
@@ -197,6 +197,16 @@ def run(tmp_path, monkeypatch):
 
 def test_every_command_is_tested_with_tables_of_its_own():
     assert COMMANDS.keys() | OF_THEIR_OWN == set(commands().list_commands(None))
+
+
+def test_a_sketch_is_written_for_the_tables_of_a_module(run, tmp_path):
+    (tmp_path / "s.toml").write_text(
+        'sketch = 1\npart = "milled"\nstart = { X = 0, Y = 0 }\n'
+        '[[element]]\nkind = "line"\nAN = 60\n[[element]]\nkind = "line"\nX = 80\nY = 20\nAN = -30\n'
+    )
+    status, output = run("write", "s.toml", "--to", "tables_of_mine:MINE")
+    assert (status, output) == run("write", "s.toml", "--to", "nct-99m")
+    assert "G01 ,A60\nX80 Y20 ,A-30\n" in output
 
 
 @pytest.mark.parametrize("name", COMMANDS)
