@@ -57,7 +57,8 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
   return {
     node,
     show(findings, more, lineOf, here) {
-      if (findings !== shown || more !== left) {
+      const isSame = shown?.length === findings.length && findings.every((each, place) => each.finding === shown?.[place]?.finding);
+      if (!isSame || more !== left) {
         left = more;
         if (shown && !sameStart(findings, shown)) most = MOST;
         shown = findings;

@@ -21,6 +21,7 @@ const REST = 250; // ms without a key after which the drawing and the contour fo
 interface Beside {
   seq: number; // of the text for which the drawing was made
   svg: string | null;
+  took: number; // ms until that was there
   looked: [number, number, number] | null; // first line, last line, seq
   tool: ToolState;
   tooled: Tooled | null;
@@ -118,7 +119,7 @@ export class ProgramPane {
     this.program?.show(null);
     this.program = program;
     if (!this.beside.has(program)) {
-      this.beside.set(program, { seq: -1, svg: null, looked: null, tool: { radius: "", tip: "", side: "" }, tooled: null, toolTrouble: "", values: {}, varied: -1, toolSeq: -1, made: null });
+      this.beside.set(program, { seq: -1, svg: null, took: 0, looked: null, tool: { radius: "", tip: "", side: "" }, tooled: null, toolTrouble: "", values: {}, varied: -1, toolSeq: -1, made: null });
     }
     program.show(this.editor);
     const { svg, made } = this.own;
@@ -241,7 +242,8 @@ export class ProgramPane {
   private settle(): void {
     const program = this.program;
     if (!program) return;
-    if (this.isShown("drawing") && this.own.seq !== program.view.seq) void this.draw(program);
+    // An edit waits for a drawing that is under way: that of a long program comes when its user rests longer.
+    if (this.isShown("drawing") && this.own.seq !== program.view.seq) this.rest = setTimeout(() => void this.draw(program), 2 * this.own.took);
     if (this.isShown("contour") && !this.isActing && !this.isHeld) void this.look(program);
     if (this.isShown("variables") && this.own.varied !== program.view.seq) {
       this.own.varied = program.view.seq;
@@ -252,9 +254,12 @@ export class ProgramPane {
 
   private async draw(program: Program): Promise<void> {
     const beside = this.beside.get(program)!;
+    if (program.view.examined < program.view.lines) return;
     beside.seq = program.view.seq;
+    const begin = performance.now();
     const drawn = await program.ask<{ svg: string | null }>(() => ({ do: "drawing" }));
     if (!drawn) return;
+    beside.took = performance.now() - begin;
     beside.svg = drawn.svg;
     if (program === this.program) this.drawing.show(drawn.svg);
   }
