@@ -19,6 +19,7 @@ from msgspec.structs import replace
 
 import contoursolve
 from contoursolve.controls import DIALECTS, DRAWINGS, ChainFinder, words_of_drawing
+from contoursolve.diagnosis import word_keys
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import Blocks
 from contoursolve.output import notebook_style
@@ -321,7 +322,11 @@ def _explored(program: ProgramView, explored: Explored | None, changed: Data | N
     """The reply about the contour that is explored."""
     if explored is None:
         return {"line": None, "last": None}
-    told = {"state": explored.conversation.state} if changed is None else {"changed": changed}
+    told: Data = {"state": explored.conversation.state} if changed is None else {"changed": changed}
+    answer = explored.conversation.exploration.answer
+    keys = word_keys(answer.claim.words.values()) if answer is not None else {}
+    places = {key: program.stretch(span) for span, key in keys.items() if explored.first <= span.line <= explored.last}
+    told["words"] = {key: [each["line"], each["from"], each["to"]] for key, each in places.items()}
     return {"line": explored.first, "last": explored.last, "seq": program.seq, **told}
 
 

@@ -212,6 +212,7 @@ class ProgramView:
             "control": {"name": dialect.name, "title": dialect.title} if dialect is not None else None,
             "control_from": self._source(),
             "trouble_control": "; ".join(filter(None, (self._project, program.trouble))),
+            "unit": contours[0].answer.unit.value if contours else "",
             "lines": len(program.blocks),
             "examined": program.examined,
             "counts": {
@@ -250,13 +251,13 @@ class ProgramView:
         return {
             "code": finding.code,
             "severity": finding.severity.value,
-            **self._stretch(finding.span),
+            **self.stretch(finding.span),
             "message": finding.message,
             "notes": [*finding.notes],
             "help": finding.help,
             "source": str(finding.source) if finding.source.is_of_manual else "",
             "alarm": f"alarm {alarm.number} ({alarm.evidence.value})" if alarm else "",
-            "labels": [{**self._stretch(each.span), "text": each.text} for each in finding.labels if each.text],
+            "labels": [{**self.stretch(each.span), "text": each.text} for each in finding.labels if each.text],
             "fixes": [self._fix(each, finding, lines) for each in finding.fixes],
         }
 
@@ -280,7 +281,7 @@ class ProgramView:
             raise OldEditError(f"there is no finding {number + 1} here; nothing was changed")
         return shown[number][:2]
 
-    def _stretch(self, span: Span) -> Data:
+    def stretch(self, span: Span) -> Data:
         """A stretch of a line as a page counts it; at the begin of the program, what was stated apart from it."""
         if span.line < 1:
             return {"line": 1, "from": 0, "to": min(1, len(self.program.line(1)))}

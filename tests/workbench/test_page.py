@@ -60,6 +60,15 @@ def test_a_word_is_changed_by_its_row_or_in_the_text_and_taken_back(opened, fold
     show(page, "Contour")
     number = page.locator('.contour [data-word="K"] input[type=number]')
     number.fill("-25")
+    # A word, its row and its dimension are one, also in the text.
+    number.focus()
+    assert page.locator(".cm-lit").inner_text() == "K-30."
+    page.locator(".cm-line").nth(2).click()
+    page.keyboard.press("Home")
+    for _ in range(len("G111 X100. A1")):
+        page.keyboard.press("ArrowRight")
+    page.locator('.contour .row.lit[data-word="A"]').wait_for()
+    number.fill("-25")
     number.press("Enter")
     wait_for_text(page, "G111 X100. A180. K-25. B120. P6.")
     page.locator(".cm-line").nth(2).click()

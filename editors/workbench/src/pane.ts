@@ -198,7 +198,7 @@ export class ProgramPane {
     this.drawing.list(program.contours);
     this.drawing.light(this.here?.line ?? null);
     this.lightRow();
-    this.tool.show(this.own.tool, program.view.unit ?? "mm", this.own.tooled, this.own.toolTrouble);
+    this.tool.show(this.own.tool, program.view.unit || "mm", this.own.tooled, this.own.toolTrouble);
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.settle(), REST);
   }
@@ -346,7 +346,7 @@ export class ProgramPane {
       });
       own.toolSeq = program.view.seq;
     }
-    if (program === this.program) this.tool.show(own.tool, program.view.unit ?? "mm", own.tooled, own.toolTrouble);
+    if (program === this.program) this.tool.show(own.tool, program.view.unit || "mm", own.tooled, own.toolTrouble);
   }
 
   private async setVariables(values: Record<string, number>): Promise<void> {

@@ -52,7 +52,7 @@ export interface View {
   control: ControlName | null;
   control_from: string;
   trouble_control: string;
-  unit?: string;
+  unit: string;
   lines: number;
   examined: number;
   counts: { contours: number; solved: number; errors: number; warnings: number };
