@@ -1,6 +1,6 @@
 """A contour that is being explored: the block's text, and every way to change it. Nothing here knows a notebook."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from itertools import islice, product
 from math import hypot
@@ -44,6 +44,9 @@ MOST_TRIED = 16
 """Ways to write what selects a solution that are tried."""
 
 
+Examiner = Callable[[str], Result]
+
+
 class Exploration(Struct, frozen=True):
     """The text of a contour as it is now, what it comes to, and what it was first."""
 
@@ -63,6 +66,8 @@ class Exploration(Struct, frozen=True):
     """The side of the contour on which the tool runs, where the text does not say it."""
     tool: ToolReport | None = None
     """The report about the tool that the text states, if it states one."""
+    examine: Examiner | None = None
+    """The examination of a text, with the result that `solve` has; None for `solve` itself."""
 
     @property
     def answer(self) -> Answer | None:
@@ -101,21 +106,22 @@ def begin(
     line: int | None = None,
     tool: str | None = None,
     side: str | None = None,
+    examine: Examiner | None = None,
     **options: Any,
 ) -> Exploration:
     """An exploration of the only contour of a text, or of the one to which a line of it belongs. Facts and a tool are
-    written into it as comments.
+    written into it as comments. A program that is open may `examine` it: only what a change makes necessary.
 
     Raises ValueError if the text has several contours and no line chooses, or that belongs to none; and as `solve`.
     """
-    (result, report), place = _examined(text, side, options), None
+    (result, report), place = _examined(text, side, options, examine), None
     if line is not None:
         lines = result.contour_at(line).lines
         place = BlockPlace(lines[0] - 1, len(result.program.blocks) - lines[-1])
     # A reader may take out the word by which the control is recognised.
     is_recognised = options.get("control") is None
     kept = {**options, "control": options["control"] if isinstance(options.get("control"), Dialect) else result.control}
-    now = Exploration(text, kept, result, (text, place), place, {}, is_recognised, side, report)
+    now = Exploration(text, kept, result, (text, place), place, {}, is_recognised, side, report, examine)
     _check_single(now)
     if tool is not None:
         read_tool(tool)
@@ -128,10 +134,13 @@ def begin(
     return replace(now, origin=(now.text, now.place))
 
 
-def _examined(text: str, side: str | None, options: Mapping[str, Any]) -> tuple[Result, ToolReport | None]:
+def _examined(
+    text: str, side: str | None, options: Mapping[str, Any], examine: Examiner | None = None
+) -> tuple[Result, ToolReport | None]:
     """The result of a text, with what is said of the tool that it states."""
-    is_stated = any(tool_in(line) is not None for line in split_lines(text))
-    return solve_with_tool(text, side=side, **options) if is_stated else (solve(text, **options), None)
+    if any(tool_in(line) is not None for line in split_lines(text)):
+        return solve_with_tool(text, side=side, **options)
+    return examine(text) if examine is not None else solve(text, **options), None
 
 
 def _check_single(exploration: Exploration) -> None:
@@ -167,7 +176,8 @@ def write(exploration: Exploration, text: str) -> Exploration:
 
 
 def _solved(exploration: Exploration, text: str, place: BlockPlace | None) -> Exploration:
-    return _with_result(exploration, text, place, *_examined(text, exploration.side, exploration.options))
+    found = _examined(text, exploration.side, exploration.options, exploration.examine)
+    return _with_result(exploration, text, place, *found)
 
 
 def _with_result(

@@ -29,7 +29,7 @@ from contoursolve.program.agreeing_controls import choose_alike
 from contoursolve.program.examination import Cursor, Examination
 from contoursolve.program.named_words import has_named, is_named_for_all
 from contoursolve.program.no_contour import conclusions, nothing_to_solve
-from contoursolve.program.pipeline import Result, Run, run
+from contoursolve.program.pipeline import Result, Run, frame_of, run
 from contoursolve.program.project_file import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import (
     PLANE,
@@ -224,9 +224,9 @@ class OpenProgram:
         return texts[number - 1].rstrip("\r\n") if 0 < number <= len(texts) else ""
 
     @property
-    def is_in_parts(self) -> bool:
-        """Whether it is examined in parts: a program with calls or variables is examined as a whole."""
-        return self._examination is not None
+    def unit(self) -> str:
+        """The unit of numbers before any code that says it."""
+        return self._asked.unit.value
 
     def changes_to(self, text: str) -> Iterator[tuple[Place, Place, str]]:
         """The edits by whole lines, each as `edit` takes it, that make another text of the program; places are those
@@ -549,13 +549,17 @@ class OpenProgram:
         from contoursolve.program.batch import Batch  # noqa: PLC0415 - an editor asks for findings alone
 
         asked, now = self._examination.asked, len(self._moves)
-        run = Run(parse(self.text, self.name), asked, Batch(self.dialect, asked.policy, is_proven=True))
+        blocks = tuple(self._lines[: len(self._lines) - (self._lines.texts[-1] == "")])
+        program = Program(self.name, self.text, blocks, self.syntax)
         parts = [part for part in self._parts if part.answer is not None]
         if sum(part.answer_age != now for part in parts) > _MOST_RENEWED:
-            for part, answer in zip(parts, run.collect().answers, strict=True):
+            together = Batch(self.dialect, asked.policy, is_proven=True)
+            for part, answer in zip(parts, Run(program, asked, together).collect().answers, strict=True):
                 part.answer, part.answer_age = answer, now
-        answers = (self.contour_at(each.first) for each in [*self.contours])
-        return replace(run.frame, answers=tuple(filter(None, answers)), diagnostics=self.diagnostics)
+        starts = accumulate((part.count for part in self._parts), initial=0)
+        answers = (self._answer_of(part, start) for part, start in zip(self._parts, starts, strict=False))
+        found = tuple(filter(None, answers))
+        return replace(frame_of(program, asked), answers=found, diagnostics=self.diagnostics)
 
     @property
     def contours(self) -> Iterator[OpenContour]:
@@ -576,15 +580,19 @@ class OpenProgram:
         start = 0
         for part in self._parts:
             if start < line <= start + part.count:
-                if part.answer is None or part.is_stale:
-                    return None
-                if part.answer_age != len(self._moves):
-                    self._bring_up(part)
-                    step, _, _ = next(self._examination.resume(self._lines, start, part.known))
-                    part.answer, part.answer_age = step.answer, len(self._moves)
-                return part.answer
+                return self._answer_of(part, start)
             start += part.count
         return None
+
+    def _answer_of(self, part: _Part, start: int) -> Answer | None:
+        """The contour of a part, with its words where they are now; None where it has none, or is stale."""
+        if part.answer is None or part.is_stale or self._examination is None:
+            return None
+        if part.answer_age != len(self._moves):
+            self._bring_up(part)
+            step, _, _ = next(self._examination.resume(self._lines, start, part.known))
+            part.answer, part.answer_age = step.answer, len(self._moves)
+        return part.answer
 
 
 def _split(text: str) -> list[str]:

@@ -127,6 +127,23 @@ def run(program: Program, asked: Request, together: Together | None = None) -> R
     return Run(program, asked, together).collect()
 
 
+def frame_of(program: Program, asked: Request, facts: tuple[Directive, ...] = ()) -> Result:
+    """A result without contours and findings."""
+    dialect = asked.dialect
+    return Result(
+        program,
+        dialect.name if dialect else None,
+        (),
+        (),
+        asked.start,
+        facts,
+        dialect.modes.settings if dialect else {},
+        asked.policy,
+        around=asked.around,
+        is_concluded=dialect is not None and any(each.about in _OF_CONTROL for each in dialect.taken),
+    )
+
+
 class Run:
     """The same as a stream: contours, and findings about other blocks, as they are found. `frame` is the result without
     them. Raises FactPlaceError."""
@@ -141,18 +158,7 @@ class Run:
             asked, self._beside = with_named(asked, dialect, program)
             # Contours that are solved together say nothing of words that are named.
             together = None
-        self.frame = Result(
-            program,
-            dialect.name if dialect else None,
-            (),
-            (),
-            asked.start,
-            facts,
-            dialect.modes.settings if dialect else {},
-            asked.policy,
-            around=asked.around,
-            is_concluded=dialect is not None and any(each.about in _OF_CONTROL for each in dialect.taken),
-        )
+        self.frame = frame_of(program, asked, facts)
         self.called: list[Answer] = []
         """The contours of other files that are called, when all is examined."""
         self.profiles: list[CycleProfile] = []

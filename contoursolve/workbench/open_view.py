@@ -154,19 +154,11 @@ class ProgramView:
     def act(self, action: Data, line: int) -> tuple[Data | None, list[Data]]:
         """Do what the explorer asks for at the contour on a line; what changes of its state (None: all of it), and the
         edits that this is of the program."""
-        explored, is_new = self.explored, False
+        old, explored, is_new = self.lines(), self.explored, False
         if explored is None or explored.text != self.text or not explored.first <= line <= explored.last:
             explored, is_new = self.look(line), True
-        if explored is None:
-            return None, []
-        changed = explored.answer(action)
-        if changed is None:  # it reaches beyond the contour
-            answer = self.program.contour_at(line)
-            assert answer is not None
-            explored, is_new = Explored(self.program, answer, is_whole=True), True
-            self.explored = explored
-            explored.answer(action)
-        return None if is_new else changed, self.become(explored.text)
+        changed = explored.answer(action) if explored is not None else None
+        return None if is_new else changed, self._told_as_edit(old)
 
     # View --------------------------------------------------------------------------------------------------------
 

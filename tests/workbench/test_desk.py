@@ -2,17 +2,22 @@
 
 import json
 from base64 import b64decode, b64encode
+from pathlib import Path
 
 import pytest
+from examples import some_of
 from workbench_page import Page
 
 import contoursolve
 from contoursolve.controls import DIALECTS
+from contoursolve.gcode import decode
+from contoursolve.notebook import Conversation, begin
 from contoursolve.pictures import Theme
 from contoursolve.workbench import Desk
 from contoursolve.workbench.desk import MOST_EXAMINED
 from contoursolve.workbench.open_view import ProgramView
 
+ROOT = Path(__file__).parents[2]
 BROKEN = b"%\r\nO1\r\n\r\nG00 X40. Z0.\r\n  G111 X100. A180. K-30. B120. P60. \r\nM30\n"
 
 
@@ -145,3 +150,40 @@ def test_a_project_file_that_is_wrong_is_told_and_keeps_no_program_closed(tmp_pa
     assert page.ask("control", control=None)["control_from"] == "project file"
     (tmp_path / "contoursolve.toml").write_text("nothing = [")
     assert page.ask("open", name="a.nc")["trouble_control"]
+
+
+PROGRAMS = [*(ROOT / "docs" / "programs").glob("*.*"), *(ROOT / "notebooks" / "programs").glob("*.nc")]
+READ = sorted(each for each in PROGRAMS if each.suffix != ".dxf")
+CONTROLS = {"plate.nc": "nct-99m", "cover.nc": "nct-99m", "bracket.nc": "isg", "flange.mpf": "siemens-840d"}
+
+
+@some_of(
+    "path", READ, only=[each for each in READ if each.stem in ("stud", "flange", "lever")], ids=lambda path: path.name
+)
+def test_a_contour_in_the_explorer_is_that_of_the_whole_program(path):
+    """The desk examines only what a move makes necessary; the explorer of a notebook solves all of it each time."""
+    text, control = decode(path.read_bytes(), path.name), CONTROLS.get(path.name)
+    page = Page(Desk())
+    contours = page.ask("open", name=path.name, text=text, control=control)["contours"]
+    for contour in contours[:2]:
+        line = contour["line"]
+        looked = page.ask("look", line=line)
+        if "state" not in looked:
+            assert "one each time it runs" in looked["trouble"]
+            continue
+        alone = Conversation(begin(page.text, line=line, control=page.view["control"]["name"]))
+        assert looked["state"]["view"]["findings"] == alone.state["view"]["findings"]
+        keys = [each["key"] for each in alone.state["view"]["fields"][:2]]
+        fix = {"do": "fix", "finding": 0, "fix": 0}
+        for action in (*({"do": "move", "values": {key: 7.5}} for key in keys), {"do": "undo"}, fix):
+            wanted = alone.answer(dict(action))["view"]
+            found = page.ask("act", line=looked["line"], action=dict(action))
+            if wanted["text"]:
+                assert found["changed"]["view"]["findings"] == wanted["findings"]
+            assert page.text == alone.exploration.text.replace("\r\n", "\n")
+            assert page.ask("view")["text"] == page.text
+            if found["line"] is None or alone.exploration.answer is None:
+                break
+            looked = found
+        page.text = text.replace("\r\n", "\n")
+        page.ask("edit", text=page.text)
