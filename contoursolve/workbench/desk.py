@@ -199,16 +199,15 @@ def _open(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
 
 
 def _kept(desk: Desk, action: Mapping[str, Any], name: str) -> FileText:
-    """The file of a text that a page has kept: as it is, where it is still the same; else all that is known of it."""
+    """The file of a text that a page has kept: as it is, with the mark that the page knows; else what the page says of
+    it."""
     base, encoding = read_field(action, "base", str, ""), read_field(action, "encoding", str, "utf-8")
     line_end = read_field(action, "line_end", str, "\n")
     if encoding not in ENCODINGS or line_end not in ("\n", "\r\n", "\r"):
         raise ActionError(f"programs are in {' or '.join(ENCODINGS)}, with lines that end in LF, CRLF or CR")
     if base and desk.folder is not None:
         with suppress(UserError):
-            file = desk.folder.read(name)
-            if file.mark == base:
-                return file
+            return replace(desk.folder.read(name), mark=base)
     order_mark = BOM_UTF8 if read_field(action, "has_order_mark", bool, False) else b""
     return FileText(safe_name(name), line_end, encoding, order_mark, base)
 

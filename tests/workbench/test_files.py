@@ -172,3 +172,17 @@ def test_what_the_desk_has_forgotten_a_page_opens_again_and_saves(tmp_path):
     assert again.ask("open", text=page.text, **kept)["has_changes"]
     assert again.ask("save")["saved"] == "a.nc"
     assert (tmp_path / "a.nc").read_bytes() == b"\xef\xbb\xbf" + TEXT.replace("P5.", "P6.").encode()
+
+
+def test_what_a_page_has_kept_is_not_written_over_what_somebody_else_wrote_meanwhile(tmp_path):
+    (tmp_path / "a.nc").write_bytes(TEXT.encode())
+    page = Page(Desk(tmp_path))
+    opened = page.ask("open", name="a.nc")
+    page.type("P5.", "P6.")
+    (tmp_path / "a.nc").write_bytes(TEXT.replace("P5.", "P7.").encode())
+    again = Page(Desk(tmp_path))
+    assert again.ask("open", text=page.text, name="a.nc", base=opened["base"])["has_changes"]
+    told = again.ask("save")
+    assert "another window or program changed the file" in told["trouble"]
+    assert again.ask("save", over=told["conflict"])["saved"]
+    assert (tmp_path / "a.nc").read_bytes() == TEXT.replace("P5.", "P6.").encode()
