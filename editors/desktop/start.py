@@ -19,7 +19,8 @@ def arguments(given: list[str], here: Path, program: Path) -> list[str]:
     """The arguments of the command line: what is given, or the workbench where no command is given."""
     if not given:
         return ["serve", str(_folder(here, program))]
-    files = [each for each in given if Path(each).exists()]
+    # A block is an argument, too, and longer than a name may be; os.path says no then, and Path raises an error.
+    files = [each for each in given if os.path.exists(each)]  # noqa: PTH110
     if not files or files[0] != given[0] or given[0] in commands().list_commands(Context(commands())):
         return given
     # Of several files the page lists the others, for they lie in one folder.
@@ -54,14 +55,13 @@ def documents() -> Path:
 
 
 def restore_library_path() -> None:
-    """Give programs that are started from here, such as the browser, their own libraries: PyInstaller's bootloader puts
-    the libraries of this program first."""
-    for name in ("LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH"):
-        before = os.environ.pop(f"{name}_ORIG", None)
+    """Give programs that are started from here, such as the browser, their own libraries: on Linux, PyInstaller's
+    bootloader puts those of this program first, and keeps what was there under another name."""
+    if getattr(sys, "frozen", False) and sys.platform not in ("win32", "darwin"):
+        before = os.environ.pop("LD_LIBRARY_PATH_ORIG", None)
+        os.environ.pop("LD_LIBRARY_PATH", None)
         if before is not None:
-            os.environ[name] = before
-        elif getattr(sys, "frozen", False):
-            os.environ.pop(name, None)
+            os.environ["LD_LIBRARY_PATH"] = before
 
 
 if __name__ == "__main__":

@@ -34,6 +34,7 @@ def home(tmp_path, monkeypatch) -> Path:
         (["check"], ["check"]),
         (["--help"], ["--help"]),
         (["no such.nc"], ["no such.nc"]),
+        (["solve", "--block", "G01 X1. " * 600], ["solve", "--block", "G01 X1. " * 600]),
         (["welle 1.nc"], ["serve", "welle 1.nc"]),
         (["welle 1.nc", "--port", "8100"], ["serve", "welle 1.nc", "--port", "8100"]),
         (["welle 1.nc", "check"], ["serve", "welle 1.nc"]),
