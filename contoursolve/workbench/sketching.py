@@ -70,7 +70,12 @@ def sketch_in_drawing(data: bytes, action: Mapping[str, Any]) -> Data:
         chain=read_field(action, "chain", int, None),
         reverse=read_field(action, "reverse", bool, False),
     )
-    return {"sketch": _plain(found.sketch), "layers": dict(found.layers), "notes": [*found.given, *found.notes]}
+    return {
+        "sketch": _plain(found.sketch),
+        "layers": dict(found.layers),
+        "notes": [*found.given, *found.notes],
+        "measured": _texts(found.measured),
+    }
 
 
 def _sketch(action: Mapping[str, Any]) -> ContourSketch:

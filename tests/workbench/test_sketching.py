@@ -90,6 +90,7 @@ def test_a_drawing_of_cad_becomes_a_sketch_from_the_folder_or_by_its_bytes(desk,
     (tmp_path / "part.dxf").write_bytes(data)
     by_name = ask(desk, "dxf_in", name="part.dxf", part="turned")
     assert [each["X"] for each in by_name["sketch"]["element"]] == ["40", "40", "60"]
+    assert by_name["measured"][1]["LEN"] == "30"
     by_bytes = ask(desk, "dxf_in", name="other.dxf", base64=base64.b64encode(data).decode(), part="turned")
     assert by_bytes == by_name
     assert ask(desk, "sketch", sketch=by_name["sketch"])["is_finished"]

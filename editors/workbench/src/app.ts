@@ -242,11 +242,12 @@ export class App {
     if (await this.greeted()) this.addSketch(newChain("turned"), "", "");
   }
 
-  private addSketch(chain: Chain, name: string, base: string): void {
+  private addSketch(chain: Chain, name: string, base: string, measured: Record<string, string>[] = []): void {
     const sketch: Sketch = new Sketch(this.transport, chain, name, base, (own, why) => {
       if (own === this.active) this.chain.follow();
       this.changed(own, why);
     });
+    sketch.measured = measured;
     this.works.push(sketch);
     this.choose(sketch);
     this.chain.focus();
@@ -280,8 +281,8 @@ export class App {
         ...(place.every((each) => each && Number.isFinite(Number(each))) ? { zero: place.map(Number) } : {}),
       };
       try {
-        const read = await this.transport.ask<{ sketch: Plain; notes: string[] }>({ do: "dxf_in", ...request });
-        this.addSketch(chainOf(read.sketch), (file.name ?? "").replace(/\.dxf$/i, ".toml"), "");
+        const read = await this.transport.ask<{ sketch: Plain; notes: string[]; measured: Record<string, string>[] }>({ do: "dxf_in", ...request });
+        this.addSketch(chainOf(read.sketch), (file.name ?? "").replace(/\.dxf$/i, ".toml"), "", read.measured);
         if (read.notes.length) await dialog(this.root, "What the drawing says", read.notes.map((text) => make("p", { text })), "Go on");
         return;
       } catch (error) {

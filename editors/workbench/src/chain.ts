@@ -191,7 +191,7 @@ export class ChainPane {
       const part = view?.elements.find((each) => each.name === `${element.kind} ${number}`);
       const card = this.cards[place]!;
       const told = new Map(own(hints.keys()).map((name) => [name, hints.get(`${number} ${name}`)!]));
-      card.show(element, part?.state ?? "unknown", part?.off_mm ?? null, new Set(own(wrong)), isAsked ? told : new Map());
+      card.show(element, part?.state ?? "unknown", part?.off_mm ?? null, new Set(own(wrong)), isAsked ? told : new Map(), sketch.measured[place] ?? {});
       card.node.classList.toggle("here", number === this.chosen);
     });
     for (const axis of AXES[chain.part]) setField(this.head, `start.${axis}`, chain.start[axis] ?? "", wrong.has(`0 start.${axis}`) || wrong.has("0 start"), "");

@@ -15,7 +15,7 @@ export interface CardHost {
 export interface Card {
   node: HTMLElement;
   open(): void;
-  show(element: ChainElement, state: string, off: number | null, wrong: Set<string>, hints: Map<string, string>): void;
+  show(element: ChainElement, state: string, off: number | null, wrong: Set<string>, hints: Map<string, string>, measured: Values): void;
 }
 
 const STATES: Record<string, string> = {
@@ -133,11 +133,14 @@ export function elementCard(host: CardHost, chain: Chain, number: number): Card 
   return {
     node,
     open: () => open(true),
-    show(now, is, off, wrong, hints) {
+    show(now, is, off, wrong, hints, measured) {
       node.dataset["state"] = is;
       state.textContent = `${STATES[is] ?? is}${off === null ? "" : `: off by ${off.toFixed(3)} mm`}`;
       const value = (key: string, values: Values) => values[key] ?? "";
-      for (const key of [...first.map(([each]) => each), ...rest]) setField(node, key, value(key, now.words), wrong.has(key), hints.get(key) ?? "");
+      for (const key of [...first.map(([each]) => each), ...rest]) {
+        const hint = hints.get(key) ?? (measured[key] && !now.words[key] ? `in the drawing ${measured[key]}` : "");
+        setField(node, key, value(key, now.words), wrong.has(key), hint);
+      }
       for (const axis of guessed) setField(node, `guess.${axis}`, value(axis, now.guess), wrong.has("guess"), "");
       setField(node, "corner", now.size, wrong.has("corner"), hints.get("corner") ?? "");
       size.hidden = !now.corner;

@@ -138,6 +138,7 @@ export class Sketch implements Work {
   view: ChainView | null = null;
   trouble = ""; // about what was typed
   place: [number, string] | null = null; // of the field that makes it
+  measured: Values[] = []; // what a drawing of CAD has of each element, as long as they are those
   private past: Chain[] = [];
   private future: Chain[] = [];
   private mark = ""; // of the field that is being typed in: all of it is one change
@@ -184,6 +185,7 @@ export class Sketch implements Work {
     if (!mark || mark !== this.mark) this.past = [...this.past.slice(-MOST_PAST), this.chain];
     this.mark = mark;
     this.future = [];
+    if (now.elements.length !== this.chain.elements.length) this.measured = [];
     this.become(now);
   }
 

@@ -7,11 +7,12 @@ const KINDS = { error: "Error", warning: "Warning", info: "Note" };
 
 export interface FindingsList {
   node: HTMLElement;
-  show(findings: Placed[], left: number, lineOf: (at: number) => number, here: Set<number>): void;
+  show(findings: Placed[], left: number, progress: string, lineOf: (at: number) => number, here: Set<number>): void;
 }
 
 export function findingsList(go: (finding: number) => void, fix: (finding: number, fix: number) => void): FindingsList {
   let left = 0; // that were not sent
+  let under = ""; // how far the program is examined
   let shown: Placed[] | null = null;
   let most = MOST;
   const list = make("ol", {});
@@ -30,9 +31,14 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
     list.replaceChildren(...all.slice(0, most).map((each, number) => item(each, number)));
     more.hidden = all.length <= most;
     more.textContent = `${all.length - most} more findings`;
-    title.textContent = summary(all, left);
+    tell();
     // What is shown anew would lose the keys that follow to the page.
     if (place >= 0) ([...list.querySelectorAll("button")].at(Math.min(place, list.querySelectorAll("button").length - 1)) ?? list.parentElement)?.focus();
+  }
+
+  function tell(): void {
+    const told = [summary(shown ?? [], left), under].filter(Boolean).join(". ");
+    if (title.textContent !== told) title.textContent = told;
   }
 
   function item({ finding, begin }: Placed, number: number): HTMLElement {
@@ -56,7 +62,7 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
 
   return {
     node,
-    show(findings, more, lineOf, here) {
+    show(findings, more, progress, lineOf, here) {
       const isSame = shown?.length === findings.length && findings.every((each, place) => each.finding === shown?.[place]?.finding);
       if (!isSame || more !== left) {
         left = more;
@@ -65,6 +71,8 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
         lines = lineOf;
         render();
       }
+      under = progress;
+      tell();
       [...list.children].forEach((each, number) => each.classList.toggle("here", here.has(number)));
       const first = Math.min(...here);
       const lit = Number.isFinite(first) ? list.children[first] : null;

@@ -194,7 +194,9 @@ export class ProgramPane {
     const { findings } = marksOf(program.state);
     const at = program.state.selection.main.head;
     const here = new Set(findings.flatMap((each, number) => (touches(each, at, program.state) ? [number] : [])));
-    this.findings.show(findings, program.view.more_findings ?? 0, (place) => program.state.doc.lineAt(Math.min(place, program.state.doc.length)).number, here);
+    const { examined, lines } = program.view;
+    const progress = examined < lines ? `${examined} of ${lines} lines are examined` : "";
+    this.findings.show(findings, program.view.more_findings ?? 0, progress, (place) => program.state.doc.lineAt(Math.min(place, program.state.doc.length)).number, here);
     this.drawing.list(program.contours);
     this.drawing.light(this.here?.line ?? null);
     this.lightRow();

@@ -34,6 +34,8 @@ export class ServerTransport implements Transport {
     }
     if (!answer.ok && !reply["trouble"]) throw new Trouble(`The workbench answers ${answer.status}. Load this page again.`);
     if (request["do"] === "unlock" && typeof reply["key"] === "string") this.key = reply["key"];
+    // Another token: the workbench was started anew, and this page belongs to an older one.
+    if (answer.status === 403 && request["do"] !== "unlock") throw new Trouble(`${String(reply["trouble"])}. The text here stays: copy it or download it.`);
     return checked<Reply>(reply);
   }
 }
