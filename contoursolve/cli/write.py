@@ -151,7 +151,7 @@ def _ground(candidate: WrittenContour) -> str:
 
 
 def _told(word: WrittenWord) -> str:
-    return f"{word.text} (off by {word.off:.1g})" if word.off else word.text
+    return f"{word.text} (off by {word.off:.1g} {word.unit.value})" if word.off else word.text
 
 
 def _table_lines(several: Sequence[Written]) -> Iterator[str]:

@@ -147,7 +147,8 @@ class ChainWordings(GCodeSpeller):
             if call not in addresses or name not in facts:
                 return
             value, axis = facts[name]
-            if call == "R" and isinstance(element.segment, ArcSegment) and element.segment.sweep > _HALF_TURN:
+            is_long = isinstance(element.segment, ArcSegment) and element.segment.sweep > _HALF_TURN
+            if call == "R" and is_long and not (kind.is_over and language.meeting.selector):
                 value = -value
             words.append(self.word(addresses[call], value, axis))
         is_open = kind.is_over or kind.is_followed

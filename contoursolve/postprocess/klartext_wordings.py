@@ -3,6 +3,8 @@ are solved together."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+from msgspec.structs import replace
+
 from contoursolve.diagnosis import Answer
 from contoursolve.gcode import Word, spell
 from contoursolve.geometry import Arc, CornerShape, Turn, Unit
@@ -44,7 +46,7 @@ class KlartextWordings(Speller):
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:
         found = super().word(address, value, axis, text)
-        return WrittenWord(_signed(found.text, address), found.ground, found.off, found.is_indirect)
+        return replace(found, text=_signed(found.text, address))
 
     def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
         element = self.drawn.elements[index]
@@ -60,6 +62,10 @@ class KlartextWordings(Speller):
         )
         if is_cut or not (is_rounded or not index):
             return
+        for word, end, behind in self.corners(element):
+            for line in self._by_angle(replace(element.segment, end=end)):
+                if element.corner or self.is_solved(index, 1, line):
+                    yield Wording(1, (*self.attach(line, word), *behind), bool(behind), writes_corner=bool(behind))
         whole = len(self.drawn.elements) - index
         for count in range(1, min(_LONGEST, whole) + 1):
             found = [each for each in self._run(index, count) if self.is_solved(index, count, each)]
@@ -71,6 +77,15 @@ class KlartextWordings(Speller):
             if self.is_solved(index, whole, blocks):
                 yield Wording(whole, blocks)
                 return
+
+    def _by_angle(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
+        """A free line by its angle, and a coordinate of its end or its length, without rounding."""
+        if isinstance(segment, LineSegment):
+            angle = self.word("AN", segment.angle)
+            ends = (self.word(axis, at, n) for n, (axis, at) in enumerate(zip("XY", segment.end, strict=True)))
+            for word in (*ends, self.word("LEN", segment.length)):
+                if NumberGround.COMPUTED not in (word.ground, angle.ground):
+                    yield (WrittenBlock(None, "FL", (word, angle)),)
 
     def _goes_on_smoothly(self, index: int) -> bool:
         elements = self.drawn.elements
@@ -128,7 +143,8 @@ class KlartextWordings(Speller):
         own = {name: word for name, word in claim.words.items() if name.startswith(f"{element.place + 1}:")}
         words = list(self._by_facts(element)) if not claim.form.is_general else []
         for name, word in own.items() if claim.form.is_general else ():
-            if name.partition(":")[2] not in _BESIDE and (word.address != "CLSD" or is_whole):
+            is_said = name.partition(":")[2] not in _BESIDE and not word.is_asked
+            if is_said and (word.address != "CLSD" or is_whole):
                 words.append(self._as_said(name, word))
         yield from self._pole(own)
         sense = [WrittenWord(_SENSES[element.segment.turn])] if isinstance(element.segment, ArcSegment) else []

@@ -31,11 +31,12 @@ class NumberGround(Enum):
 
 
 class WrittenWord(Struct, frozen=True):
-    """A word, on what it rests, and by how much rounding puts it off, mm or degrees."""
+    """A word, on what it rests, and by how much rounding puts it off, in its unit."""
 
     text: str
     ground: NumberGround = NumberGround.NONE
     off: float = 0.0
+    unit: Unit = Unit.MM
     is_indirect: bool = False
     """Whether it is an increment along an axis, or an angle that is rounded."""
 
@@ -110,7 +111,7 @@ class Speller:
         ground = NumberGround.COMPUTED if off > EXACT else NumberGround.ROUND if own is None else NumberGround.DRAWING
         is_turned = row.unit is Unit.DEGREE and ground is NumberGround.COMPUTED
         is_indirect = is_turned or bool(row.axis and row.is_increment)
-        return WrittenWord(text, ground, off if off > EXACT else 0.0, is_indirect)
+        return WrittenWord(text, ground, off if off > EXACT else 0.0, row.unit, is_indirect)
 
     def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
         """All wordings of the elements from one on, which begins behind a corner that is cut or at its virtual end; or
@@ -138,7 +139,8 @@ class Speller:
         element, begin = self.drawn.elements[index], self.begin(index, is_cut=is_cut)
         for said, end, behind in self.corners(element):
             segment = replace(element.segment, start=begin, end=end)
-            for moves in self.moves(segment):
+            # Of an element that its corners use up, nothing is left to be written out.
+            for moves in self.moves(segment) if said or element.cut is not None else ((),):
                 own = self.attach(moves, said) if moves else ()
                 if own or behind:
                     yield Wording(1, (*own, *behind), bool(behind), writes_corner=bool(behind), is_plain=not said)

@@ -4,13 +4,15 @@ from math import hypot
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
+from examples import law, some_of
 from hypothesis import assume, strategies as st
 
 import contoursolve
+from contoursolve.__main__ import commands
 from contoursolve.comparison import Motion, Travel, follow
 from contoursolve.geometry import Length
 from contoursolve.sketches import read_sketch, solve_sketch
-from tests.support.examples import law
 
 SKETCHES = sorted((Path(__file__).parent.parent / "sketches").glob("*.toml"))
 
@@ -25,6 +27,53 @@ OWN_WORDS = [
         "fanuc-lathe",
         "G00 X100. Z-30.\nG01 ,A170. ,R20.\nX300. Z-180. ,A112. ,R15.\nZ-230. ,A180.",
         "G01 ,A170. ,R20./X300. Z-180. ,A112. ,R15./Z-230.",
+    ),
+    ("fanuc-lathe", "G18 G00 X50. Z50.\nG01 ,A30.\nX0. Z150. ,A-45.", "G01 ,A30./X0 Z150. ,A-45."),
+    ("fanuc-lathe", "G00 X20. Z0.\nG01 Z-25. R5.\nX50. K-3.\nZ-50.", "G01 Z-25. ,R5./X50. ,C3./Z-50."),
+    ("fanuc-mill", "G17 G00 X0 Y0\nG01 X40. ,C6.\nG02 X60. Y20. I20. J0", "G01 X40. ,C6./G02 X60. Y20. R20."),
+    ("isg", "G0 X10 Y10\nG01 #ANG=35 Y20", "G01 Y20 #ANG=35"),
+    ("isg", "G0 X0 Y0\nG91 G01 X80 Y-40\nG301 I40\nG01 X80 Y40", "G01 X80 Y-40 #CHR=40/X160 Y0"),
+    ("isg", "G0 X0 Y0\nG91 G01 X60\nG302 I30\nX-40 Y-55", "G01 X60 #RND=30/X20 Y-55"),
+    ("nct-99m", "G17 G90 G41 D0 G0 X90 Y10\nG1 X50 Y33.094\nX10 Y20 ,A225", "G01 X50 Y33.094/X10 Y20 ,A225"),
+    ("nct-99m", "G17 G0 X0 Y0\nG1 G91 X30 ,C10\nX10 Y40", "G01 X30 ,C10/X40 Y40"),
+    ("nct-99m", "G17 G0 X0 Y0\nG91 G01 X30 ,R8\nG03 X-30 Y30 R30", "G01 X30 ,R8/G03 X0 Y30 R30"),
+    ("mitsubishi", "G17 G00 X10. Y5.\nG01 X40. A25.", "G01 X40 A25"),
+    ("mitsubishi", "G17 G00 X0. Y0.\nG01 A15.\nG03 X70. Y50. R-30.", "G01 A15/G03 X70 Y50 R-30"),
+    # The manual gives the line's end twice: its height is enough.
+    ("mitsubishi", "G17 G00 X0. Y0.\nG01 A60.\nX50. Y60. A0", "G01 Y60 A60/X50"),
+    ("siemens-840d", "G18 DIAMON G0 X23.293 Z0\nG1 X40 Z-30\nCT X58.146 Z-42", "G01 X40 Z-30/CT X58.146 Z-42"),
+    (
+        "siemens-840d",
+        "G18 DIAMOF G90 G0 X10 Z100\nG1 ANG=140 CHR=7.5\nX80 Z70 ANG=95.824 RND=10\nX70 Z50",
+        "G01 ANG=140 CHR=7.5/X80 Z70 ANG=95.824 RND=10/X70 Z50",
+    ),
+    (
+        "heidenhain",
+        (
+            "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0\n10 FPOL X+50 Y+20\n11 FL LEN64.5 CLSD+ P1X+15 P1Y+35\n12 FSELECT 1\n"
+            "13 FL PR+67 AN+21\n14 FL IX+15 IY+0\n15 FL LEN 40 PAR 11\n16 FSELECT 2\n17 FL X+75 Y+20\n18 FL CLSD-\n"
+            "19 END PGM A MM"
+        ),
+        (
+            "2 FL LEN64.5 CLSD+ P1X+15 P1Y+35/3 FSELECT 1/4 FPOL X+50 Y+20/5 FL PR+67 AN+21/6 FL IX+15 IY+0/"
+            "7 FL LEN40 PAR 2/8 FSELECT 2/9 FL X+75 Y+20/10 FL CLSD-"
+        ),
+    ),
+    (
+        "heidenhain",
+        (
+            "0 BEGIN PGM A MM\n1 L X+0 Y+30 R0\n2 FC DR- R20 CCX+20 CCY+30\n3 FLT\n"
+            "4 FCT DR- R12 CCX+90 CCY+45 X+102 Y+45\n5 END PGM A MM"
+        ),
+        "2 FC R20 CCX+20 CCY+30 DR-/3 FLT/4 FCT R12 CCX+90 CCY+45 X+102 Y+45 DR-",
+    ),
+    (
+        "heidenhain",
+        (
+            "0 BEGIN PGM A MM\n7 L X+0 Y+0 R0\n8 FL AN+80 LEN50 CLSD+\n9 FCT DR- R15\n10 FLT X+90 Y+40\n11 RND R8\n"
+            "12 FL X+90 Y+0\n13 CHF 5\n14 FL X+0 Y+0 CLSD-\n17 END PGM A MM"
+        ),
+        "2 FL AN+80 LEN50/3 FCT R15 DR-/4 FLT X+90 Y+40/5 RND R8/6 L Y+0/7 CHF 5/8 L X+0",
     ),
     ("fanuc-lathe", "G00 X20. Z0.\nG01 X40. ,A150.", "G01 X40. ,A150."),
     (
@@ -79,7 +128,53 @@ def test_the_words_of_manuals_come_back(control: str, text: str, blocks: str):
     found = contoursolve.write(result.answers[0], control)
     assert "/".join(found.candidates[0].lines) == blocks
     assert not found.candidates[0].words(contoursolve.NumberGround.COMPUTED)
-    check_all(result.answers[0], found)
+
+
+@some_of(("control", "text", "blocks"), OWN_WORDS)
+def test_all_that_is_found_for_them_is_the_same_contour(control: str, text: str, blocks: str):
+    answer = contoursolve.solve(text, control=control).answers[0]
+    check_all(answer, contoursolve.write(answer, control))
+
+
+PROGRAMS = {
+    "fanuc-lathe": "%\nO0001\nG21\nG00 X0 Z0\nG01 X40. ,C1.5\nZ-30.\nX80. ,A135. ,R2.\nZ-60.\nM30\n%\n",
+    "yasnac-lx3": "%\nO0001\nG21\nG00 X0 Z0\nG01 K-1.5 X40.\nZ-30.\nG111 A135. B180. X80. Z-60. P2.\nM30\n%\n",
+    "siemens-840d": "G71 G18 G90 DIAMON\nG00 X0 Z0\nG01 X40 CHR=1.5\nZ-30\nX80 ANG=135 RND=2\nZ-60\nM30\n",
+    "isg": "%CONTOUR\nG71 G18 G90 G51\nG00 X0 Z0\nG01 X40 #CHR=1.5\nZ-30\nX80 #ANG=135 #RND=2\nZ-60\nM30\n",
+}
+
+
+@pytest.mark.parametrize("control", PROGRAMS)
+def test_the_command_writes_a_whole_program(control: str, tmp_path: Path):
+    sketch = Path(__file__).parent.parent / "sketches" / "turned_shaft.toml"
+    done = CliRunner().invoke(commands(), ["write", str(sketch), "--to", control, "-o", str(tmp_path / "new.nc")])
+    assert (done.exit_code, done.stdout) == (0, "")
+    assert (tmp_path / "new.nc").read_text(encoding="utf-8") == PROGRAMS[control]
+    checked = CliRunner().invoke(commands(), ["check", "--control", control, "--strict", str(tmp_path / "new.nc")])
+    assert (checked.exit_code, checked.stdout.split("solved")[1]) == (0, ", no problems\n")
+
+
+@pytest.mark.parametrize(
+    ("elements", "arguments", "status", "told"),
+    [
+        ("X = 30\nY = 10\nAN = 90", ("--to", "isg"), 1, "error[words-conflict]: AN90 disagrees with X30 and Y10"),
+        ("LEN = 40\nY = 25", ("--to", "isg"), 1, "solution 1: guess = { X = -31.2250, Y = 25.0000 } in line 1 chooses"),
+        ("AN = 30", ("--to", "isg"), 1, "error[words-missing]"),
+        ("X = 0\nY = 0", ("--to", "isg"), 2, "the contour has no length, so that it has no words"),
+        ("X = 30\nY = 10", ("--to", "fanuc-lathe"), 2, "the contour is milled, and fanuc-lathe is a lathe"),
+        ("X = 30\nY = 10", ("--all",), 2, "--all goes with --to"),
+        ("X = 30\nY = 10", ("-o", "new.nc"), 2, "-o goes with --to, and without --all and --format json"),
+        ("X = 30\nY = ten", ("--to", "isg"), 2, "the file is no TOML"),
+    ],
+)
+def test_the_command_says_why_it_writes_nothing(
+    elements: str, arguments: tuple[str, ...], status: int, told: str, tmp_path: Path
+):
+    sketch = tmp_path / "s.toml"
+    head = 'sketch = 1\npart = "milled"\nstart = { X = 0, Y = 0 }\n[[element]]\nkind = "line"\n'
+    sketch.write_text(head + elements, encoding="utf-8")
+    done = CliRunner().invoke(commands(), ["write", str(sketch), *arguments])
+    assert (done.exit_code, told in done.output) == (status, True), done.output
 
 
 def check_all(
@@ -134,12 +229,18 @@ def beside(place: tuple[float, ...], contour: contoursolve.Contour) -> float:
     return min(off)
 
 
-@pytest.mark.parametrize("path", SKETCHES, ids=lambda path: path.stem)
-def test_sketches_are_written_for_three_controls(path: Path):
+OF_KIND = {"turned": ("fanuc-lathe", "yasnac-lx3", "siemens-840d"), "milled": ("fanuc-mill", "isg", "heidenhain")}
+WRITTEN = [
+    pytest.param(path, number, id=f"{path.stem}-{number}", marks=() if number == place % 3 else pytest.mark.slow)
+    for place, path in enumerate(SKETCHES)
+    for number in range(3)
+]
+
+
+@pytest.mark.parametrize(("path", "number"), WRITTEN)
+def test_sketches_are_written_for_three_controls(path: Path, number: int):
     sketch = read_sketch(path.read_text(encoding="utf-8"))
-    of_kind = {"turned": ("fanuc-lathe", "yasnac-lx3", "siemens-840d"), "milled": ("fanuc-mill", "isg", "heidenhain")}
-    for control in of_kind[sketch.part]:
-        check_all(solve_sketch(sketch).answer, contoursolve.write(sketch, control))
+    check_all(solve_sketch(sketch).answer, contoursolve.write(sketch, OF_KIND[sketch.part][number]))
 
 
 def test_a_control_of_the_other_kind_says_so():
