@@ -17,12 +17,6 @@ def _choice(name: str, meaning: str, values: Mapping[str, str], source: Source =
     return Setting(f"tool-{name}", meaning, values, next(iter(values)), source)
 
 
-def _number(name: str, meaning: str, default: str, unit: str, most: int) -> Setting:
-    return Setting(
-        f"tool-{name}", meaning, {default: unit}, default, _ASSUMED, bounds=(Decimal(0), Decimal(most)), unit=unit
-    )
-
-
 TOOL_SETTINGS = (
     _choice(
         "outside",
@@ -30,7 +24,15 @@ TOOL_SETTINGS = (
         {"roll": "an arc about the corner", "intersect": "straight on to where both ways meet"},
         _RECALLED,
     ),
-    _number("intersect-limit", "up to which turn the way goes straight on to where both ways meet", "90", "deg", 179),
+    Setting(
+        "tool-intersect-limit",
+        "up to which turn the way goes straight on to where both ways meet",
+        {"90": "deg"},
+        "90",
+        _ASSUMED,
+        bounds=(Decimal(0), Decimal(179)),
+        unit="deg",
+    ),
     _choice(
         "too-small",
         "what becomes of an element that the tool does not reach",
@@ -82,8 +84,5 @@ TOOL_SETTINGS = (
         {"warn": "a warning", "off": "nothing is said"},
         _DERIVED,
     ),
-    _number("tangent", "up to which turn elements are tangent whose offsets do not meet", "0.01", "deg", 1),
-    _number("min-move", "shorter moves of the path are left out", "0.001", "mm", 1),
-    _number("noticed", "smaller errors and rests are not told", "0.005", "mm", 1),
 )
 """Those of every control."""

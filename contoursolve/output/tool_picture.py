@@ -30,6 +30,7 @@ from contoursolve.pictures import (
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius import (
+    NOTICED,
     CuttingRun,
     OffsetPath,
     ToolFault,
@@ -177,10 +178,8 @@ def _stances(each: ToolRun) -> Iterator[Stance]:
     yield from (_at_fault(each, fault) for fault in faults)
     if pieces and not faults:
         yield Stance(pieces[0].segment.start, 0)
-    noticed = each.offset.settings.noticed
-    yield from (_resting(own, rest) for rest in each.offset.rests(pieces) if rest.depth >= noticed)
-    about = own.elements, own.side.sign, own.radius, own.tip, noticed
-    wrong = list(uncompensated(*about)) if each.uncompensated else []
+    yield from (_resting(own, rest) for rest in each.offset.rests(pieces) if rest.depth >= NOTICED)
+    wrong = list(uncompensated(own.elements, own.side.sign, own.radius, own.tip)) if each.uncompensated else []
     for fault in sorted(wrong, key=lambda one: -round(abs(one.short or 0.0), 6))[:MOST_WRONG]:
         yield Stance(_at_fault(each, fault).center, fault.element)
 

@@ -24,6 +24,7 @@ from .moves import (
     title_of as title_of,
 )
 from .offset import (
+    NOTICED as NOTICED,
     OffsetElement as OffsetElement,
     OffsetPath as OffsetPath,
     UncutRest as UncutRest,

@@ -94,7 +94,7 @@ class ToolRun(Struct, frozen=True, dict=True):
             past = dot(own.vector, way)
             if 0 < past < last.length:
                 found[-1] = replace(found[-1], segment=replace(last, end=ahead(last.end, way, -past)))
-        return tuple(without_short(found, settings.least))
+        return tuple(without_short(found))
 
     def written(self, piece: OffsetElement) -> Segment:
         """A piece of the centre's path as that of the programmed point."""
@@ -247,8 +247,7 @@ class ToolFindings:
         own = tool_run.run
         told = [ToolFault(ToolFaultKind.APPROACH, 0)] if own.is_approached else []
         told += [ToolFault(ToolFaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
-        noticed = tool_run.rules.settings.noticed
-        told += [] if own.is_stated else self._uncompensated(own, noticed)
+        told += [] if own.is_stated else self._uncompensated(own)
         told += [ToolFault(ToolFaultKind.NO_RADIUS, 0)] if own.radius <= LENGTH else []
         told += [ToolFault(ToolFaultKind.STILL_ON, len(own.elements) - 1)] if own.still_on else []
         # What interrupts one run stands before the next one; of a contour without a solution, its own finding tells.
@@ -258,16 +257,16 @@ class ToolFindings:
         rests = (each for each in told_of_path(tool_run.offset) if each not in tool_run.stops)
         yield from (self._finding(tool_run, fault) for fault in (*told, *faults, *rests))
 
-    def _uncompensated(self, own: CuttingRun, noticed: float) -> Iterator[ToolFault]:
+    def _uncompensated(self, own: CuttingRun) -> Iterator[ToolFault]:
         """The error of each element where the programmed point runs along a contour, or along another tool's path."""
         made = made_for(own)
         if made is None:
-            yield from uncompensated(own.elements, own.side.sign, own.radius, own.tip, noticed)
-            yield from stub(own.elements, own.side.sign, own.radius, own.tip, noticed)
+            yield from uncompensated(own.elements, own.side.sign, own.radius, own.tip)
+            yield from stub(own.elements, own.side.sign, own.radius, own.tip)
             return
         around = [number for number, each in enumerate(own.elements) if is_around(each, made, own)]
         yield ToolFault(ToolFaultKind.BY_HAND, around[0], length=made)
-        for each in uncompensated(own.elements, own.side.sign, own.radius - made, own.tip, noticed):
+        for each in uncompensated(own.elements, own.side.sign, own.radius - made, own.tip):
             if each.element not in around:
                 yield replace(each, kind=ToolFaultKind.OTHER_RADIUS, length=made)
 

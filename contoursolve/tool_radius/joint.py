@@ -5,7 +5,7 @@ form. Where both offsets meet beyond an outside corner, it is that of the corner
 """
 
 from functools import lru_cache
-from math import atan2, hypot, isfinite
+from math import atan2, hypot, isfinite, radians
 from typing import Any
 
 from msgspec import Struct
@@ -29,6 +29,9 @@ from contoursolve.tolerance import LENGTH, RESIDUAL
 
 STRAY = 1e-7
 """mm. What straight on strays from the way around an outside corner where that is left out: words are rounded."""
+
+TANGENT = radians(0.01)
+"""rad. Up to this turn, elements are tangent whose offsets do not meet (assumed)."""
 
 
 class CornerCenter(Struct, frozen=True):
@@ -70,15 +73,15 @@ def turn_of(before: Segment, after: Segment) -> float:
     return atan2(cross(one, two), one[0] * two[0] + one[1] * two[1])
 
 
-def join(before: Segment, after: Segment, radius: float, side: int, tangent: float = 0.0) -> Joint:
-    """The joint of two elements for a tool of a radius (mm) to the left (`side` +1) or right (-1) of them; up to a turn
-    (rad) they are tangent if their offsets do not meet: words are rounded."""
+def join(before: Segment, after: Segment, radius: float, side: int) -> Joint:
+    """The joint of two elements for a tool of a radius (mm) to the left (`side` +1) or right (-1) of them; up to
+    `TANGENT` they are tangent if their offsets do not meet: words are rounded."""
     turn = side * turn_of(before, after)
     if abs(turn) * max(radius, 1.0) <= LENGTH or (turn < 0 and radius * turn * turn / 2 <= STRAY):
         return Joint(0.0, None)
     if turn > 0:
         found = meet(before, after, radius)
-        return Joint(0.0 if found is None and turn <= tangent else turn, found)
+        return Joint(0.0 if found is None and turn <= TANGENT else turn, found)
     return Joint(turn, None)
 
 

@@ -41,6 +41,9 @@ _LOOKED = 500
 _CLOSED = 2
 """Elements behind the first of a contour that may come back to it."""
 
+NOTICED = 0.005
+"""mm. Smaller errors and rests are not told (assumed)."""
+
 _FASTER = 2.0
 """Times as fast as its centre an edge may be before that is told (derived: r/r')."""
 
@@ -104,8 +107,7 @@ class OffsetPath:
     ) -> None:
         self.elements, self.radius, self.side, self.settings = elements, radius, side, settings
         self.levels = levels or [1] * len(elements)
-        tangent = radians(settings.tangent)
-        self.joints = [join(one, two, radius, side, tangent) for one, two in pairwise(elements)]
+        self.joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
 
     @cached_property
     def stops(self) -> tuple[ToolFault, ...]:
@@ -373,13 +375,13 @@ _GROOVE = 4
 """Elements from one wall of a groove to the other, with its floor and two roundings."""
 
 
-def without_short(pieces: Sequence[OffsetElement], least: float) -> Iterator[OffsetElement]:
-    """A path without pieces shorter than some mm: the line behind begins where they do."""
+def without_short(pieces: Sequence[OffsetElement]) -> Iterator[OffsetElement]:
+    """A path without pieces shorter than the increment: the line behind begins where they do."""
     here = None
     for number, each in enumerate(pieces):
         part = each.segment if here is None else replace(each.segment, start=here)
         is_next_line = number + 1 < len(pieces) and isinstance(pieces[number + 1].segment, LineSegment)
-        here = part.start if is_next_line and each.segment.length < least else None
+        here = part.start if is_next_line and each.segment.length < INCREMENT else None
         if here is None:
             yield replace(each, segment=part)
 
@@ -430,9 +432,7 @@ def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator
                 yield ToolFault(kind, number, rest=(needed, has))
 
 
-def uncompensated(
-    elements: Sequence[Segment], side: int, radius: float, tip: Point, noticed: float
-) -> Iterator[ToolFault]:
+def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
     """The excess (mm; below 0: too deep) of elements along which the tip runs without compensation, square to the
     surface; of an arc, where it is most. A centre has it the same on all of them."""
     for number, element in enumerate(elements):
@@ -444,11 +444,11 @@ def uncompensated(
             ):
                 normals.append(normal)
         off = max((-radius * (1 + float(dot(tip, normal))) for normal in normals), key=abs)
-        if abs(off) >= noticed and (any(tip) or not number):
+        if abs(off) >= NOTICED and (any(tip) or not number):
             yield ToolFault(ToolFaultKind.UNCOMPENSATED, number, off)
 
 
-def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point, noticed: float) -> Iterator[ToolFault]:
+def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
     """The stub (its diameter) that stands on the axis of a lathe where the tip does not go far enough past it."""
     found = list[tuple[float, int]]()
     for number, element in enumerate(elements):
@@ -457,14 +457,14 @@ def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point, noti
             if at[1] <= LENGTH and abs(along) > _CLEAR and tip[1] < 0:
                 found.append((2 * (at[1] - radius * (tip[1] + away)), number))
     size, number = min(found, default=(0.0, 0))
-    if size >= noticed:
+    if size >= NOTICED:
         yield ToolFault(ToolFaultKind.STUB, number, size)
 
 
 def told_of_path(made: OffsetPath) -> Iterator[ToolFault]:
     """The rest that a tool leaves in the inside corners of a contour that it cuts, and of what it leaves out; and arcs
     along which its edge is much faster than its centre."""
-    noticed = GOUGE if made.settings.refuses_corner else made.settings.noticed
+    noticed = GOUGE if made.settings.refuses_corner else NOTICED
     for each in made.rests(made.pieces or ()):
         if each.last - each.first > 1 and each.depth > GOUGE:
             yield ToolFault(ToolFaultKind.LEFT_OUT, each.first + 1, each.depth, working=each.last - 1, rest=each.lost)

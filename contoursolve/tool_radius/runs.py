@@ -4,7 +4,7 @@ from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import groupby
-from math import dist, radians
+from math import dist
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -17,7 +17,7 @@ from contoursolve.reading import Dialect, Effect, rows_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
 from contoursolve.tool_radius.clearance import foot
-from contoursolve.tool_radius.joint import turn_of
+from contoursolve.tool_radius.joint import TANGENT, turn_of
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_of
 from contoursolve.tool_radius.tool_settings import settings_of
 
@@ -251,7 +251,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
     tool = stock.at(travels[0])
     radius = float(tool.radius) * (1.0 if tool.is_metric else float(travels[0].unit.in_mm))
     first = next((number for number, each in enumerate(travels) if each.element), 0) if group.side is None else 0
-    while first and abs(turn_of(elements[first - 1], elements[first])) <= radians(stock.settings.tangent):
+    while first and abs(turn_of(elements[first - 1], elements[first])) <= TANGENT:
         first -= 1
     if first:
         lead, is_approached, travels, elements = travels[first - 1], True, travels[first:], elements[first:]
