@@ -15,18 +15,13 @@ from contoursolve.families import FamilyError, slopes_of
 from contoursolve.geometry import Arc, Corner, Line
 from contoursolve.output import StatedWord, stated_words
 from contoursolve.pictures import (
-    SAME,
     Known,
     Picture,
     Viewport,
-    along,
     corner_segment,
-    direction,
-    distance,
     find_known,
-    middle,
 )
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.solving import SAME, ArcSegment, LineSegment, Point, Segment, along, direction, distance, middle
 
 LEAST = 1e-6
 """mm for each unit of a word. What a word moves by less it does not move."""

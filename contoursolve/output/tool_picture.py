@@ -20,14 +20,10 @@ from contoursolve.pictures import (
     ToolDrawing,
     Trail,
     Weight,
-    along,
-    direction,
-    middle,
     number,
-    on_arc,
     remarks_of,
 )
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, along, direction, middle, on_arc
 from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius import (
     NOTICED,
@@ -38,7 +34,7 @@ from contoursolve.tool_radius import (
     ToolReport,
     ToolRun,
     UncutRest,
-    foot,
+    foot_on,
     nearest,
     title_of,
     uncompensated,
@@ -207,7 +203,7 @@ def _resting(own: CuttingRun, rest: UncutRest) -> Stance:
 
 def _outline(side: int, near: Sequence[Segment], center: Point) -> tuple[Segment, ...]:
     """The outline of what a tool leaves that touches the first and the last of some elements."""
-    first, last = foot(near[0], center), foot(near[-1], center)
+    first, last = foot_on(near[0], center), foot_on(near[-1], center)
     parts = (replace(near[0], start=first), *near[1:-1], replace(near[-1], end=last))
     nose = ArcSegment("", last, first, center, dist(center, first), Turn.CW if side > 0 else Turn.CCW)
     return (*(each for each in parts if dist(each.start, each.end) > LENGTH), nose)

@@ -70,13 +70,3 @@ from .theme import (
     Theme as Theme,
 )
 from .value_axes import MAP_BOX as MAP_BOX
-from .vectors import (
-    SAME as SAME,
-    along as along,
-    direction as direction,
-    distance as distance,
-    foot as foot,
-    middle as middle,
-    minus as minus,
-    on_arc as on_arc,
-)

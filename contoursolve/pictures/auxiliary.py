@@ -14,8 +14,22 @@ from contoursolve.pictures.known_points import place_beside, place_of
 from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, Ring, Slide, Thin, Trail, number
 from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import ALONG_AXIS, SAME, along, direction, distance, foot, toward, with_coordinate
-from contoursolve.solving import LineSegment, Point, Refusal, RefusalKind, Status, affine_facts
+from contoursolve.solving import (
+    ALONG_AXIS,
+    SAME,
+    LineSegment,
+    Point,
+    Refusal,
+    RefusalKind,
+    Status,
+    affine_facts,
+    along,
+    direction,
+    distance,
+    foot,
+    toward,
+    with_coordinate,
+)
 
 Ray = tuple[Point, Point]
 """A place on a line and its unit direction."""

@@ -19,8 +19,7 @@ from contoursolve.pictures.scene import (
     Trail,
 )
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import along, direction, distance, minus, unit
-from contoursolve.solving import ArcSegment
+from contoursolve.solving import ArcSegment, along, direction, distance, minus, unit
 
 _RADIUS, _STEP = 34.0, 13.0
 """Pixels. Radius of the arc of an angle, and how much more each further one at the same place has."""

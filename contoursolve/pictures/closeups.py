@@ -28,8 +28,7 @@ from contoursolve.pictures.page import (
 )
 from contoursolve.pictures.scene import Closeup, Leader, Mark, Scene, Trail, Viewport, Weight
 from contoursolve.pictures.theme import DASHES, Role
-from contoursolve.pictures.vectors import distance, sweep_of
-from contoursolve.solving import ArcSegment, Segment, extremes
+from contoursolve.solving import ArcSegment, Segment, distance, extremes, sweep_of
 
 MOST_DETAILS = 4
 """Details below one drawing, in one row."""

@@ -14,9 +14,8 @@ from contoursolve.pictures.page import About, TextRun, visible
 from contoursolve.pictures.scene import Closeup, Scene, ToolDrawing, Trail, Weight, axis_names, coordinates, number
 from contoursolve.pictures.subject import Subject, fitting, subject_of, trace_known
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import ArcSegment, Contour, Point, trace
+from contoursolve.solving import SAME, ArcSegment, Contour, Point, distance, trace
 
 MOST_LINES, MOST_OF_CHAIN = 6, 24
 """Lines of a program in a picture's head: of any, and of a chain, whose elements are named by their blocks."""

@@ -36,9 +36,12 @@ from contoursolve.pictures.scene import (
 )
 from contoursolve.pictures.subject import PartialDrawing, Subject
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import (
+from contoursolve.solving import (
     DIAGONAL,
     SAME,
+    ArcSegment,
+    Point,
+    Segment,
     along,
     direction,
     distance,
@@ -48,7 +51,6 @@ from contoursolve.pictures.vectors import (
     toward,
     with_coordinate,
 )
-from contoursolve.solving import ArcSegment, Point, Segment
 
 _BESIDE_ARROW = (0.36, 0.64, 0.2, 0.8)
 """Of an arc, from its start: where its radius may be written, off the arrow in its middle."""

@@ -27,8 +27,8 @@ from contoursolve.geometry import (
     line_scalars,
     scalar,
 )
-from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.solving import (
+    SAME,
     CornerSolution,
     Point,
     Refusal,
@@ -37,6 +37,7 @@ from contoursolve.solving import (
     affine_facts,
     analyse,
     basis_of,
+    distance,
     is_affine,
     is_closed,
     points_with_two_solutions,

@@ -28,7 +28,7 @@ from contoursolve.pictures.page import (
 )
 from contoursolve.pictures.scene import Viewport
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import along, distance, minus
+from contoursolve.solving import along, distance, minus
 
 PATH_WEIGHT, THIN_WEIGHT, FAINT_WEIGHT = 40.0, 4.0, 1.5
 """Costs of a cell under a label: on a path, on a thin line of a word, and on a construction line."""

@@ -39,8 +39,7 @@ from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thi
 from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.svg import steps_text
 from contoursolve.pictures.theme import CHAINS, DASHES, MEANINGS, TOOLS, Role
-from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
-from contoursolve.solving import ArcSegment, Segment
+from contoursolve.solving import ArcSegment, Segment, along, direction, distance, middle, sweep_of
 
 _ARROWED = 34.0
 """Pixels of an element that is long enough for an arrow."""

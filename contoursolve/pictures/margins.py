@@ -9,7 +9,7 @@ from contoursolve.pictures.labels import Canvas, Grip, LabelSpot
 from contoursolve.pictures.page import SIZE, WIDTH, About, Anchor, Box, Spot, Text, TextRun, head, line, width_of
 from contoursolve.pictures.scene import LinearDimension, Ordinate, Rectangle, Scene, Viewport, bounds_of
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import along, direction, distance
+from contoursolve.solving import along, direction, distance
 
 _TALLEST, _LOWEST = 350.0, 110.0
 """Pixels of the drawing itself, without what stands in its margins."""

@@ -17,9 +17,8 @@ from contoursolve.pictures.scene import Closeup, Mark, MarkKind, Part, Scene, To
 from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.turned_part import crosses_axis, cylinders_of, turn_part
-from contoursolve.pictures.vectors import distance
 from contoursolve.program import CycleProfile, Result
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, distance
 from contoursolve.tolerance import LENGTH
 
 MOST_CONTOURS = 400

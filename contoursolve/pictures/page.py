@@ -8,7 +8,7 @@ from typing import NamedTuple
 from msgspec import Struct
 
 from contoursolve.pictures.theme import DASHES, Role
-from contoursolve.pictures.vectors import along
+from contoursolve.solving import along
 
 Spot = tuple[float, float]
 """A place on the page, pixels from its top left corner."""

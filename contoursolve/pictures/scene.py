@@ -13,8 +13,7 @@ from msgspec.structs import replace
 from contoursolve.geometry import FIRST, SECOND, Length, Plane
 from contoursolve.pictures.page import ANYTHING, About, Spot, TextRun, visible
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import ALONG_AXIS, along
-from contoursolve.solving import Point, Segment, extremes
+from contoursolve.solving import ALONG_AXIS, Point, Segment, along, extremes
 
 
 class Weight(Enum):

@@ -24,8 +24,7 @@ from contoursolve.pictures.scene import (
 )
 from contoursolve.pictures.subject import PartialDrawing
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import DIAGONAL, SAME, along, distance, foot
-from contoursolve.solving import Drawings, Drawn, Point, Stated
+from contoursolve.solving import DIAGONAL, SAME, Drawings, Drawn, Point, Stated, along, distance, foot
 
 MOST_DRAWN = 12
 """Drawings in one picture; of more, their number is told."""

@@ -43,9 +43,9 @@ from contoursolve.pictures.misread_words import counted, is_mended_by, unread
 from contoursolve.pictures.page import ANYTHING, About
 from contoursolve.pictures.scene import Trail, word_text
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import SAME, direction, distance
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import (
+    SAME,
     ArcSegment,
     CornerSolution,
     LineSegment,
@@ -60,6 +60,8 @@ from contoursolve.solving import (
     analyse,
     compile_system,
     corner_of,
+    direction,
+    distance,
     inputs_of,
     is_closed,
     points_with_two_solutions,

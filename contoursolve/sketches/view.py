@@ -18,12 +18,11 @@ from contoursolve.pictures import (
     Trail,
     Weight,
     draw_sketched,
-    middle,
 )
 from contoursolve.sketches.known_part import PartState, SketchAnswer, SketchFinding, solve_sketch
 from contoursolve.sketches.sketch import ContourSketch
 from contoursolve.sketches.sketch_file import plain_element
-from contoursolve.solving import ArcSegment, LineSegment, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Segment, middle
 
 _ROLES = {
     PartState.KNOWN: Role.INK,

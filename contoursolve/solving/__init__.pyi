@@ -201,3 +201,19 @@ from .ties import (
     find_ties as find_ties,
     tied_with as tied_with,
 )
+from .vectors import (
+    ALONG_AXIS as ALONG_AXIS,
+    DIAGONAL as DIAGONAL,
+    SAME as SAME,
+    along as along,
+    direction as direction,
+    distance as distance,
+    foot as foot,
+    middle as middle,
+    minus as minus,
+    on_arc as on_arc,
+    sweep_of as sweep_of,
+    toward as toward,
+    unit as unit,
+    with_coordinate as with_coordinate,
+)

@@ -1,5 +1,5 @@
 from .clearance import (
-    foot as foot,
+    foot_on as foot_on,
     nearest as nearest,
 )
 from .faults import (

@@ -5,8 +5,7 @@ from math import radians, tan
 from msgspec.structs import replace
 
 from contoursolve.geometry import Length
-from contoursolve.solving import ArcSegment, Point, Segment
-from contoursolve.tool_radius.clearance import ahead
+from contoursolve.solving import ArcSegment, Point, Segment, along
 from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import OffsetPath, shifted
 from contoursolve.tool_radius.runs import CuttingRun
@@ -59,7 +58,7 @@ def made_for(own: CuttingRun) -> float | None:
         radius = round(each.radius / scale, 2 if own.unit is Length.MM else 4) * scale
         if is_around(each, radius, own):
             rolled = each.center[0] - radius * first, each.center[1] - radius * second
-            rounded = ahead(each.start, direction(each, at_end=False), each.radius * tan(radians(each.sweep) / 2))
+            rounded = along(each.start, direction(each, at_end=False), each.radius * tan(radians(each.sweep) / 2))
             counts[radius] = counts.get(radius, 0) + _round_ones(rolled, own) - _round_ones(rounded, own)
     best = max(counts, key=lambda radius: counts[radius], default=0.0)
     return best if counts.get(best, 0) >= _ENOUGH else None

@@ -26,10 +26,9 @@ from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment
+from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment, along
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of
-from contoursolve.tool_radius.clearance import ahead
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import (
@@ -93,7 +92,7 @@ class ToolRun(Struct, frozen=True, dict=True):
             way = direction(last, at_end=True)
             past = dot(own.vector, way)
             if 0 < past < last.length:
-                found[-1] = replace(found[-1], segment=replace(last, end=ahead(last.end, way, -past)))
+                found[-1] = replace(found[-1], segment=replace(last, end=along(last.end, way, -past)))
         return tuple(without_short(found))
 
     def written(self, piece: OffsetElement) -> Segment:
@@ -344,8 +343,8 @@ class ToolFindings:
             radius = element.radius + own.side.sign * element.turn.sign * own.radius
             left = f"radius {length_in(radius, unit)}" if radius > LENGTH else "a square corner"
             return f"arc of radius {length_in(element.radius, unit)} comes out {much}: it becomes {left}"
-        across, along = map(abs, direction(element, at_end=False))
-        ways = ((across, 2 * off, "on the diameter"), (along, off, "along Z"))
+        across, onward = map(abs, direction(element, at_end=False))
+        ways = ((across, 2 * off, "on the diameter"), (onward, off, "along Z"))
         told = (f", {length_in(abs(size / part), unit)} {where}" for part, size, where in ways if part > LENGTH)
         return f"line comes out {much}{''.join(told)}"
 

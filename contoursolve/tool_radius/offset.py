@@ -9,14 +9,12 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Circle, Line, Turn, Values, dot, make_tangent
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, is_on, largest_fitting
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, along, is_on, largest_fitting, middle
 from contoursolve.tolerance import AGREEMENT, INCREMENT, LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import (
-    ahead,
     crossings,
-    foot,
+    foot_on,
     gaps_below,
-    middle_of,
     nearest,
     split,
     square_to,
@@ -226,10 +224,10 @@ class OffsetPath:
         if isinstance(element, ArcSegment):
             reach = element.radius - self.side * element.turn.sign * self.radius
             base, share, ends = element.center, reach / element.radius, (element.start, element.end)
-            start, end = (ahead(base, (at[0] - base[0], at[1] - base[1]), share) for at in ends)
+            start, end = (along(base, (at[0] - base[0], at[1] - base[1]), share) for at in ends)
             return replace(element, start=start, end=end, radius=abs(reach))
         normal = normal_of(element, self.side, at_end=False)
-        start, end = (ahead(at, normal, self.radius) for at in (element.start, element.end))
+        start, end = (along(at, normal, self.radius) for at in (element.start, element.end))
         return replace(element, start=start, end=end)
 
     def _joined(self, number: int, before: Segment, after: Segment) -> tuple[Segment, list[Segment], Segment]:
@@ -246,7 +244,7 @@ class OffsetPath:
         way, on = direction(one, at_end=True), direction(other, at_end=False)
         is_met = dot(way, on) >= cos(radians(self.settings.limit)) - REGULAR
         found = meet_outside(one, other, self.radius) if is_met else None
-        places = [ahead(here, way, self.radius), ahead(there, on, -self.radius)]
+        places = [along(here, way, self.radius), along(there, on, -self.radius)]
         places = [found.center] if found is not None else places
         # A line goes on to where the way around begins; beside an arc, its tangent does.
         if isinstance(before, LineSegment):
@@ -271,7 +269,8 @@ class OffsetPath:
             near = (bounds[gap.wall] for gap in gaps_below([segment], bounds, AGREEMENT) if gap.wall != number)
             cuts = (at for other in near for at in crossings(segment, other) if is_on(segment, at) and is_on(other, at))
             parts += [(number, part) for part in split(segment, cuts)]
-        middles = [replace(whole[number], segment=middle_of(part)) for number, part in parts]
+        places = [(whole[number], middle(part)[0]) for number, part in parts]
+        middles = [replace(piece, segment=LineSegment("", at, at)) for piece, at in places]
         cut = {place for place, _ in self._cuts(middles)}
         found, here = list[OffsetElement](), self._moved(self.elements[0]).start
         for place, (number, part) in enumerate(parts):
@@ -288,7 +287,7 @@ class OffsetPath:
     def _circles(self) -> Iterator[ArcSegment]:
         """The places from which the tool touches an end of the contour."""
         for center in (self.elements[0].start, self.elements[-1].end):
-            begin = ahead(center, (1.0, 0.0), self.radius)
+            begin = along(center, (1.0, 0.0), self.radius)
             yield ArcSegment("", begin, begin, center, self.radius, Turn.CCW)
 
     def rests(self, pieces: Sequence[OffsetElement]) -> Iterator[UncutRest]:
@@ -304,7 +303,7 @@ class OffsetPath:
                     yield self._rest(center, before, behind)
 
     def _is_touched(self, number: int, center: Point) -> bool:
-        return dist(center, foot(self.elements[number], center)) <= self.radius + STRAY
+        return dist(center, foot_on(self.elements[number], center)) <= self.radius + STRAY
 
     def _rest(self, center: Point, first: int, last: int) -> UncutRest:
         before, *left, behind = self.elements[first : last + 1]
@@ -312,7 +311,7 @@ class OffsetPath:
         depths += [
             max(dist(center, at) for at in [*square_to(each, center)] or (each.start, each.end)) for each in left
         ]
-        parts = replace(before, start=foot(before, center)), replace(behind, end=foot(behind, center))
+        parts = replace(before, start=foot_on(before, center)), replace(behind, end=foot_on(behind, center))
         back, on = (each.length if dist(each.start, each.end) > LENGTH else 0.0 for each in parts)
         return UncutRest(center, first, last, max(depths) - self.radius, (back, on))
 
@@ -397,11 +396,11 @@ def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point
     for number, element in enumerate(elements):
         normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
         # An arc over the top of a ball begins towards the tip; the flanks decide how far it may go.
-        along = min(float(dot(tip, normal)) for normal in normals)
+        toward = min(float(dot(tip, normal)) for normal in normals)
         # Between the walls of a groove, the tip is the corner at which the tool is set.
         near = elements[max(number - _GROOVE, 0) : number + _GROOVE + 1]
-        if along > _CLEAR and not any(are_walls(element, other, side, 0.0) for other in near):
-            yield ToolFault(ToolFaultKind.TIP_AGAINST_SIDE, number, radius * (1 + along))
+        if toward > _CLEAR and not any(are_walls(element, other, side, 0.0) for other in near):
+            yield ToolFault(ToolFaultKind.TIP_AGAINST_SIDE, number, radius * (1 + toward))
 
 
 def are_walls(one: Segment, other: Segment, side: int, least: float = 1 - LENGTH) -> bool:
@@ -440,7 +439,7 @@ def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Po
         for sign in (1, -1) if any(tip) and isinstance(element, ArcSegment) else ():
             normal = sign * tip[0] / hypot(*tip), sign * tip[1] / hypot(*tip)
             if isinstance(element, ArcSegment) and is_on(
-                element, ahead(element.center, normal, -side * element.turn.sign)
+                element, along(element.center, normal, -side * element.turn.sign)
             ):
                 normals.append(normal)
         off = max((-radius * (1 + float(dot(tip, normal))) for normal in normals), key=abs)
@@ -453,8 +452,8 @@ def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> I
     found = list[tuple[float, int]]()
     for number, element in enumerate(elements):
         for at_end, at in enumerate((element.start, element.end)):
-            along, away = normal_of(element, side, at_end=bool(at_end))
-            if at[1] <= LENGTH and abs(along) > _CLEAR and tip[1] < 0:
+            onward, away = normal_of(element, side, at_end=bool(at_end))
+            if at[1] <= LENGTH and abs(onward) > _CLEAR and tip[1] < 0:
                 found.append((2 * (at[1] - radius * (tip[1] + away)), number))
     size, number = min(found, default=(0.0, 0))
     if size >= NOTICED:

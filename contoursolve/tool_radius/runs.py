@@ -16,7 +16,7 @@ from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.reading import Dialect, Effect, rows_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
-from contoursolve.tool_radius.clearance import foot
+from contoursolve.tool_radius.clearance import foot_on
 from contoursolve.tool_radius.joint import TANGENT, turn_of
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_of
 from contoursolve.tool_radius.tool_settings import settings_of
@@ -137,7 +137,7 @@ def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = F
     if last >= first and dist(start, end) <= AGREEMENT:
         return True
     at, on = (end, parts[first]) if is_end else (start, parts[last])
-    return last > first + 1 and dist(at, foot(on, at)) <= AGREEMENT
+    return last > first + 1 and dist(at, foot_on(on, at)) <= AGREEMENT
 
 
 def find_runs(path: ToolPath, asked: ToolRequest, dialect: Dialect) -> list[CuttingRun]:

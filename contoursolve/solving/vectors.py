@@ -2,7 +2,8 @@
 
 from math import atan2, cos, hypot, pi, sin, tau
 
-from contoursolve.solving import ArcSegment, Point, Segment
+from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.solving.solution import Point
 from contoursolve.tolerance import LENGTH
 
 SAME = 1e-6
