@@ -314,6 +314,7 @@ _PHRASES = VERBS | {"comparison": "", "fits": "at most <limit> fits", "smaller":
 _GAPS = {
     "words": "word",
     "off": "difference",
+    "cancel": "G40",
     "subject": "element",
     "free": "point",
     "where": "line",

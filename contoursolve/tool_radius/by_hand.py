@@ -1,5 +1,6 @@
 """The radius for which the path of a tool was made by hand: the one with which the part has round numbers."""
 
+from collections.abc import Sequence
 from math import radians, tan
 
 from msgspec.structs import replace
@@ -61,7 +62,17 @@ def made_for(own: CuttingRun) -> float | None:
             rounded = along(each.start, direction(each, at_end=False), each.radius * tan(radians(each.sweep) / 2))
             counts[radius] = counts.get(radius, 0) + _round_ones(rolled, own) - _round_ones(rounded, own)
     best = max(counts, key=lambda radius: counts[radius], default=0.0)
-    return best if counts.get(best, 0) >= _ENOUGH else None
+    if counts.get(best, 0) >= _ENOUGH:
+        return best
+    part = part_of(own, best) if counts.get(best, 0) > 0 else ()
+    # One arc tells little: then all of the part has rounder numbers than the moves.
+    return best if part and _odd_ones(own.elements, own) - _odd_ones(part, own) >= _ENOUGH else None
+
+
+def _odd_ones(segments: Sequence[Segment], own: CuttingRun) -> int:
+    """The number of coordinates, of the ends of segments, that are not round."""
+    places = [segments[0].start, *(each.end for each in segments)]
+    return sum(2 - _round_ones(at, own) for at in places)
 
 
 def is_around(segment: Segment, radius: float, own: CuttingRun) -> bool:

@@ -43,11 +43,11 @@ class ToolFaultKind(Enum):
     NOT_VERIFIED = _Row("the path of the tool misses this {element} by {short}: it is not used", "report it")
     INTERRUPTED = _Row(
         "program line {broken}{why} interrupts the contour while {code} is in force: what follows is no longer known",
-        "write G40 before it, or move it out of the contour",
+        "write {cancel} before it, or move it out of the contour",
     )
     OTHER_TOOL = _Row(
         "program line {broken} calls another tool in the midst of the contour",
-        "write G40 and lead the tool away before it",
+        "write {cancel} and lead the tool away before it",
     )
     NO_OFFSET = _Row(
         "{void} is in force: {code} works with radius 0 ({grade}), and does not compensate the {tool}",
@@ -58,11 +58,11 @@ class ToolFaultKind(Enum):
     )
     STILL_ON = _Row(
         "{code} is still in force at program line {still_on}",
-        "write {off} in the move away from the contour, before that line",
+        "write {cancel} in the move away from the contour, before that line",
         Severity.WARNING,
     )
     ENTRY_BY_ARC = _Row("compensation begins in an arc", "write {code} in a straight move before it")
-    EXIT_BY_ARC = _Row("compensation ends in an arc", "write G40 in a straight move behind it")
+    EXIT_BY_ARC = _Row("compensation ends in an arc", "write {cancel} in a straight move behind it")
     ENTRY_TOO_SHORT = _Row(
         "the move to the contour is {length} long, {short} shorter than the radius of the {tool}",
         "begin farther away",
@@ -70,7 +70,7 @@ class ToolFaultKind(Enum):
     )
     TIP_AGAINST_SIDE = _Row(
         "tip {tip} points away from this {element}, with the tool {side} of it",
-        "check the number of the tip, and G41 or G42",
+        "check the number of the tip, and {code}",
         Severity.WARNING,
     )
     BACK_FLANK = _Row(

@@ -310,7 +310,7 @@ class ToolFindings:
             "broken": str(own.broken),
             "why": f" ({own.why})" if own.why else "",
             "still_on": str(own.still_on),
-            "off": self.dialect.modes.codes[40].text,
+            "cancel": self.dialect.modes.codes[40].text,
             "void": own.void.text.strip() if own.void else "",
             "grade": (self.facts.no_offset if own.void and own.void.address == "D" else Evidence.ASSUMED).value,
             "left": f"this {name}" if last == fault.element else f"what program lines {lines} make",

@@ -3,24 +3,23 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
-from math import atan2, cos, degrees, dist, hypot, pi, radians
+from math import atan2, cos, degrees, dist, hypot, pi, radians, tan
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Circle, Line, Turn, Values, dot, make_tangent
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, along, is_on, largest_fitting, middle
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, along, is_on, largest_fitting, middle, way_to
 from contoursolve.tolerance import AGREEMENT, INCREMENT, LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import (
     crossings,
     foot_on,
     gaps_below,
-    nearest,
     split,
     square_to,
 )
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
-from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
+from contoursolve.tool_radius.joint import STRAY, TANGENT, direction, join, meet_outside, turn_of
 from contoursolve.tool_radius.tool import OutsideCorner, Tool
 from contoursolve.tool_radius.tool_settings import ToolSettings
 
@@ -35,9 +34,6 @@ _ASIDE = (10 * LENGTH, GOUGE, INCREMENT)
 
 _LOOKED = 500
 """Elements among which the largest radius is looked for where a tool cuts into others; of more, none is told."""
-
-_CLOSED = 2
-"""Elements behind the first of a contour that may come back to it."""
 
 NOTICED = 0.005
 """mm. Smaller errors and rests are not told (assumed)."""
@@ -125,17 +121,38 @@ class OffsetPath:
     @cached_property
     def walls(self) -> Mapping[int, Segment]:
         """The surface of the part, by the numbers of elements. Where straight run-in and run-off cross in an outside
-        corner, each of them is part of it up to there."""
+        corner, or would if they went on while the tool reaches the other one, each is part of it up to there."""
         found = {number: each for number, each in enumerate(self.elements) if self.levels[number] > 0}
-        last = len(self.elements) - 1
-        one, other = found.get(0), found.get(last)
-        if last < _CLOSED or not (isinstance(one, LineSegment) and isinstance(other, LineSegment)):
+        every = range(len(self.elements))
+        coming, going = self._straight(every), self._straight(every[::-1])
+        if not coming or not going or coming[-1] + 1 >= going[-1] or self.levels[0] != self.levels[-1]:
             return found
-        away, at = nearest(one, other)
-        (a, b), (c, d) = direction(other, at_end=True), direction(one, at_end=False)
-        is_there = away <= AGREEMENT and dist(at, one.end) > AGREEMENT and dist(at, other.start) > AGREEMENT
-        if is_there and self.side * (a * d - b * c) < 0 and self.levels[0] == self.levels[last]:
-            found |= {0: replace(one, start=at), last: replace(other, end=at)}
+        one = LineSegment("", self.elements[0].start, self.elements[coming[-1]].end)
+        other = LineSegment("", self.elements[going[-1]].start, self.elements[-1].end)
+        turn, at = self.side * turn_of(other, one), next(crossings(one, other), None)
+        reach = self.radius / tan(-turn / 2) if turn < 0 else 0.0
+        if at is None or turn >= 0 or not is_on(one, at, reach) or not is_on(other, at, reach):
+            return found
+        if one.length - way_to(one, at) <= AGREEMENT or way_to(other, at) <= AGREEMENT:
+            return found
+        for number in (*coming, *going):
+            own, is_first = self.elements[number], number in coming
+            way = way_to(own, at)
+            if 0 < way < own.length:
+                found[number] = replace(own, start=at) if is_first else replace(own, end=at)
+            elif (way > 0) is is_first:
+                del found[number]
+        return found
+
+    def _straight(self, numbers: Sequence[int]) -> list[int]:
+        """The first of some elements that follow one another, as far as they are one straight line of the surface."""
+        found = list[int]()
+        for number in numbers:
+            is_bent = bool(found) and abs(self.joints[min(number, found[-1])].turn) > TANGENT
+            is_wall = isinstance(self.elements[number], LineSegment) and self.levels[number] > 0
+            if is_bent or not is_wall or self.levels[number] != self.levels[numbers[0]]:
+                break
+            found.append(number)
         return found
 
     @cached_property

@@ -37,8 +37,8 @@ class ToolRequest(Struct, frozen=True):
     side: ToolSide | None = None
     outside: OutsideCorner | None = None
     """The way around an outside corner; without it, as the program or the setting says."""
-    table: Mapping[str, Tool] = {}
-    """Tools by their T or D word, such as `T0101`."""
+    table: Mapping[tuple[str, Decimal], Tool] = {}
+    """Tools by the address and the number of their T or D word."""
     default: Tool | None = None
     """The tool where none is stated."""
 
@@ -326,8 +326,7 @@ class _Stock:
             for word in block.words
             if (name := f"{word.address}{word.number}") in corners
         ]
-        table = {_key(name): tool for name, tool in asked.table.items()}
-        letters, modes = {address for address, _ in table}, dialect.modes
+        table, letters, modes = asked.table, {address for address, _ in asked.table}, dialect.modes
         self.tools: list[tuple[int, Tool | Word]] = []
         self.voids: list[tuple[int, Word | None]] = []
         self.changes, self.ends, self.moved, self.switches = (
@@ -418,8 +417,3 @@ class _Stock:
 
 _CHANGE, _ENDS = 6, {2, 30}
 """M functions that change the tool, and that end a program."""
-
-
-def _key(name: str) -> tuple[str, Decimal]:
-    """The address and the number of the word that names a tool."""
-    return name[:1].upper(), Decimal(name[1:])

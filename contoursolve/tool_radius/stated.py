@@ -31,12 +31,18 @@ def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | Non
     folder = Path() if program.startswith("<") else Path(program).parent
     is_own = tool is None or tool.strip().lower() == FROM_PROGRAM
     make_tool(Decimal(0), tip)
+    table, names = dict[tuple[str, Decimal], Tool](), dict[tuple[str, Decimal], str]()
+    for name, row in (find_tool_table(folder, _tool_of) if is_own else {}).items():
+        key = name[:1].upper(), Decimal(name[1:])
+        if names.setdefault(key, name) != name:
+            raise ToolError(f"{names[key]} and {name} in the table of tools name one tool; leave one out")
+        table[key] = row
     return ToolRequest(
         None if is_own or tool is None else read_tool(tool, tip),
         tip,
         ToolSide(side) if side else None,
         OutsideCorner(outside) if outside else None,
-        find_tool_table(folder, _tool_of) if is_own else {},
+        table,
     )
 
 
