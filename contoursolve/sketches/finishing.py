@@ -116,7 +116,9 @@ _MOST_NAMED = 8
 def missing_text(sketch: ContourSketch, count: int, fields: Sequence[Field]) -> str:
     """The line about what is missing."""
     lines: dict[int, list[str]] = {}
-    for number, field in sorted(fields[:_MOST_NAMED], key=lambda each: each[0]):
+    # Of a sketch that lacks much, its first elements count: who draws goes on from there.
+    named = fields[:_MOST_NAMED] if count == 1 else sorted(fields, key=lambda each: each[0])[:_MOST_NAMED]
+    for number, field in sorted(named, key=lambda each: each[0]):
         lines.setdefault(number, []).append(field)
     told = [f"{either(own)} of {sketch.name_of(number)}" for number, own in lines.items()]
     amount = f"{NUMBERS.get(count, count)} {'entry is' if count == 1 else 'entries are'} missing"

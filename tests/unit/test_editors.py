@@ -138,8 +138,8 @@ def test_the_picture_has_the_colours_of_the_package():
     for block, colors in ((light, LIGHT_COLORS), (dark, DARK_COLORS)):
         found = dict(re.findall(r"--cs-([\w-]+): (#\w+);", block))
         assert found.pop("marked") == colors[Role.GIVEN]
-        # An editor shows contours; levels are of maps.
-        others = (Role.PAPER, Role.INK, *LEVELS)
+        # An editor shows contours; levels are of maps, guesses of sketches.
+        others = (Role.PAPER, Role.INK, Role.GUESSED, *LEVELS)
         assert found == {role.value: colors[role] for role in Role if role not in others}
 
 
