@@ -197,7 +197,7 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     if drawing is not None and not drawing.open_after(()):
         # It is of another contour, in which nothing is open.
         drawing = None
-    names = {add(claim, name): name for name in absent if drawing is None or drawing.helps(name)}
+    names = {add(claim, name): name for name in (absent if drawing is None else drawing.helping(absent))}
     helping = list(islice((edit for edit in names if freedom((edit,)) < open_), MOST_HELPING))
 
     def is_enough(edits: tuple[Edit, ...]) -> bool:

@@ -53,6 +53,11 @@ class SampleDrawing(Struct, frozen=True, eq=False):
         moves = right[int((values > RANK * values[0]).sum()) :, list(self.own)]
         return int((svd(moves)[1] > RANK).sum()) if moves.size else 0
 
+    def helping(self, names: Sequence[str]) -> list[str]:
+        """Those of some words that determine anything that is open."""
+        open_ = self.open_after()
+        return [name for name in names if name not in self.further or self.open_after((name,)) < open_]
+
 
 def sample_drawing(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> SampleDrawing | None:
     """A drawing of a contour in which some further words have the values that they have there; None where none is
@@ -84,10 +89,7 @@ def sample_drawing(claim: ParsedContour, profile: Profile, names: Sequence[str])
 def helping_words(claim: ParsedContour, profile: Profile, absent: Sequence[str]) -> list[str]:
     """Those of some absent words that determine anything that is open; all where no drawing tells."""
     drawing = sample_drawing(claim, profile, absent)
-    if drawing is None:
-        return [*absent]
-    open_ = drawing.open_after()
-    return [name for name in absent if name not in drawing.further or drawing.open_after((name,)) < open_]
+    return [*absent] if drawing is None else drawing.helping(absent)
 
 
 class Equations:
