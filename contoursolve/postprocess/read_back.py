@@ -25,6 +25,8 @@ class ReadBack(Struct, frozen=True):
 
     deviation: float | None
     line: int = 0
+    word: str = ""
+    """The text to which a finding points."""
     end: Point = (0.0, 0.0)
 
 
@@ -44,7 +46,9 @@ def read_back(
     result = run(parse(program, syntax=target.modes.syntax), asked)
     for finding in result.diagnostics:
         if finding.is_error or (is_strict and finding.about is not ReadIssue.NO_CONTOUR):
-            return ReadBack(None, finding.span.line)
+            span = finding.span
+            text = program.split("\n")[span.line - 1] if span.line > 0 else ""
+            return ReadBack(None, span.line, text[span.column - 1 : span.end_column - 1])
     axes, numbers = drawn.plane.axes, target.modes.lexicon.numbers
     path = follow(result, target, drawn.unit, axes)
     # The first move leads to where the contour begins, from a place that is not known.
@@ -58,7 +62,7 @@ def read_back(
     found = compare(own, replace(path, steps=steps), SAME if is_exact else _UNITS_OFF * unit)
     last = steps[-1] if steps else None
     if found.difference is None and isinstance(last, Travel):
-        return ReadBack(found.deviation, 0, (last.end[0] or 0.0, last.end[1] or 0.0))
+        return ReadBack(found.deviation, 0, "", (last.end[0] or 0.0, last.end[1] or 0.0))
     blamed = (found.difference.new if found.difference else None) or last
     return ReadBack(None, blamed.line if blamed else 0)
 

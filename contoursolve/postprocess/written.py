@@ -1,8 +1,9 @@
 """A contour in the words of a control: the wordings that its rules allow, read back and proven, the best first."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from heapq import heappop, heappush
-from itertools import count
+from itertools import accumulate, count
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -253,12 +254,25 @@ class _Search:
         return WrittenContour(blocks, own, "\n".join(program) + "\n", self.back.deviation, cost, written_out, is_plain)
 
     def _ban(self, choices: tuple[_Choice, ...], place: int) -> None:
-        for each in choices:
-            place -= len(each.wording.blocks)
-            if place < 0 and len(self._at(each.node.index, each.node.is_cut)) > 1:
-                self.banned.add((each.node.index, each.node.is_cut, each.wording))
-                self.next, self.found = None, self._in_order()
-                break
+        """Leave out the wording that is to blame: with a finding about a plain block, the corner word before it,
+        whatever else stands there; with one about the corner word of a block, that word."""
+        ends = accumulate(len(each.wording.blocks) for each in choices)
+        number = next((n for n, end in enumerate(ends) if place < end), len(choices) - 1)
+        each, before = choices[number], choices[max(number - 1, 0)]
+        end = self.drawn.elements[before.node.index + before.wording.count - 1]
+        has_word = end.corner is not None and not before.wording.writes_corner
+        is_before = bool(number and self.back.word and each.wording.is_plain and has_word)
+        blamed = before if is_before else each
+        index, is_cut = blamed.node.index, blamed.node.is_cut
+        several, last = self._at(index, is_cut), [*_words(blamed.wording)][-1:]
+        found = [blamed.wording]
+        if is_before:
+            found = [other for other in several if other.count == before.wording.count and not other.writes_corner]
+        elif [word.text for word in last] == [self.back.word] and self.drawn.elements[index].corner is not None:
+            found = [other for other in several if [*_words(other)][-1:] == last]
+        if len(several) > 1:
+            self.banned.update((index, is_cut, other) for other in found)
+            self.next, self.found = None, self._in_order()
 
     # All of them, in order
 
@@ -335,15 +349,11 @@ class _Search:
         is_rapid = self.surroundings is not None and self.surroundings.is_rapid
         motion = Motion.RAPID if is_rapid else Motion.FEED
         # In a program that is there already, it is told of what may be meant otherwise.
-        return read_back(
-            program,
-            drawn,
-            self.target,
-            is_exact=not is_rounded,
-            motion=motion,
-            is_strict=self.surroundings is None,
-            depth=Depth.FINDINGS if self.surroundings is None else Depth.VERDICT,
-        )
+        read = partial(read_back, program, drawn, self.target, is_exact=not is_rounded, motion=motion)
+        found = read(is_strict=self.surroundings is None)
+        # Doubts about what is meant take longer, and repairs of what is wrong anyway much longer.
+        is_doubted = found.deviation is not None and self.surroundings is None
+        return read(depth=Depth.FINDINGS) if is_doubted else found
 
     def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:
         """Whether blocks alone make some elements in a row."""
