@@ -22,6 +22,7 @@ export class ChainPane {
   private readonly list = make("ol", { class: "cards", "aria-label": "Lines and arcs" });
   private readonly head = make("div", { class: "chain-head" });
   private readonly missing = make("p", { class: "missing", role: "status" });
+  private readonly about = make("p", { class: "about muted" }); // the field that has the focus
   private readonly entries = make("div", { class: "bar entries", role: "group", "aria-label": "Entries that would finish it" });
   private readonly findings = make("ol", { class: "chain-findings", "aria-label": "Findings" });
   private readonly solutions = make("div", { class: "solutions", role: "group", "aria-label": "All contours that fit" });
@@ -30,7 +31,7 @@ export class ChainPane {
   private readonly hints = make(
     "ol",
     { class: "steps" },
-    make("li", { text: "Add lines and arcs in their order. Enter what the drawing gives, and leave all else empty." }),
+    make("li", { text: "Add lines and arcs in their order. Enter what the drawing gives, and leave all else empty, or write ? for it." }),
     make("li", { text: "The picture shows what is known. The line above it says what is missing." }),
     make("li", { text: "When it is finished, Words writes it for your control." }),
   );
@@ -63,8 +64,13 @@ export class ChainPane {
       words: panel("words", this.words.node),
     };
     this.side = make("div", { class: "side" }, this.panels.drawing, this.panels.words);
-    this.node = make("div", { class: "pane chain" }, this.bar, this.missing, this.panels.elements, this.side);
+    this.node = make("div", { class: "pane chain" }, this.bar, make("div", { class: "status" }, this.missing, this.about), this.panels.elements, this.side);
     this.node.addEventListener("keydown", (event) => this.pressed(event));
+    this.node.addEventListener("focusin", (event) => {
+      const label = (event.target as Element).closest("label");
+      const name = (event.target as HTMLElement).dataset["field"] ?? "";
+      this.about.textContent = label?.title ? `${/^[A-Z\d]+$/.test(name) ? `${name}: ` : ""}${label.title}` : "";
+    });
     this.list.addEventListener("focusin", (event) => {
       const number = Number((event.target as Element).closest<HTMLElement>("[data-number]")?.dataset["number"] ?? 0);
       if (number && number !== this.chosen) {
@@ -167,11 +173,18 @@ export class ChainPane {
     const at = this.chosen;
     if (isControl && (key === "z" || key === "y")) key === "y" || event.shiftKey ? this.sketch?.redo() : this.sketch?.undo();
     else if (isControl && event.key === "Enter") this.insert(event.shiftKey ? "arc" : "line", at || this.count);
+    else if (event.key === "Enter" && event.target instanceof HTMLInputElement && event.target.type === "text") this.next(event.target);
     else if (event.altKey && event.key === "ArrowDown" && at < this.count) this.focusElement(at + 1);
     else if (event.altKey && event.key === "ArrowUp" && at > 1) this.focusElement(at - 1);
     else if (event.altKey && event.key === "Delete" && at) this.remove(at);
     else return;
     event.preventDefault();
+  }
+
+  // Enter leads to the next field, from the last one to the button that adds a line.
+  private next(field: HTMLInputElement): void {
+    const all = [...this.panels.elements.querySelectorAll<HTMLElement>("input[type=text], button.main")].filter((each) => each.offsetParent !== null);
+    all[all.indexOf(field) + 1]?.focus();
   }
 
   // What is shown --------------------------------------------------------------------------------------------------

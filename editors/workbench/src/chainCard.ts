@@ -70,7 +70,7 @@ export function elementCard(host: CardHost, chain: Chain, number: number): Card 
     field(title, key, {
       value: element.words[key] ?? "",
       label: `${name}: ${title}`,
-      meaning: own[key] ?? "",
+      meaning: (own[key] ?? "") + (isDiameter(part, key) ? ", as a diameter" : ""),
       set: (value) => host.change(`${number} ${key}`, number, (each) => void (each.words[key] = value)),
     });
   const told = (key: string) => {
@@ -84,6 +84,7 @@ export function elementCard(host: CardHost, chain: Chain, number: number): Card 
     field(`About ${axis.replace("CC", "centre ")}`, `guess.${axis}`, {
       value: element.guess[axis] ?? "",
       label: `${name}: guess of its end, ${axis}`,
+      meaning: "about where it ends: it chooses among several contours, and is no dimension",
       set: (value) => host.change(`${number} guess.${axis}`, number, (each) => void (each.guess[axis] = value)),
     }),
   );
@@ -101,7 +102,7 @@ export function elementCard(host: CardHost, chain: Chain, number: number): Card 
   const tangent = make("input", { type: "checkbox", "data-field": "tangent" });
   tangent.addEventListener("change", () => host.change("", number, (each) => void (each.tangent = tangent.checked)));
   const corner = choice(`${name}: corner behind it`, "shape", [["", "none"], ["rounding", "Rounding"], ["chamfer", "Chamfer"]], element.corner, (value) => host.change("", number, (each) => void (each.corner = value)));
-  const size = field("Size", "corner", { value: element.size, label: `${name}: size of the corner`, set: (value) => host.change(`${number} corner`, number, (each) => void (each.size = value)) });
+  const size = field("Size", "corner", { meaning: "radius of the rounding, or how far the chamfer goes along each line", value: element.size, label: `${name}: size of the corner`, set: (value) => host.change(`${number} corner`, number, (each) => void (each.size = value)) });
   const facts = make("textarea", { rows: 2, "data-field": "facts", "aria-label": `${name}: statements, one in a line`, placeholder: `chord of ${name} = 20`, spellcheck: "false" });
   facts.addEventListener("input", () => host.change(`${number} facts`, number, (each) => void (each.facts = facts.value)));
   const more = make("div", { class: "more", id: newId(), hidden: true }, make("div", { class: "grid" }, ...rest.map(told)), make("p", { class: "muted", text: "A guess of where it ends chooses among several contours. It is never taken for a dimension." }), make("div", { class: "grid" }, ...guess), make("label", {}, make("span", { class: "name", text: "Statements, one in a line" }), facts));
