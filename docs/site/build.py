@@ -39,7 +39,7 @@ STAGED = {
     ROOT / "CONTRIBUTING.md": "contributing.md",
     ROOT / "CHANGELOG.md": "changes.md",
     TRY / "page.md": "try.md",
-    **{path: path.name for path in sorted((ROOT / "docs").glob("*.md"))},
+    **{path: path.name for kind in ("md", "schema.json") for path in sorted((ROOT / "docs").glob(f"*.{kind}"))},
     **{path: f"notebooks/{path.stem}.md" for path in sorted((ROOT / "notebooks").glob("*.ipynb"))},
     **{path: f"pictures/{path.name}" for path in sorted((ROOT / "notebooks" / "pictures").iterdir())},
 }
