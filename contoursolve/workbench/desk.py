@@ -51,9 +51,9 @@ class Desk:
     several may come at once.
 
     >>> desk = Desk()
-    >>> reply = desk.answer({"window": "a", "do": "open", "name": "part.nc", "text": "G00 X40. Z0.\\nG111 X100. A180."})
-    >>> reply["counts"]["errors"], reply["findings"][0]["line"]
-    (1, 2)
+    >>> reply = desk.answer({"window": "a", "do": "open", "name": "part.nc", "text": "G00 X40. Z0.\\nG01 Z-60."})
+    >>> reply["name"], reply["lines"], reply["has_changes"]
+    ('part.nc', 2, True)
     """
 
     def __init__(self, folder: Path | None = None, *, first: str = "", can_unlock: bool = False) -> None:
