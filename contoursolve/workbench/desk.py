@@ -26,7 +26,7 @@ from contoursolve.output import notebook_style
 from contoursolve.program import likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import ActionError, Data, read_field
-from contoursolve.workbench.files import ENCODINGS, FileConflictError, FileText, Folder, safe_name, text_of
+from contoursolve.workbench.files import ENCODINGS, FileConflictError, FileText, Folder, mark_of, safe_name, text_of
 from contoursolve.workbench.open_view import ProgramView
 
 logger = logging.getLogger(__name__)
@@ -369,25 +369,28 @@ def _sketch_words(_desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -
 def _sketch_open(desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
     from contoursolve.workbench.sketching import sketch_in  # noqa: PLC0415 - as above
 
-    file = _file_of(desk, action)
-    return {**sketch_in(file.text), "name": file.name, "base": file.mark}
+    name, mark = read_field(action, "name", str), ""
+    if "text" in action:
+        text = read_field(action, "text", str)
+    else:
+        data = _file_of(desk, action)
+        mark = mark_of(data) if "base64" not in action else ""
+        try:
+            text = data.decode("utf-8")
+        except UnicodeDecodeError:
+            raise ActionError(f"{name} is no sketch: a sketch is TOML or JSON in UTF-8") from None
+    return {**sketch_in(text), "name": name, "base": mark}
 
 
 def _dxf_in(desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
     from contoursolve.workbench.sketching import sketch_in_drawing  # noqa: PLC0415 - as above
 
-    data = _bytes(action) if "base64" in action else desk.files().read_bytes(read_field(action, "name", str))
-    return sketch_in_drawing(data, action)
+    return sketch_in_drawing(_file_of(desk, action), action)
 
 
-def _file_of(desk: Desk, action: Mapping[str, Any]) -> FileText:
+def _file_of(desk: Desk, action: Mapping[str, Any]) -> bytes:
     """The file that an action brings, or names in the folder. Raises ActionError and FileRefusedError."""
-    name = read_field(action, "name", str)
-    if "base64" in action:
-        return text_of(_bytes(action), name, is_file=False)
-    if "text" in action:
-        return FileText(name, read_field(action, "text", str))
-    return desk.files().read(name)
+    return _bytes(action) if "base64" in action else desk.files().read_bytes(read_field(action, "name", str))
 
 
 def _close(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:

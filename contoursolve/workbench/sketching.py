@@ -18,10 +18,10 @@ _UNITS: Mapping[str, Literal["mm", "inch"]] = {"mm": "mm", "inch": "inch"}
 
 
 def known_of_sketch(action: Mapping[str, Any]) -> Data:
-    """All that is known of a sketch, with its text as a file has it. Raises SketchError."""
+    """All that is known of a sketch, with its text as a file of TOML or JSON has it. Raises SketchError."""
     sketch = _sketch(action)
     known = sketches.sketch_view(sketch, with_ranges=read_field(action, "ranges", bool, False))
-    return {**known, "text": sketches.write_sketch(sketch)}
+    return {**known, "text": sketches.write_sketch(sketch), "json": sketches.write_sketch(sketch, as_json=True)}
 
 
 def words_of_sketch(action: Mapping[str, Any]) -> Data:

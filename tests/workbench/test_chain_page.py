@@ -1,9 +1,11 @@
 """The contour editor of the workbench in a real browser: contours of drawings are built by keyboard alone."""
 
+import json
 from pathlib import Path
 
 import pytest
 from served_page import SCREENS, said
+from serving import SECONDS
 
 import contoursolve
 from contoursolve.sketches import plain_sketch, read_sketch
@@ -152,6 +154,36 @@ def test_what_is_missing_or_wrong_is_said_as_python_says_it(old, new, opened, fo
     for number, state in enumerate(states):
         expect(page.locator(".card").nth(number)).to_have_attribute("data-state", state)
     expect(page.locator(".entries button")).to_have_count(len(known["entries"]))
+
+
+def wrong_ones():
+    """Sketches of drawings with a word left out, and with a length that contradicts."""
+    for path in SKETCHES:
+        for name in ("open", "contradicting"):
+            plain = plain_sketch(read_sketch(path.read_text(encoding="utf-8")))
+            element = next(each for each in reversed(plain["element"]) if any(map(str.isupper, each)))
+            if name == "contradicting":
+                element["LEN"] = "7.77"
+            else:
+                element.pop(next(word for word in reversed(element) if word.isupper()))
+            yield f"{name}_{path.stem}.json", plain
+
+
+def test_twenty_four_wrong_sketches_are_told_as_python_tells_them(opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    files = dict(wrong_ones())
+    for name, plain in files.items():
+        (folder / name).write_text(json.dumps(plain, default=str), encoding="utf-8")
+    page = opened()
+    for name, plain in files.items():
+        page.get_by_role("button", name=name).click()
+        known = contoursolve.sketch_view(read_sketch(json.dumps(plain, default=str)), with_ranges=True)
+        errors = [each["message"] for each in known["findings"] if each["severity"] == "error"]
+        told = known["missing"] or (errors[0] if errors else "The contour is finished.")
+        expect(page.locator(".missing")).to_have_text(told, timeout=SECONDS * 1000)
+        page.get_by_role("button", name="File").click()
+        page.get_by_role("menuitem", name="Open from the folder").click()
 
 
 def test_a_value_that_is_no_number_is_marked_and_undone(opened) -> None:

@@ -134,6 +134,47 @@ def test_where_the_server_is_gone_the_text_stays_and_can_be_taken_along(browser,
     page.close()
 
 
+def test_files_are_chosen_or_dropped_and_keep_their_bytes_when_saved(opened, folder) -> None:
+    page = opened()
+    page.locator("input[type=file]").set_input_files(
+        [{"name": "a.nc", "mimeType": "text/plain", "buffer": "(Ø 40)\r\n".encode("latin-1") + SHAFT.encode()}]
+    )
+    wait_for_text(page, "(Ø 40)")
+    dropped = page.evaluate_handle(
+        """() => { const data = new DataTransfer();
+        for (const name of ["b.nc", "c.nc"]) data.items.add(new File([`(${name})\\n`], name)); return data; }"""
+    )
+    page.locator(".workbench").dispatch_event("drop", {"dataTransfer": dropped})
+    page.get_by_role("tab", name="c.nc").wait_for()
+    assert page.locator(".programs button").all_inner_texts() == ["a.nc •", "b.nc •", "c.nc •"]
+    page.get_by_role("tab", name="a.nc").click()
+    page.keyboard.press("Control+s")
+    page.get_by_label("Name in the folder").press("Enter")
+    said(page, "Saved as a.nc.")
+    assert (folder / "a.nc").read_bytes() == "(Ø 40)\r\n".encode("latin-1") + SHAFT.encode()
+
+
+def test_in_a_network_the_page_saves_only_with_the_password(browser, tmp_path) -> None:
+    (tmp_path / "part.nc").write_bytes(SHAFT.encode())
+    server = Served(tmp_path, "--lan", CONTOURSOLVE_PASSWORD="correct horse")
+    page = browser.new_page()
+    page.goto(f"http://127.0.0.1:{server.port}/?token={server.token}")
+    page.get_by_role("button", name="part.nc").click()
+    page.locator(".actions button", has_text="Download").wait_for()
+    page.locator(".cm-line").nth(3).click()
+    page.keyboard.press("Home")
+    page.keyboard.type("N5 ")
+    page.get_by_role("button", name="File").click()
+    page.get_by_role("menuitem", name="Allow saving").click()
+    page.get_by_label("Password").fill("correct horse")
+    page.keyboard.press("Enter")
+    page.locator(".actions button", has_text="Save").click()
+    said(page, "Saved as part.nc.")
+    assert (tmp_path / "part.nc").read_bytes() == SHAFT.replace("G00 X150.", "N5 G00 X150.").encode()
+    page.close()
+    server.end()
+
+
 @pytest.mark.parametrize("screen", SCREENS)
 def test_every_view_can_be_reached_and_read(screen, axe, opened, folder, artefacts) -> None:
     (folder / "axe.nc").write_bytes(SHAFT.replace("P6.", "P60.").encode())

@@ -42,6 +42,7 @@ def test_a_sketch_is_opened_known_written_and_saved(desk, tmp_path) -> None:
     known = ask(desk, "sketch", sketch=sketch, ranges=True)
     assert known["is_finished"]
     assert known["text"] == TEXT
+    assert read_sketch(known["json"]) == read_sketch(TEXT)
     assert known["picture"]["frame"]["scale"] > 0
     words = ask(desk, "sketch_words", sketch=sketch, control="fanuc-lathe")
     wanted = contoursolve.write(read_sketch(TEXT), "fanuc-lathe").candidates

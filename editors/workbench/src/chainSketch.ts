@@ -57,7 +57,8 @@ export interface ChainEntry {
 export interface ChainView {
   status: string;
   is_finished: boolean;
-  text: string;
+  text: string; // of its file, as TOML and as JSON
+  json: string;
   elements: { name: string; number: number; state: string; off_mm: number | null; segment: Piece | null }[];
   missing: string;
   entries: ChainEntry[];
@@ -166,7 +167,11 @@ export class Sketch implements Work {
   }
 
   get text(): string {
-    return this.view?.text ?? JSON.stringify(plainOf(this.chain), null, 1);
+    return this.textFor(this.name);
+  }
+
+  private textFor(name: string): string {
+    return (/\.json$/i.test(name) ? this.view?.json : this.view?.text) ?? JSON.stringify(plainOf(this.chain), null, 1);
   }
 
   get canUndo(): boolean {
@@ -259,7 +264,7 @@ export class Sketch implements Work {
     await this.ask();
     if (this.trouble) return null; // what makes no sense cannot be read again
     try {
-      return await this.transport.ask({ do: "save", name: this.name, text: this.text, base: options.name ? "" : this.base, ...options });
+      return await this.transport.ask({ do: "save", name: this.name, text: this.textFor(options.name ?? this.name), base: options.name ? "" : this.base, ...options });
     } catch (error) {
       if (!(error instanceof Trouble)) throw error;
       if (!isKnown(error)) this.shown(this, error);
