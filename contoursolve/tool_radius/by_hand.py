@@ -1,13 +1,14 @@
 """The radius for which the path of a tool was made by hand: the one with which the part has round numbers."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import radians, tan
 
 from msgspec.structs import replace
 
 from contoursolve.geometry import Length
 from contoursolve.solving import ArcSegment, Point, Segment, along
-from contoursolve.tool_radius.joint import direction
+from contoursolve.tool_radius.joint import TANGENT, direction, turn_of
 from contoursolve.tool_radius.offset import OffsetPath, shifted
 from contoursolve.tool_radius.runs import CuttingRun
 from contoursolve.tool_radius.tool import OutsideCorner
@@ -48,9 +49,32 @@ def part_of(own: CuttingRun, radius: float, outside: OutsideCorner = OutsideCorn
     return tuple(found)
 
 
-def made_for(own: CuttingRun) -> float | None:
-    """The radius (mm) for which the moves were made by hand: arcs of it lead around corners that
-    have round numbers, and are no roundings of such corners. None where the moves are a contour themselves."""
+def made_for(own: CuttingRun) -> tuple[float, int, int] | None:
+    """The radius (mm) for which the moves were made by hand, and the first of these moves and the one behind the last:
+    a line may lead there, and away. None where the moves are a contour themselves."""
+    rows, last = list[tuple[int, tuple[float, int, int]]](), len(own.elements)
+    for begin, end in ((0, last), (1, last), (0, last - 1), (1, last - 1)):
+        ways = [*own.elements[:begin], *own.elements[end:]]
+        if end - begin < _ENOUGH or any(isinstance(each, ArcSegment) for each in ways):
+            continue
+        piece = within(own, begin, end)
+        radius = _radius_of(piece)
+        if radius is not None and (part := part_of(piece, radius)):
+            ends = [own.elements[0].start] * begin + [own.elements[-1].end] * (last - end)
+            odd = _odd_ones(part, own) + sum(2 - _round_ones(at, own) for at in ends)
+            rows.append((odd, (radius, begin, end)))
+    return min(rows, key=lambda row: row[0], default=(0, None))[1]
+
+
+def within(own: CuttingRun, begin: int, end: int) -> CuttingRun:
+    """A run of some of its moves."""
+    near = slice(begin, end)
+    return replace(own, elements=own.elements[near], travels=own.travels[near], levels=own.levels[near])
+
+
+def _radius_of(own: CuttingRun) -> float | None:
+    """The radius (mm) for which the moves were made by hand: arcs of it lead around corners that have round numbers,
+    and are no roundings of such corners."""
     first, second = own.tip
     counts, scale = dict[float, int](), float(own.unit.in_mm)
     for each in own.elements:
@@ -65,8 +89,22 @@ def made_for(own: CuttingRun) -> float | None:
     if counts.get(best, 0) >= _ENOUGH:
         return best
     part = part_of(own, best) if counts.get(best, 0) > 0 else ()
+    # A contour of which all outside corners are rounded by just the tool would come out with none of them.
+    if not part and counts.get(own.radius, -1) == 0 and _is_rolled(own):
+        return own.radius
     # One arc tells little: then all of the part has rounder numbers than the moves.
     return best if part and _odd_ones(own.elements, own) - _odd_ones(part, own) >= _ENOUGH else None
+
+
+def _is_rolled(own: CuttingRun) -> bool:
+    """Whether moves go around all outside corners by arcs of the tool that no corner word makes."""
+    sharp = any(own.side.sign * turn_of(one, two) < -TANGENT for one, two in pairwise(own.elements))
+    small = any(
+        isinstance(each, ArcSegment) and each.turn.sign != own.side.sign and each.radius < own.radius - _ROUNDED
+        for each in own.elements
+    )
+    ways = zip(own.elements, own.travels, strict=True)
+    return not sharp and not small and not any(is_around(each, own.radius, own) and way.element for each, way in ways)
 
 
 def _odd_ones(segments: Sequence[Segment], own: CuttingRun) -> int:

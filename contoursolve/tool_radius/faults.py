@@ -68,6 +68,16 @@ class ToolFaultKind(Enum):
         "begin farther away",
         Severity.WARNING,
     )
+    ENTRY_THROUGH = _Row(
+        "the move to the contour takes the {tool} through program line {line}",
+        "begin on the side of the contour on which the tool runs",
+        Severity.WARNING,
+    )
+    EXIT_THROUGH = _Row(
+        "the move away takes the {tool} through program line {line}",
+        "lead the tool away on the side of the contour on which it runs",
+        Severity.WARNING,
+    )
     TIP_AGAINST_SIDE = _Row(
         "tip {tip} points away from this {element}, with the tool {side} of it",
         "check the number of the tip, and {code}",
@@ -85,6 +95,11 @@ class ToolFaultKind(Enum):
         "without {code} this {comes_out}",
         "write {code}, or the path of the tool: contoursolve expand --tool",
         Severity.WARNING,
+    )
+    NOT_JUDGED = _Row(
+        "program lines {lines} cut without {code}: whether that is meant is not judged",
+        "write {code} before them if they are the contour itself",
+        Severity.INFO,
     )
     STUB = _Row(
         "without {code} a stub of diameter {short} stands at X0",

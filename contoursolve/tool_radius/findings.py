@@ -1,5 +1,6 @@
 """Findings about a tool that does not fit a contour: what is too small for it, by how much, and what would fit."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from decimal import ROUND_CEILING, Decimal
 from functools import cached_property
@@ -26,9 +27,10 @@ from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment, along
+from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment, along, minus
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH
-from contoursolve.tool_radius.by_hand import is_around, made_for, part_of
+from contoursolve.tool_radius.by_hand import is_around, made_for, part_of, within
+from contoursolve.tool_radius.clearance import gaps_below
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import (
@@ -44,8 +46,17 @@ from contoursolve.tool_radius.offset import (
     uncompensated,
     without_short,
 )
-from contoursolve.tool_radius.runs import CuttingRun, ToolRequest, find_runs, nothing_cut, place_of, segment_of
-from contoursolve.tool_radius.tool import OutsideCorner, ToolError
+from contoursolve.tool_radius.runs import (
+    SIDES,
+    CuttingRun,
+    ToolRequest,
+    find_bare,
+    find_runs,
+    nothing_cut,
+    place_of,
+    segment_of,
+)
+from contoursolve.tool_radius.tool import OutsideCorner, ToolError, ToolSide
 from contoursolve.tool_radius.tool_settings import ToolSettings, settings_of
 
 
@@ -147,7 +158,7 @@ class ToolRules(Struct, frozen=True):
         told = ToolFaultKind.LEFT_OUT, ToolFaultKind.INSIDE_CORNER if self.settings.refuses_corner else None
         is_asked = settings.leaves or settings.refuses_corner
         rests = (each for each in (told_of_path(made) if is_asked else ()) if each.kind in told)
-        return ToolRun(own, made, self, (*made.stops, *self._around(own), *rests))
+        return ToolRun(own, made, self, (*made.stops, *self._around(own), *self._through(own, made), *rests))
 
     def stops(self, own: CuttingRun, radius: float) -> list[ToolFault]:
         """The faults that keep a tool of a radius (mm) from a run."""
@@ -161,6 +172,28 @@ class ToolRules(Struct, frozen=True):
         if lead is None or lead.bend is not None or None in place_of(lead, self.axes, at_end=False):
             return None
         return OffsetPath((segment_of(lead, self.axes), own.elements[0]), own.radius, own.side.sign, self.settings)
+
+    def _through(self, own: CuttingRun, made: OffsetPath) -> Iterator[ToolFault]:
+        """The moves to a contour and away on which the centre of the tool goes through it, at the same depth."""
+        pieces, beside = made.pieces or (), [self.axes.index(axis) for axis in self.axes if axis not in own.plane.axes]
+        first, last = own.travels[0], own.travels[-1]
+        ways = (ToolFaultKind.ENTRY_THROUGH, own.lead, 0, first), (ToolFaultKind.EXIT_THROUGH, own.leaving, -1, last)
+        for kind, move, end, there in ways if pieces and own.is_stated and not self.settings.is_entry_offset else ():
+            at = place_of(move, self.axes, at_end=bool(end)) if move is not None and move.bend is None else (None, None)
+            if move is None or at[0] is None or at[1] is None or (end and move.compensation in SIDES):
+                continue
+            if any(len({move.start[axis], move.end[axis], there.end[axis]}) > 1 for axis in beside):
+                continue
+            center, piece = minus((at[0], at[1]), own.vector), pieces[end].segment
+            way = LineSegment("", center, piece.end if end else piece.start)
+            numbers = [*made.walls]
+            met = {numbers[gap.wall]: gap.at for gap in gaps_below([way], [*made.walls.values()], AGREEMENT)}
+            # A contour may begin or end in the air.
+            ends = {made.elements[0].start, made.elements[-1].end}
+            inner = [number for number, at in met.items() if min(dist(at, each) for each in ends) > AGREEMENT]
+            if inner or len(met) > 1:
+                element = len(own.elements) - 1 if end else 0
+                yield ToolFault(kind, element, working=min(inner or met))
 
     def is_error(self, kind: ToolFaultKind) -> bool:
         """Whether a fault leaves no path."""
@@ -217,7 +250,18 @@ def look_at_tool(result: Result, asked: Request, wanted: ToolRequest, axes: tupl
         raise nothing_cut(path)
     told, made = ToolFindings(result, dialect, asked, wanted), tuple(map(rules.at, runs))
     found = [each for number, tool_run in enumerate(made) for each in told.of(tool_run, is_first=not number)]
-    return ToolReport(made, tuple(sorted(found, key=rank)), path)
+    for own in find_bare(path, wanted, dialect, runs) if runs and runs[0].is_stated else ():
+        found += told.of_bare(own if own.is_lathe else replace(own, side=runs[0].side), rules)
+    return ToolReport(made, tuple(sorted(_once(found), key=rank)), path)
+
+
+def _once(found: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    """Findings without those that tell the same of a block that runs again."""
+    passes = Counter((each.code, each.span, each.message) for each in found)
+    for each in found:
+        count = passes.pop((each.code, each.span, each.message), 0)
+        if count:
+            yield replace(each, notes=(*each.notes, f"the same in {count} passes") if count > 1 else each.notes)
 
 
 def runs_beside(
@@ -253,20 +297,35 @@ class ToolFindings:
         self.broken |= {line for each in self.result.answers if each.contour is None for line in each.lines}
         faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
         self.broken.add(own.broken)
-        rests = (each for each in told_of_path(tool_run.offset) if each not in tool_run.stops)
+        rests = [each for each in told_of_path(tool_run.offset) if each not in tool_run.stops]
+        if any(each.kind is ToolFaultKind.BY_HAND for each in told):
+            # The path of a tool is no contour that one has to fit.
+            faults, rests = [], []
         yield from (self._finding(tool_run, fault) for fault in (*told, *faults, *rests))
+
+    def of_bare(self, own: CuttingRun, rules: ToolRules) -> Iterator[Diagnostic]:
+        """The findings about moves that a program with compensation makes without it."""
+        faults = [ToolFault(ToolFaultKind.NOT_JUDGED, 0, working=len(own.elements) - 1)] * (own.radius > LENGTH)
+        if any(own.tip):
+            # The tip tells which side is meant: on the other one, all would be wrong.
+            sides = [replace(own, side=side) for side in ([own.side] if self.wanted.side else ToolSide)]
+            rows = [(each, list(self._uncompensated(each))) for each in sides]
+            own, faults = min(rows, key=lambda row: (sum(abs(each.short or 0.0) for each in row[1]), row[0].side.value))
+        made = OffsetPath(own.elements, own.radius, own.side.sign, rules.settings, own.levels)
+        yield from (self._finding(ToolRun(own, made, rules, ()), each) for each in faults)
 
     def _uncompensated(self, own: CuttingRun) -> Iterator[ToolFault]:
         """The error of each element where the programmed point runs along a contour, or along another tool's path."""
-        made = made_for(own)
-        if made is None:
+        found = made_for(own)
+        if found is None:
             yield from uncompensated(own.elements, own.side.sign, own.radius, own.tip)
             yield from stub(own.elements, own.side.sign, own.radius, own.tip)
             return
+        made, begin, end = found
         around = [number for number, each in enumerate(own.elements) if is_around(each, made, own)]
-        yield ToolFault(ToolFaultKind.BY_HAND, around[0], length=made)
+        yield ToolFault(ToolFaultKind.BY_HAND, around[0], length=made, rest=(begin, end))
         for each in uncompensated(own.elements, own.side.sign, own.radius - made, own.tip):
-            if each.element not in around:
+            if each.element not in around and begin <= each.element < end:
                 yield replace(each, kind=ToolFaultKind.OTHER_RADIUS, length=made)
 
     def _finding(self, tool_run: ToolRun, fault: ToolFault) -> Diagnostic:
@@ -293,7 +352,7 @@ class ToolFindings:
             self.facts.alarms.get(fault.kind.name.lower()),
             values if fault.largest is None else {**values, "limit": fault.largest, "actual": own.radius},
             tuple(self._notes(tool_run, fault)),
-            _ELSEWHERE if _is_at_start(own, fault) else row.help.format(**texts),
+            _ELSEWHERE if _is_at_start(own, fault) else _BACK if _fits_none(fault) else row.help.format(**texts),
             tuple(self._fixes(own, fault, word)) if is_small and word else (),
             fault.kind,
         )
@@ -310,6 +369,7 @@ class ToolFindings:
             "broken": str(own.broken),
             "why": f" ({own.why})" if own.why else "",
             "still_on": str(own.still_on),
+            "lines": " to ".join(dict.fromkeys([str(own.lines[0]), str(own.lines[-1])])),
             "cancel": self.dialect.modes.codes[40].text,
             "void": own.void.text.strip() if own.void else "",
             "grade": (self.facts.no_offset if own.void and own.void.address == "D" else Evidence.ASSUMED).value,
@@ -352,7 +412,7 @@ class ToolFindings:
         """Notes about what fits, and where."""
         own = tool_run.run
         kind, unit = _kind(own), own.unit
-        if fault.largest is not None and fault.largest < LEAST:
+        if _fits_none(fault):
             yield f"no {kind} fits here"
         elif fault.largest is not None:
             whole = tool_run.largest_radius or 0.0
@@ -360,8 +420,11 @@ class ToolFindings:
             where = "the whole contour (tried)" if fault.largest == whole else "this place"
             more = f"; {all_} the whole contour (tried)" if whole >= LEAST and fault.largest != whole else ""
             yield f"a {kind} of radius up to {fits} cuts {where}{more}"
+        if fault.kind is ToolFaultKind.UNCOMPENSATED and not any(own.vector):
+            yield f"as the path of the centre of this {kind} it is right"
         if fault.kind is ToolFaultKind.BY_HAND:
-            places = [each.end for each in part_of(own, fault.length)][:_MOST_PLACES]
+            begin, end = map(int, fault.rest)
+            places = [each.end for each in part_of(within(own, begin, end), fault.length)][:_MOST_PLACES]
             yield f"the part goes through {join([coordinates(at, own.plane, unit) for at in places])}"
         if fault.kind is ToolFaultKind.TIP_AGAINST_SIDE:
             yield f"the nose would lie {length_in(fault.short or 0.0, unit)} deep"
@@ -417,12 +480,25 @@ _MOST_PLACES = 6
 
 _BREAKS = (ToolFaultKind.INTERRUPTED, ToolFaultKind.OTHER_TOOL)
 
-_EXITS = (ToolFaultKind.EXIT_BY_ARC, ToolFaultKind.STILL_ON)
+_EXITS = (ToolFaultKind.EXIT_BY_ARC, ToolFaultKind.STILL_ON, ToolFaultKind.EXIT_THROUGH)
 
-_ENTRIES = (ToolFaultKind.ENTRY_BY_ARC, ToolFaultKind.ENTRY_TOO_SHORT, ToolFaultKind.APPROACH)
+_ENTRIES = (
+    ToolFaultKind.ENTRY_THROUGH,
+    ToolFaultKind.ENTRY_BY_ARC,
+    ToolFaultKind.ENTRY_TOO_SHORT,
+    ToolFaultKind.APPROACH,
+)
 
 
 _ELSEWHERE = "begin the contour in the middle of an element, not in an inside corner"
+
+
+_BACK = "check whether the contour goes back on itself: the direction of an arc (G02 or G03), or an end"
+
+
+def _fits_none(fault: ToolFault) -> bool:
+    """Whether no tool fits at its place."""
+    return fault.largest is not None and fault.largest < LEAST
 
 
 def _is_at_start(own: CuttingRun, fault: ToolFault) -> bool:

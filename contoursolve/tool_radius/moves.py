@@ -1,16 +1,16 @@
 """The moves of a program for the path of its tool: what each of its lines makes instead of what it states."""
 
 from collections.abc import Mapping, Sequence
-from itertools import chain, groupby
+from itertools import groupby
 from math import nan
 from operator import itemgetter
 
 from msgspec.structs import replace
 
-from contoursolve.comparison import Motion, ToolPath, Travel, along
+from contoursolve.comparison import Motion, Step, ToolPath, Travel, along
 from contoursolve.solving import LineSegment, Segment
 from contoursolve.tool_radius.findings import ToolReport, ToolRun
-from contoursolve.tool_radius.runs import CuttingRun, place_of, segment_of
+from contoursolve.tool_radius.runs import SIDES, CuttingRun, place_of, segment_of
 
 Move = tuple[Segment, bool, Mapping[str, tuple[float, float]]]
 """An element, whether it is a rapid, and axes outside its plane: from where to where (mm) they move along."""
@@ -33,9 +33,16 @@ def moves_of(report: ToolReport) -> tuple[Mapping[int, tuple[Move, ...]], frozen
 
 def path_of_tool(report: ToolReport) -> ToolPath:
     """The path of a program with the path of the tool in the place of what it cuts with G41 or G42."""
-    moved = _by_travel(report)
-    steps = (moved.get(id(each), (each,)) for each in report.path.steps)
-    return replace(report.path, steps=tuple(chain.from_iterable(steps)))
+    moved, axes, steps = _by_travel(report), report.path.axes, list[Step]()
+    for each in report.path.steps:
+        here, own = next((step for step in reversed(steps) if isinstance(step, Travel)), None), moved.get(id(each))
+        if own is None and isinstance(each, Travel) and each.compensation in SIDES and each.plane and here is not None:
+            # What moves outside the plane does so where the tool is.
+            first, second = place_of(replace(here, plane=each.plane), axes, at_end=True)
+            at = nan if first is None else first, nan if second is None else second
+            own = (along(replace(each, compensation=40), LineSegment("", at, at), axes),)
+        steps += own if own is not None else (each,)
+    return replace(report.path, steps=tuple(steps))
 
 
 def _by_travel(report: ToolReport) -> Mapping[int, tuple[Travel, ...]]:

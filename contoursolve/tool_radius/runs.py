@@ -17,7 +17,7 @@ from contoursolve.reading import Dialect, Effect, rows_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
 from contoursolve.tool_radius.clearance import foot_on
-from contoursolve.tool_radius.joint import TANGENT, turn_of
+from contoursolve.tool_radius.joint import TANGENT, direction, turn_of
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_of
 from contoursolve.tool_radius.tool_settings import settings_of
 
@@ -76,6 +76,8 @@ class CuttingRun(Struct, frozen=True):
     """The D or T word in force that calls no tool, `D0`."""
     outside: OutsideCorner | None = None
     """The way around outside corners that the program says."""
+    is_plain: bool = False
+    """Whether it is one straight move along an axis, such as a face or a groove, which the tip alone makes."""
 
     @property
     def lines(self) -> tuple[int, ...]:
@@ -161,6 +163,24 @@ def find_runs(path: ToolPath, asked: ToolRequest, dialect: Dialect) -> list[Cutt
     return [stock.left(run, found) for run in found] if is_stated else found
 
 
+def find_bare(path: ToolPath, asked: ToolRequest, dialect: Dialect, found: Sequence[CuttingRun]) -> list[CuttingRun]:
+    """The cutting moves that a program with G41 or G42 makes without them, on the side to which the tip points; none of
+    a tool that nothing states, and none that lead to contours or away."""
+    stock, bare = _Stock(asked, path.blocks, dialect), list[CuttingRun]()
+    around = {id(each) for own in found for each in (own.lead, own.leaving)}
+    for group in _groups(path, is_stated=False) if found else ():
+        is_lead = any(each is not None and id(each) in around for each in (group.lead, group.leaving))
+        group.travels = [each for each in group.travels if id(each) not in around]
+        try:
+            own = _run(group, path.axes, stock, asked.side or ToolSide.RIGHT)
+        except ToolError:
+            continue
+        # One straight move may lead somewhere; a centre may go anywhere.
+        if own is not None and (len(own.elements) > 1 or (own.is_lathe and not is_lead)):
+            bare.append(own)
+    return bare
+
+
 def nothing_cut(path: ToolPath) -> ToolError:
     """The error that no cutting move is there for a tool, with the first move that is not followed."""
     moves = [each for each in path.unfollowed if any(not word.startswith("G") for word in each.words)]
@@ -199,7 +219,8 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
             continue
         side = SIDES.get(move.compensation) if move is not None and is_stated else None
         is_known = move is not None and None not in place_of(move, path.axes, at_end=False)
-        is_cut = side is not None if is_stated else move is not None and move.motion is Motion.FEED and is_known
+        is_bare = move is not None and move.motion is Motion.FEED and is_known and move.compensation not in SIDES
+        is_cut = side is not None if is_stated else is_bare
         if move is not None and is_cut and side is group.side and _continues(before, move, path.axes):
             group.travels.append(move)
             before = move
@@ -259,7 +280,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         raise ToolError("a turning tool needs the number of its imaginary tip; give --tip 0 to 9, such as --tip 3")
     if tool.tip is not None and not _is_turned(plane, tool):
         raise ToolError(f"a cutter has no imaginary tip; leave tip {tool.tip} out")
-    return CuttingRun(
+    made = CuttingRun(
         tuple(elements),
         tuple(travels),
         tool,
@@ -278,6 +299,20 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         void=stock.void(travels[0]) if group.side is not None else None,
         outside=stock.outside(travels[0]),
     )
+    if made.is_stated or not any(made.tip) or not _is_plain(made.elements):
+        return made
+    way = direction(made.elements[0], at_end=False)
+    # The tip is clear of it on the one side only.
+    is_against = own.sign * (way[0] * made.tip[1] - way[1] * made.tip[0]) > LENGTH
+    turned = ToolSide.RIGHT if own is ToolSide.LEFT else ToolSide.LEFT
+    return replace(made, side=turned, is_plain=True) if is_against else made
+
+
+def _is_plain(elements: Sequence[Segment]) -> bool:
+    """Whether elements are one straight move along an axis."""
+    ways = [direction(each, at_end=False) for each in elements]
+    is_straight = not any(isinstance(each, ArcSegment) for each in elements)
+    return is_straight and all(min(map(abs, way)) <= LENGTH and dist(way, ways[0]) <= LENGTH for way in ways)
 
 
 def _is_turned(plane: Plane, tool: Tool) -> bool:

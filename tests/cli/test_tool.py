@@ -898,3 +898,119 @@ def test_what_of_a_finishing_pass_cannot_be_written_is_told(tmp_path: Path):
         (tmp_path / "a.nc").write_text(TURNED.format(*words).replace(old, new))
         done = call("expand", *given, tmp_path / "a.nc")
         assert (done.exit_code, told in done.stderr) == (2, True), done.stderr
+
+
+def lines(control: str, *blocks: str) -> str:
+    return "\n".join([f"(contoursolve control: {control})", *blocks]) + "\n"
+
+
+TURN = ("G42 G01 Z0. F0.1", "X30. Z-10.", "Z-30.", "X40.", "G40 G00 X60. Z50.")
+BARE = ("G00 X20. Z2.", "G01 Z0.", "X30. Z-10.", "Z-30.", "X40.", "G00 X60. Z50.")
+ISLAND = ("G41 D1 G01 X-30. F500", "Y30.", "X30.", "Y-30.", "X-40.", "G40 Y-50.")
+
+
+@pytest.mark.parametrize(
+    ("blocks", "told"),
+    [
+        (("T0101", "G00 X20. Z2.", *TURN, "T0202", *BARE), {"12: tool-uncompensated"}),
+        (("T0101", "G00 X20. Z2.", *TURN, "G00 X42. Z0.", "G01 X0.", "G00 Z2."), {"10: tool-stub"}),
+        (("T0101", "G00 X42. Z0.", "G01 X-1.6", "G00 X20. Z2.", *TURN), set()),
+        (("G00 X20. Z2.", *TURN, "G00 X42. Z-20.", "G01 X30.", "G00 X42."), set()),
+    ],
+)
+def test_what_cuts_without_compensation_beside_a_contour_with_it(
+    blocks: tuple[str, ...], told: set[str], tmp_path: Path
+):
+    """The taper of 26.57 degrees of U-6, and a face that stops at the axis."""
+    (tmp_path / "a.nc").write_text(lines("fanuc-lathe", *blocks))
+    done = call("check", "--format", "json", *NOSE, tmp_path / "a.nc")
+    found = [each for each in json.loads(done.stdout)["diagnostics"] if each["severity"] == "warning"]
+    assert {f"{each['line']}: {each['code']}" for each in found} == told
+    assert all("comes out 0.2733 mm too thick" in each["message"] for each in found if "uncomp" in each["code"])
+
+
+def test_a_pass_of_a_cutter_without_compensation_is_not_judged(tmp_path: Path):
+    again = [each.replace("G41 D1 ", "").replace("G40 ", "") for each in ISLAND]
+    (tmp_path / "a.nc").write_text(lines(MILL[1], "G00 X-40. Y-20.", *ISLAND, "G00 Y-20.", *again))
+    told = call("check", "--tool", "R5", tmp_path / "a.nc").stdout
+    assert "info[tool-not-judged]: program lines 10 to 15 cut without G41" in told
+
+
+@pytest.mark.parametrize(
+    ("start", "depth", "begin", "end", "told"),
+    [
+        ("X0. Y0.", "G01 Z-5.", "X-30. Y0.", "X0.", {"entry", "exit"}),
+        ("X-40. Y0.", "G01 Z-5.", "X-30. Y0.", "X-50.", set()),
+        ("X-40. Y0.", "G01 Z-5.", "X-30. Y0.", "X0.", {"exit"}),
+        # Above the part, nothing is cut.
+        ("X0. Y0.", "G00 Z5.", "X-30. Y0.\nG01 Z-5.", "X-50.", set()),
+    ],
+)
+def test_the_moves_to_a_contour_and_away_go_around_it(
+    start: str, depth: str, begin: str, end: str, told: set[str], tmp_path: Path
+):
+    blocks = (f"G00 {start}", f"{depth} F200", f"G41 D1 {begin}", "Y30.", "X30.", "Y-30.", "X-30.", "Y0.", f"G40 {end}")
+    (tmp_path / "a.nc").write_text(lines(MILL[1], *blocks))
+    found = call("check", "--tool", "R5", tmp_path / "a.nc").stdout
+    assert {each for each in ("entry", "exit") if f"[tool-{each}-through]" in found} == told
+
+
+@pytest.mark.parametrize(
+    ("control", "words", "blocks"),
+    [
+        (
+            "fanuc-lathe",
+            NOSE,
+            "G00 X20. Z2. / G42 G01 Z0. F0.1 / X30. Z-5. / Z-20. / G02 X40. Z-25. R5. / G01 Z-40. / X50. / G40 G00 X60.",
+        ),
+        (
+            "fanuc-lathe",
+            NOSE,
+            "G00 X16. Z2. / G42 G01 Z0. F0.1 / X20. ,C1. / Z-15. ,R3. / ,A150. X40. / Z-50. / G40 G00 X60. Z50.",
+        ),
+        (
+            "fanuc-mill",
+            ("--tool", "R5"),
+            "G00 X-45. Y0. / G41 D1 G01 X-30. F500 / Y30. / X30. / Y-30. / X-30. / Y0. / G40 G00 X-45.",
+        ),
+    ],
+)
+def test_check_sees_the_path_by_hand_in_what_expand_writes(
+    control: str, words: tuple[str, ...], blocks: str, tmp_path: Path
+):
+    (tmp_path / "a.nc").write_text(lines(control, *blocks.split(" / ")))
+    assert call("expand", *words, tmp_path / "a.nc", "-o", tmp_path / "b.nc").exit_code == 0
+    done = call("check", *words, "--side", "left" if control == MILL[1] else "right", tmp_path / "b.nc")
+    assert (done.exit_code, "tool-by-hand" in done.stdout, done.stdout.count("[tool-")) == (0, True, 1), done.stdout
+
+
+@pytest.mark.parametrize("blocks", [("G00 X62. Z0.", "G01 X-1.6"), ("G00 X42. Z-20.", "G01 X30.", "G04 X0.5")])
+def test_a_face_or_a_groove_by_the_tip_alone_is_right_on_either_side(blocks: tuple[str, ...], tmp_path: Path):
+    (tmp_path / "a.nc").write_text(text := lines("fanuc-lathe", *blocks, "G00 X62. Z2."))
+    for side in ("left", "right"):
+        done = call("check", *NOSE, "--side", side, tmp_path / "a.nc")
+        assert done.stdout == "1 contour solved, no problems\n", done.stdout
+    assert call("expand", *NOSE, "--side", "right", tmp_path / "a.nc").stdout == text
+
+
+def test_a_move_in_depth_under_compensation_is_the_same_path(tmp_path: Path):
+    plunge = ("G00 X-40. Y-20.", "G41 D1 X-30. Y-20.", "Z2.", "G01 Z-5. F200", *ISLAND[1:])
+    (tmp_path / "a.nc").write_text(lines(MILL[1], *plunge))
+    assert call("expand", "--tool", "R5", tmp_path / "a.nc", "-o", tmp_path / "b.nc").exit_code == 0
+    done = call("diff", tmp_path / "a.nc", tmp_path / "b.nc", "--tool", "R5")
+    assert done.exit_code == 0, done.output
+
+
+def test_what_runs_again_is_told_once(tmp_path: Path):
+    loop = ("#1=1", "WHILE[#1LE3]DO1", "G00 X-40. Y-20.", "G01 Z-#1 F200", "G41 D1 X30.", "Y30.", "X-30.", "G40 Y-50.")
+    (tmp_path / "a.nc").write_text(lines(MILL[1], *loop, "#1=#1+1", "END1"))
+    told = call("check", "--tool", "R5", tmp_path / "a.nc").stdout
+    assert (told.count("tool-inside-corner"), told.count("= the same in 3 passes")) == (1, 1)
+
+
+def test_where_no_tool_fits_the_fix_is_no_smaller_one(tmp_path: Path):
+    """An arc in the wrong sense begins where the line comes from."""
+    blocks = ("G00 X0. Y-20.", "G41 D1 G01 Y0. F500", "Y30.", "G02 X-10. Y40. I-10. J0.", "G01 X-40.", "G40 Y80.")
+    (tmp_path / "a.nc").write_text(lines(MILL[1], *blocks))
+    told = call("check", "--tool", "R5", tmp_path / "a.nc").stdout
+    assert "no cutter fits here\n  = help: check whether the contour goes back on itself" in told
