@@ -961,7 +961,7 @@ def test_the_moves_to_a_contour_and_away_go_around_it(
         (
             "fanuc-lathe",
             NOSE,
-            "G00 X20. Z2. / G42 G01 Z0. F0.1 / X30. Z-5. / Z-20. / G02 X40. Z-25. R5. / G01 Z-40. / X50. / G40 G00 X60.",
+            "G00 X20. Z2. / G42 G01 Z0. F0.1 / X30. Z-5. / Z-20. / G02 X40. Z-25. R5. / G01 Z-40. / X50. / G40 G00 Z9.",
         ),
         (
             "fanuc-lathe",
