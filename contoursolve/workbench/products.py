@@ -29,7 +29,7 @@ def answer_with(make: str, view: ProgramView, action: Mapping[str, Any]) -> Data
     """The answer of one of `PRODUCTS`, of a program that is examined. Raises ActionError, ValueError."""
     view.program.check()
     if view.program.dialect is None:
-        raise ActionError(view.program.trouble)
+        raise ActionError(view.program.trouble or "no word tells the control; choose it, or write the program first")
     return PRODUCTS[make](view, action)
 
 

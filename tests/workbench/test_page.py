@@ -154,6 +154,21 @@ def test_files_are_chosen_or_dropped_and_keep_their_bytes_when_saved(opened, fol
     assert (folder / "a.nc").read_bytes() == "(Ø 40)\r\n".encode("latin-1") + SHAFT.encode()
 
 
+def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened) -> None:
+    page = opened()
+    page.get_by_role("button", name="New program").click()
+    for view in ("Contour", "Tool", "Variables", "Drawing"):
+        show(page, view)
+    assert not page.locator(".trouble:not(:empty)").count()
+    page.get_by_role("button", name="Do").click()
+    page.get_by_role("menuitem", name="Expand").click()
+    page.locator(".trouble", has_text="no word tells the control").wait_for()
+    page.locator(".cm-content").focus()
+    page.keyboard.type("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
+    page.locator(".drawing svg").first.wait_for()
+    assert not page.locator(".trouble:not(:empty)").count()
+
+
 def test_in_a_network_the_page_saves_only_with_the_password(browser, tmp_path) -> None:
     (tmp_path / "part.nc").write_bytes(SHAFT.encode())
     server = Served(tmp_path, "--lan", CONTOURSOLVE_PASSWORD="correct horse")

@@ -244,6 +244,8 @@ export class ProgramPane {
   private settle(): void {
     const program = this.program;
     if (!program) return;
+    // Nothing can be drawn of a program for no control; the head says why there is none.
+    if (!program.view.control) return this.drawing.show(null);
     // An edit waits for a drawing that is under way: that of a long program comes when its user rests longer.
     if (this.isShown("drawing") && this.own.seq !== program.view.seq) this.rest = setTimeout(() => void this.draw(program), 2 * this.own.took);
     if (this.isShown("contour") && !this.isActing && !this.isHeld) void this.look(program);

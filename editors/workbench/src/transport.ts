@@ -6,7 +6,7 @@ const GONE = "The workbench does not answer: its program was ended. Start it aga
 const asWindow = Array.from(crypto.getRandomValues(new Uint8Array(8)), (each) => each.toString(16).padStart(2, "0")).join("");
 
 function checked<Reply>(reply: Record<string, unknown>): Reply {
-  if (typeof reply["trouble"] === "string" && reply["trouble"]) throw new Trouble(reply["trouble"], reply);
+  if (typeof reply["trouble"] === "string") throw new Trouble(reply["trouble"] || "This did not work, and nobody said why.", reply);
   return reply as Reply;
 }
 
