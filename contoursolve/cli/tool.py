@@ -117,7 +117,8 @@ def _moved_program(program: Program, result: Result, report: ToolReport) -> Move
         if each.run.is_plain:
             continue
         void = (each.run.void.span.line,) if each.run.void is not None else ()
-        own = [finding for finding in report.findings if finding.span.line in (*lines, *void, each.run.broken)]
+        places = (*lines, *void, each.run.broken, *(word.line for word in each.run.words))
+        own = [finding for finding in report.findings if finding.span.line in places]
         errors = tuple(finding for finding in own if finding.is_error)
         reason = f"{errors[0].code}: {errors[0].message}" if errors else ""
         if not reason and len({travel.is_skippable for travel in each.run.travels}) > 1:
@@ -130,7 +131,7 @@ def _moved_program(program: Program, result: Result, report: ToolReport) -> Move
             # What interrupts one contour stands before the next one.
             told = {id(finding) for other in left.values() for finding in other.diagnostics}
             news = tuple(finding for finding in errors if id(finding) not in told)
-            sources = {line: texts[line] for line in (*lines, *void, each.run.broken) if line in texts}
+            sources = {line: texts[line] for line in places if line in texts}
             left[lines[0]] = Left(lines, reason, news, sources)
             # Where a contour stays, the words of compensation before it stay, too.
             kept |= {*range(behind + 1, max(lines) + 1)}

@@ -58,7 +58,9 @@ from .siemens import (
 )
 from .tool_facts import (
     TOOL_FACTS as TOOL_FACTS,
+    ToolEffect as ToolEffect,
     ToolFacts as ToolFacts,
+    ToolWord as ToolWord,
 )
 from .yasnac_lx3 import (
     YASNAC_LX3 as YASNAC_LX3,

@@ -51,7 +51,19 @@ class ToolFaultKind(Enum):
     )
     NO_OFFSET = _Row(
         "{void} is in force: {code} works with radius 0 ({grade}), and does not compensate the {tool}",
-        "write the number of the tool for {void}",
+        "write {offset} for {void}",
+    )
+    NO_D = _Row(
+        "no D stands before {code}: nobody knows with which radius the control works",
+        "write D with the number of the tool beside {code}",
+        Severity.WARNING,
+    )
+    NOT_FOLLOWED = _Row("{word} in program line {at} {meaning}: the path of the {tool} is not known", "{instead}")
+    RADIUS_STATED = _Row("{word} in program line {at} {meaning}: here it is the {tool}", "{instead}", Severity.WARNING)
+    RADIUS_ADDED = _Row(
+        "{word} in program line {at} {meaning}: with it, this is the {tool}",
+        "state the radius of the tool without it",
+        Severity.INFO,
     )
     NO_RADIUS = _Row(
         "the tool has radius 0: its path is the contour itself", "state the radius of the tool", Severity.INFO

@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison import ToolPath, follow
-from contoursolve.controls import TOOL_FACTS, ToolFacts
+from contoursolve.controls import TOOL_FACTS, ToolEffect, ToolFacts
 from contoursolve.diagnosis import (
     angle_text,
     apply_edits,
@@ -58,6 +58,7 @@ from contoursolve.tool_radius.runs import (
 )
 from contoursolve.tool_radius.tool import OutsideCorner, ToolError, ToolSide
 from contoursolve.tool_radius.tool_settings import ToolSettings, settings_of
+from contoursolve.tool_radius.words import WordInForce
 
 
 class ToolRun(Struct, frozen=True, dict=True):
@@ -215,7 +216,9 @@ class ToolRules(Struct, frozen=True):
                 yield ToolFault(ToolFaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length)
         if (entry := self.entry_of(each)) is not None:
             yield from (replace(fault, element=0) for fault in entry.stops)
-        if each.broken and each.is_stated:
+        yield from (fault for fault in _of_words(each) if self.is_error(fault.kind))
+        is_told = any(word.line == each.broken for word in each.words)
+        if each.broken and each.is_stated and not is_told:
             yield ToolFault(ToolFaultKind.OTHER_TOOL if each.is_changed else ToolFaultKind.INTERRUPTED, 0)
         if each.void is not None and each.radius > LENGTH:
             yield ToolFault(ToolFaultKind.NO_OFFSET, 0)
@@ -225,6 +228,21 @@ class ToolRules(Struct, frozen=True):
             own += flank_faults(each.elements, each.side.sign, each.tool)
             # A rapid is no surface.
             yield from (fault for fault in own if each.levels[fault.element] > 0)
+
+
+def _of_words(own: CuttingRun) -> Iterator[ToolFault]:
+    """The faults of the words in force that change the radius, or compensation."""
+    for number, each in enumerate(own.words):
+        kind, is_told = ToolFaultKind.NOT_FOLLOWED, True
+        match each.row.effect:
+            case ToolEffect.ADDS:
+                kind, is_told = ToolFaultKind.RADIUS_ADDED if each in own.added else kind, each.number != 0
+            case ToolEffect.STATES:
+                kind, stated = ToolFaultKind.RADIUS_STATED, sum(word.number or 0 for word in (each, *own.added))
+                is_told = abs(float(stated) * float(own.unit.in_mm) - own.radius) > LENGTH
+            case ToolEffect.TURNS:
+                is_told = any(own.vector)
+        yield from [ToolFault(kind, 0, working=number)] * is_told
 
 
 def with_radius(own: CuttingRun, radius: float) -> CuttingRun:
@@ -282,7 +300,7 @@ class ToolFindings:
     def __init__(self, result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> None:
         self.result, self.dialect, self.asked, self.wanted = result, dialect, asked, wanted
         self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
-        self.broken = set[int]()
+        self.broken, self.said = set[int](), set[tuple[ToolFaultKind, WordInForce | None]]()
         self.blocks = {block.line: block for block in result.program.blocks}
 
     def of(self, tool_run: ToolRun, *, is_first: bool) -> Iterator[Diagnostic]:
@@ -291,6 +309,8 @@ class ToolFindings:
         told = [ToolFault(ToolFaultKind.APPROACH, 0)] if own.is_approached else []
         told += [ToolFault(ToolFaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
         told += [] if own.is_stated else self._uncompensated(own)
+        told += [fault for fault in _of_words(own) if not tool_run.rules.is_error(fault.kind)]
+        told += [ToolFault(ToolFaultKind.NO_D, 0)] if own.lacks_d else []
         told += [ToolFault(ToolFaultKind.NO_RADIUS, 0)] if own.radius <= LENGTH else []
         told += [ToolFault(ToolFaultKind.STILL_ON, len(own.elements) - 1)] if own.still_on else []
         # What interrupts one run stands before the next one; of a contour without a solution, its own finding tells.
@@ -301,7 +321,9 @@ class ToolFindings:
         if any(each.kind is ToolFaultKind.BY_HAND for each in told):
             # The path of a tool is no contour that one has to fit.
             faults, rests = [], []
-        yield from (self._finding(tool_run, fault) for fault in (*told, *faults, *rests))
+        told = [each for each in (*told, *faults) if (each.kind, self._word_of(own, each)) not in self.said]
+        self.said |= {(each.kind, word) for each in told if (word := self._word_of(own, each))}
+        yield from (self._finding(tool_run, fault) for fault in (*told, *rests))
 
     def of_bare(self, own: CuttingRun, rules: ToolRules) -> Iterator[Diagnostic]:
         """The findings about moves that a program with compensation makes without it."""
@@ -337,6 +359,8 @@ class ToolFindings:
         is_small = fault.kind is ToolFaultKind.ARC_TOO_SMALL
         word = self.word(own, fault) if is_small else own.void if fault.kind is ToolFaultKind.NO_OFFSET else None
         line = own.broken if fault.kind in _BREAKS else shown.called_at or shown.line
+        said = self._word_of(own, fault)
+        line = said.line if said is not None else line
         block = self.blocks.get(line)
         span = word.span if word is not None else block.span if block is not None else Span(line, 1, 2)
         texts, values = self.texts(own, fault), {"off_by_mm": fault.short} if fault.short is not None else {}
@@ -357,11 +381,16 @@ class ToolFindings:
             fault.kind,
         )
 
+    def _word_of(self, own: CuttingRun, fault: ToolFault) -> WordInForce | None:
+        """The word in force that a fault is about."""
+        return own.words[fault.working or 0] if fault.kind in _OF_WORDS else None
+
     def texts(self, own: CuttingRun, fault: ToolFault) -> dict[str, str]:
         """The numbers and names of a message."""
         element, unit, short = own.elements[fault.element], own.unit, fault.short or 0.0
         back, on = (length_in(each, unit) for each in fault.rest)
         name, last = "arc" if isinstance(element, ArcSegment) else "line", fault.working or fault.element
+        said, codes = self._word_of(own, fault), {f"G{n}": self.dialect.modes.codes[n].text for n in (40, 41, 42)}
         lines = " to ".join(str(own.travels[number].line) for number in (fault.element, last))
         return {
             "tool": f"{_kind(own)} {own.size}",
@@ -372,6 +401,11 @@ class ToolFindings:
             "lines": " to ".join(dict.fromkeys([str(own.lines[0]), str(own.lines[-1])])),
             "cancel": self.dialect.modes.codes[40].text,
             "void": own.void.text.strip() if own.void else "",
+            "word": said.text if said else "",
+            "at": str(said.line) if said else "",
+            "meaning": f"{said.row.meaning} ({said.row.evidence.value})" if said else "",
+            "instead": said.row.help.format(**codes) if said else "",
+            "offset": _offset_for(own.void) if own.void else "",
             "grade": (self.facts.no_offset if own.void and own.void.address == "D" else Evidence.ASSUMED).value,
             "left": f"this {name}" if last == fault.element else f"what program lines {lines} make",
             "made": length_in(fault.length, unit),
@@ -478,6 +512,8 @@ class ToolFindings:
 _MOST_PLACES = 6
 """Places of a part that a note names."""
 
+_OF_WORDS = (ToolFaultKind.NOT_FOLLOWED, ToolFaultKind.RADIUS_STATED, ToolFaultKind.RADIUS_ADDED)
+
 _BREAKS = (ToolFaultKind.INTERRUPTED, ToolFaultKind.OTHER_TOOL)
 
 _EXITS = (ToolFaultKind.EXIT_BY_ARC, ToolFaultKind.STILL_ON, ToolFaultKind.EXIT_THROUGH)
@@ -507,6 +543,12 @@ def _is_at_start(own: CuttingRun, fault: ToolFault) -> bool:
         return False
     first, last = sorted((fault.element, fault.working))
     return dist(own.elements[first].start, own.elements[last].end) <= AGREEMENT
+
+
+def _offset_for(void: Word) -> str:
+    """The word that calls an offset in the place of one that calls none."""
+    turret = int(void.number or 0) // 100
+    return f"T{turret:02}{turret:02}" if turret else "the number of the tool"
 
 
 def _kind(own: CuttingRun) -> str:

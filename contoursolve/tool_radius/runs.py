@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison import ROUGHING, Motion, Step, ToolPath, Travel, Unfollowed, in_cycle
-from contoursolve.controls import TOOL_FACTS, ToolFacts
+from contoursolve.controls import TOOL_FACTS, ToolEffect, ToolFacts
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.reading import Dialect, Effect, rows_of
@@ -20,6 +20,7 @@ from contoursolve.tool_radius.clearance import foot_on
 from contoursolve.tool_radius.joint import TANGENT, direction, turn_of
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_of
 from contoursolve.tool_radius.tool_settings import settings_of
+from contoursolve.tool_radius.words import RadiusWords, WordInForce
 
 SIDES = {side.code: side for side in ToolSide}
 
@@ -78,6 +79,12 @@ class CuttingRun(Struct, frozen=True):
     """The way around outside corners that the program says."""
     is_plain: bool = False
     """Whether it is one straight move along an axis, such as a face or a groove, which the tip alone makes."""
+    words: tuple[WordInForce, ...] = ()
+    """The words in force that change the radius, or compensation."""
+    added: tuple[WordInForce, ...] = ()
+    """Those of which the number is a part of the radius."""
+    lacks_d: bool = False
+    """Whether D is missing before it."""
 
     @property
     def lines(self) -> tuple[int, ...]:
@@ -269,7 +276,19 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         return None
     plane = travels[0].plane
     elements = [segment_of(each, axes) for each in travels]
+    first, last = (lead or travels[0]).number, travels[-1].number
+    words = stock.words.beside(first, (leaving or travels[-1]).number, group.broken.line if group.broken else 0)
+    added = tuple(
+        each
+        for each in words
+        if each.row.effect is ToolEffect.ADDS and each.number is not None and each.first <= first and last <= each.last
+    )
     tool = stock.at(travels[0])
+    if added:
+        more = sum(each.number or 0 for each in added) * (travels[0].unit.in_mm if tool.is_metric else 1)
+        tool = replace(tool, radius=tool.radius + more)
+    if tool.radius < 0:
+        raise ToolError(f"with {added[0].text} in program line {added[0].line}, the radius is R{tool.radius}")
     radius = float(tool.radius) * (1.0 if tool.is_metric else float(travels[0].unit.in_mm))
     first = next((number for number, each in enumerate(travels) if each.element), 0) if group.side is None else 0
     while first and abs(turn_of(elements[first - 1], elements[first])) <= TANGENT:
@@ -298,6 +317,9 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         is_approached,
         void=stock.void(travels[0]) if group.side is not None else None,
         outside=stock.outside(travels[0]),
+        words=words,
+        added=added,
+        lacks_d=group.side is not None and stock.lacks_d(travels[0]),
     )
     if made.is_stated or not any(made.tip) or not _is_plain(made.elements):
         return made
@@ -354,7 +376,8 @@ class _Stock:
         self.asked, self.blocks, self.settings = asked, blocks, settings_of(dialect)
         # Such a control turns in its plane Z X, with X as diameter or radius.
         self.has_lathe = dialect.diameter is not None or dialect.plane.axes == _TURNED
-        corners = TOOL_FACTS.get(dialect.name, ToolFacts()).corners
+        self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
+        self.words, corners = RadiusWords(blocks, self.facts.words), self.facts.corners
         self.corners = [
             (place, OutsideCorner(corners[name]))
             for place, block in enumerate(blocks if corners else ())
@@ -392,7 +415,7 @@ class _Stock:
                 self.changes.append(place)
             last = last if number is None else number
             if called:
-                self.voids.append((place, next((word for word in called.values() if not word.number), None)))
+                self.voids.append((place, next(filter(self._is_void, called.values()), None)))
             codes = rows_of(block, modes)
             if "T" in called or functions[place] & _ENDS or any(code.effect is Effect.SINGLE for code in codes):
                 self.ends.append(place)
@@ -427,6 +450,15 @@ class _Stock:
         if end >= min(off, following) or (run.broken and (run.broken != line or beyond)):
             return run
         return replace(run, broken=0, still_on=line)
+
+    def _is_void(self, word: Word) -> bool:
+        """Whether a T or D word calls no offset."""
+        is_split = self.facts.splits_t and word.address == "T" and (word.number or 0) >= 100  # noqa: PLR2004 - digits
+        return not word.number or (is_split and not word.number % 100)
+
+    def lacks_d(self, step: Travel) -> bool:
+        """Whether no D stands before a move, of a control that takes the radius by it."""
+        return self.facts.needs_d and not any(block.find("D") for block in self.blocks[: step.number + 1])
 
     def void(self, step: Travel) -> Word | None:
         """The word in force at a move that calls no tool."""

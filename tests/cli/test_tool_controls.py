@@ -139,7 +139,7 @@ def test_klartext_with_labels_and_a_helix_stays_klartext(tmp_path: Path):
 def test_an_approach_that_is_not_followed_is_no_entry(tmp_path: Path):
     (tmp_path / "a.h").write_text(CALLED.format("APPR LT X+0 Y+10 LEN10 RL F300 ;"))
     done = CliRunner().invoke(main, ["check", "--control", "heidenhain", "--tool", "R4", str(tmp_path / "a.h")])
-    assert (done.exit_code, "error[tool-interrupted]: program line 18 (APPR LT has" in done.stdout) == (1, True)
+    assert (done.exit_code, "error[tool-not-followed]: APPR LT in program line 18 leads to" in done.stdout) == (1, True)
 
 
 def test_a_finding_in_another_file_names_the_call_and_the_file(tmp_path: Path):

@@ -1,0 +1,195 @@
+"""Words that change the radius of a tool, or compensation: they are followed, or the path is refused."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from contoursolve.cli import main
+
+MILL = """\
+G21 G17 G90
+G00 X-40. Y-20.
+{0}
+G41 D1 G01 X-30. Y-20. F500
+{1}
+Y30.
+X30.
+Y-30.
+X-40.
+G40 Y-50.
+{2}
+M30
+"""
+LATHE = "G21\n{0}\nG00 X20. Z2.\nG42 G01 Z0. F0.1\nX30. Z-10.\n{1}\nZ-30.\nG40 G00 X60. Z50.\n{2}\nM30\n"
+SIEMENS = MILL.replace("G00", "G0").replace(".", "")
+KLARTEXT = """\
+0 BEGIN PGM A MM
+1 TOOL DEF 2 L+0 R+9
+2 TOOL CALL 1 Z S3000
+3 {0}
+4 L X-40 Y-20 R0 FMAX
+5 L X-30 Y-20 RL F500
+6 L Y30
+7 L X30 {1}
+8 L Y-30
+9 L X-40
+10 L Y-50 R0 FMAX
+11 {2}
+12 END PGM A MM
+"""
+PROGRAMS = {"fanuc-mill": MILL, "haas-mill": MILL, "mitsubishi": MILL, "nct-99m": MILL, "siemens-840d": SIEMENS,
+            "fanuc-lathe": LATHE, "haas-lathe": LATHE, "yasnac-lx3": LATHE, "heidenhain": KLARTEXT}  # fmt: skip
+R5, NOSE = ("--tool", "R5"), ("--tool", "R0.8", "--tip", "3")
+
+
+def call(command: str, text: str, control: str, *words: str) -> Result:
+    tool = NOSE if control.endswith(("lathe", "lx3")) else R5
+    done = CliRunner().invoke(main, [command, "--control", control, *(words or tool), "-"], input=text)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exc_info
+    return done
+
+
+def program(control: str, *lines: str) -> str:
+    text = PROGRAMS[control].format(*lines, *[""] * (3 - len(lines)))
+    return "".join(f"{line}\n" for line in text.splitlines() if line.strip(" 0123456789"))
+
+
+def wall(text: str, control: str) -> float:
+    """The largest X of the path that is written for the tool."""
+    done = call("expand", text, control, *R5, "--inline")
+    assert done.exit_code == 0, done.stderr
+    moves = [line for line in done.stdout.splitlines() if not line.lstrip().startswith(("(", ";"))]
+    return max(float(word[1:]) for line in moves for word in line.split() if word[0] == "X")
+
+
+REFUSED = [
+    ("fanuc-mill", ("G51 X0. Y0. P2000",), "G51 in program line 3 scales the contour"),
+    ("haas-mill", ("N5 G51 P1.5 X0.",), "G51 in program line 3 scales"),
+    ("nct-99m", ("", "G51 P2."), "G51 in program line 4 scales"),
+    ("mitsubishi", ("", "G38 I1. J0."), "G38 in program line 4 changes the way"),
+    ("mitsubishi", ("", "X-30. G39"), "G39 in program line 4 changes the way"),
+    ("fanuc-mill", ("", "", "G46 X10. D1"), "G46 in program line 9 makes a move longer or shorter"),
+    ("siemens-840d", ("SCALE X2 Y2",), "SCALE in program line 3 scales"),
+    ("siemens-840d", ("SCALE Z1\nASCALE X=2",), "ASCALE in program line 4 scales"),
+    ("siemens-840d", ("", "CUTCONON"), "CUTCONON in program line 4 suspends compensation"),
+    ("siemens-840d", ("KONT",), "KONT in program line 3 leads around the contour"),
+    ("siemens-840d", ("DISC=50",), "DISC= in program line 3 changes the way"),
+    ("siemens-840d", ("T1 D1 TOFFR=.3",), "TOFFR= in program line 3 adds to the radius"),
+    ("siemens-840d", ("", "OFFN=0.5"), "OFFN=0.5 in program line 4 adds to the radius"),
+    ("siemens-840d", ("OFFN=R1",), "OFFN= in program line 3 adds to the radius"),
+    ("heidenhain", ("CYCL DEF 26.0 SCALING\n5 CYCL DEF 26.1 SCL 2",), "CYCL DEF 26.1 in program line 5 scales"),
+    ("heidenhain", ("CYCL DEF 26.1 X+1.4 Y+0.6",), "CYCL DEF 26.1 in program line 4 scales"),
+    ("heidenhain", ("TOOL CALL 1 Z DR+Q5",), "TOOL CALL 1 Z DR in program line 4 adds to the radius"),
+    ("heidenhain", ("", "M98"), "M98 in program line 7 changes the way"),
+    ("heidenhain", ("", "", "L X-40 R+ FMAX"), "R+ in program line 11 compensates along one axis"),
+    ("fanuc-lathe", ("G51.1 Z0.",), "G51.1 in program line 2 turns the contour, but not the imaginary tip"),
+]
+
+
+@pytest.mark.parametrize(("control", "lines", "told"), REFUSED)
+def test_a_word_that_is_not_followed_leaves_no_path(control: str, lines: tuple[str, ...], told: str):
+    text = program(control, *lines)
+    log = json.loads(
+        call("check", text, control).stdout and call("check", text, control, *_tool(control), "--format", "json").stdout
+    )
+    (found,) = [each for each in log["diagnostics"] if each["code"] == "tool-not-followed"]
+    assert found["message"].startswith(told)
+    assert found["severity"] == "error"
+    done = call("expand", text, control, *_tool(control), "--inline")
+    assert (done.exit_code, done.stdout) == (1, "")
+    assert told in done.stderr
+
+
+def _tool(control: str) -> tuple[str, ...]:
+    return NOSE if control.endswith(("lathe", "lx3")) else R5
+
+
+@pytest.mark.parametrize(
+    ("control", "lines"),
+    [
+        ("fanuc-mill", ("G51 X0. Y0. P2000\nG50",)),
+        ("fanuc-mill", ("", "", "G51 X0. Y0. P2000")),
+        ("fanuc-mill", ("G68 X0. Y0. R30.",)),
+        ("fanuc-mill", ("(G51 P2)",)),
+        ("fanuc-mill", ("G51.1 X0.",)),
+        ("siemens-840d", ("SCALE X2 Y2\nSCALE",)),
+        ("siemens-840d", ("SCALE X2 Y2\nROT RPL=30",)),
+        ("siemens-840d", ("DISC=0",)),
+        ("siemens-840d", ("CUTCONON\nCUTCONOF",)),
+        ("heidenhain", ("CYCL DEF 26.1 SCL 2\n5 CYCL DEF 26.1 SCL 1",)),
+        ("heidenhain", ("CYCL DEF 11.1 SCL 1.000",)),
+        ("heidenhain", ("TOOL CALL 1 Z DR2:+0.5",)),
+        ("heidenhain", ("TOOL CALL 1 Z DR+0.5\n5 TOOL CALL 1 Z",)),
+    ],
+)
+def test_what_is_off_again_and_what_changes_no_offset_is_harmless(control: str, lines: tuple[str, ...]):
+    text = program(control, *lines)
+    log = json.loads(call("check", text, control, *R5, "--format", "json").stdout)
+    assert [each["code"] for each in log["diagnostics"] if each["code"].startswith("tool-")] == []
+
+
+@pytest.mark.parametrize(
+    ("control", "lines", "radius"),
+    [
+        ("heidenhain", ("TOOL CALL 1 Z S3000 DR+0.5",), 5.5),
+        ("heidenhain", ("TOOL CALL 1 Z DL+1 DR-0.25 DR2:+1",), 4.75),
+        ("heidenhain", ("TOOL CALL 1 Z DR+0.5\n5 TOOL CALL DR+0.2",), 5.2),
+        ("siemens-840d", ("OFFN=0.5",), 5.5),
+        ("siemens-840d", ("T1 D1 OFFN=-.5 TOFFR=0",), 4.5),
+        ("siemens-840d", ("OFFN=0.5\nOFFN=0",), 5.0),
+    ],
+)
+def test_what_adds_to_the_radius_is_followed(control: str, lines: tuple[str, ...], radius: float):
+    text = program(control, *lines)
+    assert wall(text, control) == pytest.approx(30 + radius)
+    assert ("tool-radius-added" in call("check", text, control).stdout) == (radius != 5.0)
+
+
+def test_a_radius_in_the_program_against_the_one_that_is_asked_for():
+    text = program("heidenhain", "TOOL DEF 1 L+0 R+{}")
+    told = "TOOL DEF 1 L+0 R+4 in program line 4 states a radius (assumed): here it is the cutter R5"
+    assert told in call("check", text.replace("{}", "4"), "heidenhain").stdout
+    assert "tool-radius-stated" not in call("check", text.replace("{}", "5"), "heidenhain").stdout
+    assert (
+        "G10 L12 P1 R4. in program line 3"
+        in call("check", program("fanuc-mill", "G10 L12 P1 R4."), "fanuc-mill").stdout
+    )
+    assert "$TC_DP6[1,1]=4" in call("check", program("siemens-840d", "$TC_DP6[1,1]=4"), "siemens-840d").stdout.upper()
+
+
+def test_scaling_is_refused_when_paths_are_compared(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(program("fanuc-mill", "G51 X0. Y0. P2000"))
+    name = str(tmp_path / "a.nc")
+    done = CliRunner().invoke(main, ["diff", "--control", "fanuc-mill", "--tool", "R5", name, name])
+    assert done.exit_code == 2
+    assert "G51 in program line 3 scales the contour" in done.stderr
+
+
+@pytest.mark.parametrize("control", ["fanuc-lathe", "haas-lathe", "yasnac-lx3"])
+@pytest.mark.parametrize(
+    ("word", "told"), [("T0100", "write T0101 for T0100"), ("T1200", "write T1212"), ("T0101", "")]
+)
+def test_a_lathe_without_an_offset(control: str, word: str, told: str):
+    done = call("check", program(control, word), control)
+    assert ("error[tool-no-offset]" in done.stdout, told in done.stdout) == (bool(told), True)
+
+
+def test_a_mill_without_d():
+    bare = program("fanuc-mill").replace(" D1", "")
+    assert "no D stands before G41" in call("check", bare, "fanuc-mill").stdout
+    assert "tool-no-d" not in call("check", f"D1\n{bare}", "fanuc-mill").stdout
+    assert "tool-no-d" not in call("check", program("siemens-840d").replace(" D1", ""), "siemens-840d").stdout
+
+
+def test_what_interrupts_a_contour_is_answered_in_the_words_of_the_control():
+    text = program("heidenhain", "", "\n7 CYCL DEF 7.0 NULLPUNKT\n7 CYCL DEF 7.1 X+10\n7 L X30 Y-20")
+    assert "help: write R0 before it" in call("check", text, "heidenhain").stdout
+    text = program("heidenhain").replace("L X-30 Y-20 RL", "APPR LCT X-30 Y-20 R5 RL")
+    told = call("check", text, "heidenhain").stdout
+    assert "APPR LCT in program line 5 leads to the contour" in told
+    assert "help: write L with RL or RR in its place" in told
+    assert "tool-interrupted" not in told
+    text = program("siemens-840d").replace("G01 X-30", "G247 X-30").replace("\nY30", "\nX-30 Y30")
+    assert "help: write G1 in its place, with G41, G42 or G40" in call("check", text, "siemens-840d").stdout
