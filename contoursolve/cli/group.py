@@ -48,6 +48,9 @@ class _Commands(click.Group):
             from contoursolve.output import harmless  # noqa: PLC0415 - only here
 
             vars(error)["message"] = harmless(error.message)
+            if isinstance(error, click.NoSuchOption) and error.option_name == "--tool":
+                told = "here the tool is a word: --word tool, or --vary tool=0.4:1.2:0.1"
+                raise click.UsageError(f"No such option '--tool'; {told}", error.ctx) from None
             raise
         except UserError as error:
             from contoursolve.cli.options import CouldNotRunError  # noqa: PLC0415 - the same

@@ -43,6 +43,8 @@ FINISHING, ROUGHING = ("G70",), ("G71", "G72", "G73")
 """The cycles that cut a profile once, along it, and those before it."""
 _G70 = 70
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
+_NO_COMPENSATION = 40
+
 _LINES = {0: Motion.RAPID, 1: Motion.FEED}
 _BESIDE = frozenset("NGFSTMDHEO")
 """Addresses that may stand beside the coordinates of a move and say nothing about its path."""
@@ -264,7 +266,9 @@ class _Follower:
             motion = _LINES.get(code.number, Motion.THREAD)
             beside = [word for word in block.words if not self._is_plain(word)]
             if beside and motion is not Motion.THREAD:
-                yield self._unfollowed(block, f"{beside[0].text.strip()} in a line")
+                is_off = any(word.address == "G" and word.number == _NO_COMPENSATION for word in block.words)
+                place = "beside G40, the direction of a wall" if is_off else "in a line"
+                yield self._unfollowed(block, f"{beside[0].text.strip()} {place}")
             elif any(
                 new is not None and (old is None or abs(new - old) > LENGTH) for old, new in zip(*ends, strict=True)
             ):

@@ -97,10 +97,13 @@ def _together(several: Sequence[ToolDrawing]) -> ToolDrawing:
         told = meanings.get(role, text)
         meanings[role] = told if text in told else f"{told}; {text}"
     joined = {
-        name: tuple(part for each in several for part in getattr(each, name))
+        # Passes at several depths lie on each other.
+        name: tuple(dict.fromkeys(part for each in several for part in getattr(each, name)))
         for name in ("parts", "cut", "remarks", "closeups")
     }
-    return replace(several[0], title="; ".join(each.title for each in several), meanings=meanings, **joined)
+    return replace(
+        several[0], title="; ".join(dict.fromkeys(each.title for each in several)), meanings=meanings, **joined
+    )
 
 
 def _beside(

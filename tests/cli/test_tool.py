@@ -1008,9 +1008,31 @@ def test_what_runs_again_is_told_once(tmp_path: Path):
     assert (told.count("tool-inside-corner"), told.count("= the same in 3 passes")) == (1, 1)
 
 
+@pytest.mark.parametrize("command", ["range", "sweep", "find"])
+def test_a_family_has_the_tool_as_a_word(command: str):
+    done = call(command, "--tool", "R5", "--block", "G01 X1.")
+    assert (done.exit_code, "here the tool is a word: --word tool, or --vary tool=" in done.stderr) == (2, True)
+
+
 def test_where_no_tool_fits_the_fix_is_no_smaller_one(tmp_path: Path):
     """An arc in the wrong sense begins where the line comes from."""
     blocks = ("G00 X0. Y-20.", "G41 D1 G01 Y0. F500", "Y30.", "G02 X-10. Y40. I-10. J0.", "G01 X-40.", "G40 Y80.")
     (tmp_path / "a.nc").write_text(lines(MILL[1], *blocks))
     told = call("check", "--tool", "R5", tmp_path / "a.nc").stdout
     assert "no cutter fits here\n  = help: check whether the contour goes back on itself" in told
+
+
+@pytest.mark.parametrize(
+    ("control", "words", "blocks"),
+    [
+        ("fanuc-mill", ("--tool", "R5"), ("G00 X-40. Y-20.", *ISLAND[:-1], "G40 X-50. Y-40. I-1. J0.")),
+        ("haas-lathe", NOSE, ("G00 X20. Z2.", *TURN[:-1], "G40 X45. Z-30. I1. K0.")),
+    ],
+)
+def test_two_letters_beside_g40_are_a_wall_and_no_corners(
+    control: str, words: tuple[str, ...], blocks: tuple[str, ...], tmp_path: Path
+):
+    (tmp_path / "a.nc").write_text(lines(control, *blocks))
+    told = call("check", *words, tmp_path / "a.nc").stdout
+    assert told.count("error[") == 1
+    assert "beside G40, the direction of a wall) interrupts the contour" in told

@@ -41,6 +41,8 @@ _SAME = 1e-9
 _Ways = tuple[complex | None, complex | None]
 """The directions in which an element begins and ends; None where they are not known."""
 
+_NO_COMPENSATION = 40
+
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _QUIET = (Effect.NONE, Effect.NO_MOTION, Effect.PLANE)
 _OWN_USE = (Effect.CORNER, Effect.SINGLE, Effect.NO_MOTION, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
@@ -117,6 +119,11 @@ class ChainFinder:
     def _signed_words(self, block: Block, here: State) -> list[Word]:
         """The words of a line that may make a corner whose sign tells which way the next line runs."""
         words = [word for word in block.words if word.address in self.language.corner.signed]
+        # Two letters beside G40 are the direction of the next wall (printed for Haas, assumed of others).
+        if len({word.address for word in words} & {"I", "J", "K"}) > 1 and any(
+            word.address == "G" and word.number == _NO_COMPENSATION for word in block.words
+        ):
+            return []
         return [
             word for word in words if here.motion == 1 and self.language.corner.signed_name(word.address, here.plane)
         ]
