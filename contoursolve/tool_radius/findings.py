@@ -179,7 +179,8 @@ class ToolRules(Struct, frozen=True):
         pieces, beside = made.pieces or (), [self.axes.index(axis) for axis in self.axes if axis not in own.plane.axes]
         first, last = own.travels[0], own.travels[-1]
         ways = (ToolFaultKind.ENTRY_THROUGH, own.lead, 0, first), (ToolFaultKind.EXIT_THROUGH, own.leaving, -1, last)
-        for kind, move, end, there in ways if pieces and own.is_stated and not self.settings.is_entry_offset else ():
+        is_told = pieces and own.is_stated and not own.broken and not self.settings.is_entry_offset
+        for kind, move, end, there in ways if is_told else ():
             at = place_of(move, self.axes, at_end=bool(end)) if move is not None and move.bend is None else (None, None)
             if move is None or at[0] is None or at[1] is None or (end and move.compensation in SIDES):
                 continue
@@ -318,8 +319,8 @@ class ToolFindings:
         faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
         self.broken.add(own.broken)
         rests = [each for each in told_of_path(tool_run.offset) if each not in tool_run.stops]
-        if any(each.kind is ToolFaultKind.BY_HAND for each in told):
-            # The path of a tool is no contour that one has to fit.
+        if own.is_plain or any(each.kind is ToolFaultKind.BY_HAND for each in told):
+            # The path of a tool is no contour that one has to fit; nor is what the tip alone makes.
             faults, rests = [], []
         told = [each for each in (*told, *faults) if (each.kind, self._word_of(own, each)) not in self.said]
         self.said |= {(each.kind, word) for each in told if (word := self._word_of(own, each))}
@@ -331,16 +332,20 @@ class ToolFindings:
         if any(own.tip):
             # The tip tells which side is meant: on the other one, all would be wrong.
             sides = [replace(own, side=side) for side in ([own.side] if self.wanted.side else ToolSide)]
-            rows = [(each, list(self._uncompensated(each))) for each in sides]
+            rows = [(each, [*self._uncompensated(each, is_bare=True)]) for each in sides]
             own, faults = min(rows, key=lambda row: (sum(abs(each.short or 0.0) for each in row[1]), row[0].side.value))
         made = OffsetPath(own.elements, own.radius, own.side.sign, rules.settings, own.levels)
         yield from (self._finding(ToolRun(own, made, rules, ()), each) for each in faults)
 
-    def _uncompensated(self, own: CuttingRun) -> Iterator[ToolFault]:
-        """The error of each element where the programmed point runs along a contour, or along another tool's path."""
+    def _uncompensated(self, own: CuttingRun, *, is_bare: bool = False) -> Iterator[ToolFault]:
+        """The error of each element where the programmed point runs along a contour, or along another tool's path.
+        Where nobody names the side, or the tip alone makes it, a line along an axis has none."""
         found = made_for(own)
         if found is None:
-            yield from uncompensated(own.elements, own.side.sign, own.radius, own.tip)
+            for each in uncompensated(own.elements, own.side.sign, own.radius, own.tip):
+                is_plain = any(own.tip) and min(map(abs, direction(own.elements[each.element], at_end=False))) <= LENGTH
+                if not (is_bare or own.is_plain) or not is_plain or isinstance(own.elements[each.element], ArcSegment):
+                    yield each
             yield from stub(own.elements, own.side.sign, own.radius, own.tip)
             return
         made, begin, end = found
@@ -389,7 +394,9 @@ class ToolFindings:
         """The numbers and names of a message."""
         element, unit, short = own.elements[fault.element], own.unit, fault.short or 0.0
         back, on = (length_in(each, unit) for each in fault.rest)
-        name, last = "arc" if isinstance(element, ArcSegment) else "line", fault.working or fault.element
+        # Of a word, its number stands in the place of an element.
+        working = 0 if fault.kind in _OF_WORDS else fault.working or 0
+        name, last = "arc" if isinstance(element, ArcSegment) else "line", working or fault.element
         said, codes = self._word_of(own, fault), {f"G{n}": self.dialect.modes.codes[n].text for n in (40, 41, 42)}
         lines = " to ".join(str(own.travels[number].line) for number in (fault.element, last))
         return {
@@ -415,7 +422,7 @@ class ToolFindings:
             "length": length_in(fault.length, unit),
             "needs": length_in(fault.length + short, unit),
             "wall": str(own.travels[fault.element].line),
-            "line": str(own.travels[fault.working or 0].line),
+            "line": str(own.travels[working].line),
             "begin": str(own.lines[0]),
             "tip": str(own.tool.tip),
             "side": own.side.value,

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from contoursolve.comparison import ROUGHING, Motion, Step, ToolPath, Travel, Unfollowed, in_cycle
 from contoursolve.controls import TOOL_FACTS, ToolEffect, ToolFacts
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry import Length, Plane, Turn
+from contoursolve.geometry import Length, Plane, Turn, cross
 from contoursolve.reading import Dialect, Effect, rows_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
@@ -323,18 +323,17 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
     )
     if made.is_stated or not any(made.tip) or not _is_plain(made.elements):
         return made
-    way = direction(made.elements[0], at_end=False)
     # The tip is clear of it on the one side only.
-    is_against = own.sign * (way[0] * made.tip[1] - way[1] * made.tip[0]) > LENGTH
+    against = [own.sign * cross(direction(each, at_end=False), made.tip) > LENGTH for each in made.elements]
     turned = ToolSide.RIGHT if own is ToolSide.LEFT else ToolSide.LEFT
-    return replace(made, side=turned, is_plain=True) if is_against else made
+    return replace(made, side=turned if against[0] else own, is_plain=True) if any(against) else made
 
 
 def _is_plain(elements: Sequence[Segment]) -> bool:
-    """Whether elements are one straight move along an axis."""
+    """Whether elements are one straight move along an axis, perhaps there and back."""
     ways = [direction(each, at_end=False) for each in elements]
     is_straight = not any(isinstance(each, ArcSegment) for each in elements)
-    return is_straight and all(min(map(abs, way)) <= LENGTH and dist(way, ways[0]) <= LENGTH for way in ways)
+    return is_straight and all(min(map(abs, way)) <= LENGTH and abs(cross(way, ways[0])) <= LENGTH for way in ways)
 
 
 def _is_turned(plane: Plane, tool: Tool) -> bool:

@@ -916,6 +916,10 @@ ISLAND = ("G41 D1 G01 X-30. F500", "Y30.", "X30.", "Y-30.", "X-40.", "G40 Y-50."
         (("T0101", "G00 X20. Z2.", *TURN, "G00 X42. Z0.", "G01 X0.", "G00 Z2."), {"10: tool-stub"}),
         (("T0101", "G00 X42. Z0.", "G01 X-1.6", "G00 X20. Z2.", *TURN), set()),
         (("G00 X20. Z2.", *TURN, "G00 X42. Z-20.", "G01 X30.", "G00 X42."), set()),
+        (
+            ("G00 X20. Z2.", *TURN, "G00 X42. Z-20.", "G01 X30.", "X42.", "G00 Z-24.", "G01 X30.", "Z-20.", "X42."),
+            set(),
+        ),
     ],
 )
 def test_what_cuts_without_compensation_beside_a_contour_with_it(
@@ -984,7 +988,15 @@ def test_check_sees_the_path_by_hand_in_what_expand_writes(
     assert (done.exit_code, "tool-by-hand" in done.stdout, done.stdout.count("[tool-")) == (0, True, 1), done.stdout
 
 
-@pytest.mark.parametrize("blocks", [("G00 X62. Z0.", "G01 X-1.6"), ("G00 X42. Z-20.", "G01 X30.", "G04 X0.5")])
+@pytest.mark.parametrize(
+    "blocks",
+    [
+        ("G00 X62. Z0.", "G01 X-1.6"),
+        ("G00 X42. Z-20.", "G01 X30.", "G04 X0.5"),
+        ("G00 X42. Z-20.", "G01 X30.", "X42."),
+        ("G00 X0. Z2.", "G01 Z-20.", "Z2."),
+    ],
+)
 def test_a_face_or_a_groove_by_the_tip_alone_is_right_on_either_side(blocks: tuple[str, ...], tmp_path: Path):
     (tmp_path / "a.nc").write_text(text := lines("fanuc-lathe", *blocks, "G00 X62. Z2."))
     for side in ("left", "right"):
@@ -1036,3 +1048,17 @@ def test_two_letters_beside_g40_are_a_wall_and_no_corners(
     told = call("check", *words, tmp_path / "a.nc").stdout
     assert told.count("error[") == 1
     assert "beside G40, the direction of a wall) interrupts the contour" in told
+
+
+def test_several_words_that_are_not_followed_beside_a_short_contour(tmp_path: Path):
+    blocks = (
+        "0 BEGIN PGM A MM",
+        "1 TOOL CALL 1 Z S3000",
+        "2 L X-40 R+ FMAX",
+        "3 L Y-20 R- FMAX",
+        "4 L X-30 Y-20 RL F500",
+    )
+    blocks = (*blocks, "5 L Y+30 RL", "6 L X+30 RR", "7 L Y-30", "8 L Y-60 R0", "9 END PGM A MM")
+    (tmp_path / "a.h").write_text("\n".join(blocks) + "\n")
+    done = call("check", "--control", "heidenhain", "--tool", "R4", tmp_path / "a.h")
+    assert done.exit_code == 1, done.output
