@@ -49,6 +49,8 @@ _LINES = {0: Motion.RAPID, 1: Motion.FEED}
 _BESIDE = frozenset("NGFSTMDHEO")
 """Addresses that may stand beside the coordinates of a move and say nothing about its path."""
 _BESIDE_MACRO = re.compile(r"^[\s/]*N\d+|\([^)]*\)|;.*")
+_ABSOLUTE = "{}=AC"
+"""A centre that is no increment, `I=AC(20)`."""
 _NAMES = frozenset("DGHMNOPST")
 """Addresses whose numbers are names or counts: a decimal point changes nothing."""
 
@@ -286,7 +288,8 @@ class _Follower:
 
     def _arc(self, block: Block, here: State, turn: Turn) -> Step:
         """An arc by its centre or its radius, or why it is none."""
-        beside = [word for word in block.words if not self._is_plain(word, (*here.plane.centers, self.modes.radius))]
+        own = (*here.plane.centers, *map(_ABSOLUTE.format, here.plane.centers), self.modes.radius)
+        beside = [word for word in block.words if not self._is_plain(word, own)]
         if beside:
             return self._unfollowed(block, f"{beside[0].text.strip()} in an arc of {here.plane.code}")
         ends = self._place(here), self._place(self.state)
@@ -307,8 +310,9 @@ class _Follower:
                 return self._unfollowed(block, "R is too small for the arc, or the arc ends where it starts")
         else:
             base = start if self.centers is Centers.START else (0.0, 0.0)
-            first, second = (values.get(address, 0.0) for address in here.plane.centers)
-            center = base[0] + first, base[1] + second
+            ways = zip(here.plane.centers, base, strict=True)
+            first, second = (values.get(_ABSOLUTE.format(each), at + values.get(each, 0.0)) for each, at in ways)
+            center = first, second
         bend, unit = bend_of(indices, center, start, end, turn), here.unit.value
         if abs(bend.radii[0] - bend.radii[1]) > self.modes.radius_difference or not min(bend.radii):
             one, other = (value / float(here.unit.in_mm) for value in bend.radii)
@@ -321,9 +325,12 @@ class _Follower:
         """The centre or the radius that a block states, mm; None if it states none, or one that has no number."""
         lexicon: Lexicon = self.modes.words(here)
         values: dict[str, float] = {}
+        absolute, own = [*map(_ABSOLUTE.format, here.plane.centers)], (*here.plane.centers, self.modes.radius)
         for word in block.words:
-            if word.address in (*here.plane.centers, self.modes.radius):
+            if word.address in (*own, *absolute):
                 value = lexicon.value(word, here.unit) if word.address in lexicon.addresses else None
+                if word.address in absolute and word.number is not None and not any(here.plane.diameters):
+                    value = word.number * here.unit.in_mm
                 if value is None or word.address in values:
                     return None
                 values["R" if word.address == self.modes.radius else word.address] = float(value)

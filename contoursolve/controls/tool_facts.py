@@ -72,7 +72,7 @@ def _code(numbers: str) -> str:
 
 _ADDS, _STATES, _TURNS = ToolEffect.ADDS, ToolEffect.STATES, ToolEffect.TURNS
 _NEVER, _NUMBER = r"(?!)", r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+))"
-_OTHER = r"(?!\s*0*\.?0*\s*(?:[A-Z]|$))"
+_OTHER = r"(?!\s*0*\.?0*\s*(?:[A-Z]|$))\S*"
 """A number other than 0."""
 _ADDED, _SOFT = "adds to the radius", "leads to the contour, or away from it, along a path of its own"
 _STATED = "states a radius", "state that one with --tool, or take it out", _STATES

@@ -136,6 +136,8 @@ class MovedExpander(Expander):
             last = written.pop() if written else MotionBlock(state.motion or 0, (), self.here or (0.0, 0.0), 0.0)
             written.append(last._replace(words=(*last.words, *texts)))
         bare = self._without_compensation(block)
+        # An absolute centre, I=AC(20), is a part of the arc.
+        bare = replace(bare, words=tuple(word for word in bare.words if not word.address.endswith("=AC")))
         end = self.lines.take_end(block.line)
         text = self._write(block, written, end, state, bare)
         yield block.text + end if text.endswith("\n" + block.text + end) else text

@@ -75,8 +75,8 @@ REFUSED = [
     ("siemens-840d", ("SCALE Z1\nASCALE X=2",), "ASCALE in program line 4 scales"),
     ("siemens-840d", ("", "CUTCONON"), "CUTCONON in program line 4 suspends compensation"),
     ("siemens-840d", ("KONT",), "KONT in program line 3 leads around the contour"),
-    ("siemens-840d", ("DISC=50",), "DISC= in program line 3 changes the way"),
-    ("siemens-840d", ("T1 D1 TOFFR=.3",), "TOFFR= in program line 3 adds to the radius"),
+    ("siemens-840d", ("DISC=50",), "DISC=50 in program line 3 changes the way"),
+    ("siemens-840d", ("T1 D1 TOFFR=.3",), "TOFFR=.3 in program line 3 adds to the radius"),
     ("siemens-840d", ("", "OFFN=0.5"), "OFFN=0.5 in program line 4 adds to the radius"),
     ("siemens-840d", ("OFFN=R1",), "OFFN= in program line 3 adds to the radius"),
     ("heidenhain", ("CYCL DEF 26.0 SCALING\n5 CYCL DEF 26.1 SCL 2",), "CYCL DEF 26.1 in program line 5 scales"),
@@ -191,5 +191,27 @@ def test_what_interrupts_a_contour_is_answered_in_the_words_of_the_control():
     assert "APPR LCT in program line 5 leads to the contour" in told
     assert "help: write L with RL or RR in its place" in told
     assert "tool-interrupted" not in told
-    text = program("siemens-840d").replace("G01 X-30", "G247 X-30").replace("\nY30", "\nX-30 Y30")
+    text = program("siemens-840d").replace("G01 X-30", "G247 X-30").replace("\nY30", "\nG1 X-30 Y30")
     assert "help: write G1 in its place, with G41, G42 or G40" in call("check", text, "siemens-840d").stdout
+
+
+ARC = "G17 G90 G71\nG0 X5 Y0\nG41 D1 G1 X20 Y0 F500\nG3 X-20 Y0 {}\nG3 X20 Y0 I=AC(0)\nG40 G1 X5 Y0\nM30\n"
+
+
+@pytest.mark.parametrize("center", ["I-20 J0", "I=AC(0) J=AC(0)", "I=AC(0)", "J=AC(0) I-20", "I=AC( 0.0 ) J0", "CR=20"])
+def test_a_centre_may_be_absolute(center: str, tmp_path: Path):
+    text = ARC.format(center)
+    assert "contour solved, no problems" in call("check", text, "siemens-840d", "--tool", "R5").stdout.replace(
+        "1 info", "no problems"
+    )
+    assert "X-15 Y0 I-15 J0" in call("expand", text, "siemens-840d").stdout
+    one, other = tmp_path / "one.mpf", tmp_path / "other.mpf"
+    one.write_text(text)
+    other.write_text(ARC.format("CR=20"))
+    done = CliRunner().invoke(main, ["diff", "--control", "siemens-840d", str(one), str(other)])
+    assert done.exit_code == 0, done.output
+    wrong = ARC.format("I=AC(1)")
+    assert (
+        "the radius of the arc is"
+        in CliRunner().invoke(main, ["check", "--control", "siemens-840d", "--tool", "R5", "-"], input=wrong).output
+    )
