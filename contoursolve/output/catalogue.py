@@ -107,7 +107,7 @@ _FACTS = (
     ("angle from line 1 to line 2 = -60", "the change of direction of travel, counter-clockwise positive"),
     ("line 2 passes through (Z-40. X80.)", "a place on the whole line, or on the whole circle of an arc or a rounding"),
     ("line 2 passes beside (Z-40. X80.) at 5", "or a place beside it, at a distance, on either side"),
-    ("end of line 4 lies on line 1", "the begin, end or center of an element is on the whole of another one"),
+    ("end of line 2 lies on line 1", "the begin, end or center of an element is on the whole of another one"),
     ("end of line 2 lies on line (Z0. X30. A180.)", "or on a given line or circle: as far as that"),
     ("line 3 parallel to line 1", "two lines run in the same direction, or against each other"),
     ("line 3 parallel to line 1 at 10", "and at a distance, on either side; at 0 both lie on one line"),

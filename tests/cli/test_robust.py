@@ -30,6 +30,7 @@ def run(*arguments: str, status: int | None = None, says: str = "") -> Result:
 
 
 ARCS = "G17 G90 G00 X0. Y0.\nG02 I20. J0. R20. F500\nG03 X80. Y0. R25. H0\n"
+SKETCH = 'sketch = 1\npart = "milled"\nstart = { X = 0, Y = 0 }\n[[element]]\nkind = "line"\nX = 20\nAN = 30\n'
 CHAIN = "--start|X0 Y0|--block|FL AN+0 LEN20|--block|FCT DR+ R10 CCA+0|--block|FLT LEN10|--control|heidenhain"
 
 
@@ -44,6 +45,7 @@ CHAIN = "--start|X0 Y0|--block|FL AN+0 LEN20|--block|FCT DR+ R10 CCA+0|--block|F
         (f"range|{CHAIN}|--word|2:R", 0),
         (f"find|{CHAIN}|--word|2:R|--bring|P3 Y20", 0),
         (f"sensitivity|{CHAIN}", 0),
+        ("write|sketch.toml|--to|fanuc-mill", 0),
     ],
     ids=lambda value: value.partition("|")[0] if isinstance(value, str) else "",
 )
@@ -52,6 +54,7 @@ def test_nothing_but_the_document_is_on_standard_output(tmp_path, monkeypatch, c
     monkeypatch.chdir(tmp_path)
     Path("arcs.nc").write_text(ARCS)
     Path("other.nc").write_text(ARCS.replace("R25", "R26"))
+    Path("sketch.toml").write_text(SKETCH)
     if words.startswith("verify"):
         Path("arcs.json").write_text(run("solve", "arcs.nc", "--control", "mitsubishi", "--format", "json").output)
     with pytest.raises(SystemExit) as ended:
