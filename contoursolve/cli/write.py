@@ -26,6 +26,9 @@ from contoursolve.sketches import (
 )
 
 
+SCHEMA = "contoursolve/write/1"
+
+
 @click.command(short_help="Write a sketch as a program for a control.")
 @click.argument("sketch", metavar="SKETCH")
 @control_option("For which control. Without it, a table has the shortest words for each control.", "--to")
@@ -85,7 +88,7 @@ def write(
         context.exit(FOUND_ERRORS)
     found = several[0]
     if format_ == "json":
-        click.echo(json_text([_data(each) for each in several]))
+        click.echo(json_text({"schema": SCHEMA, "written": [_data(each) for each in several]}))
         context.exit(0 if to is None or found.candidates else COULD_NOT_RUN)
     elif to is None:
         print_lines(_table_lines(several))
