@@ -25,7 +25,6 @@ from contoursolve.sketches import (
     write_for_all,
 )
 
-
 SCHEMA = "contoursolve/write/1"
 
 
