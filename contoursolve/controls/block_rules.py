@@ -276,7 +276,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.MOVE_IN_INCREMENTS,
         severity=Severity.WARNING,
-        note="told by check --strict, of blocks outside contours",
+        note="told by check --strict, of blocks outside contours; with --tool, of all moves beside one",
         accepted=(_GOOD,),
         rejected=(),
     ),

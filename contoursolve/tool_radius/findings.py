@@ -12,12 +12,14 @@ from msgspec.structs import replace
 from contoursolve.comparison import ToolPath, follow
 from contoursolve.controls import TOOL_FACTS, ToolEffect, ToolFacts
 from contoursolve.diagnosis import (
+    Context,
     angle_text,
     apply_edits,
     change,
     coordinates,
     join,
     length_in,
+    move_without_point,
     rank,
     write_word,
     written,
@@ -269,6 +271,7 @@ def look_at_tool(result: Result, asked: Request, wanted: ToolRequest, axes: tupl
         raise nothing_cut(path)
     told, made = ToolFindings(result, dialect, asked, wanted), tuple(map(rules.at, runs))
     found = [each for number, tool_run in enumerate(made) for each in told.of(tool_run, is_first=not number)]
+    found += [each for tool_run in made for each in told.of_points(tool_run.run) if each not in result.diagnostics]
     for own in find_bare(path, wanted, dialect, runs) if runs and runs[0].is_stated else ():
         found += told.of_bare(own if own.is_lathe else replace(own, side=runs[0].side), rules)
     return ToolReport(made, tuple(sorted(_once(found), key=rank)), path)
@@ -325,6 +328,23 @@ class ToolFindings:
         told = [each for each in (*told, *faults) if (each.kind, self._word_of(own, each)) not in self.said]
         self.said |= {(each.kind, word) for each in told if (word := self._word_of(own, each))}
         yield from (self._finding(tool_run, fault) for fault in (*told, *rests))
+
+    def of_points(self, own: CuttingRun) -> Iterator[Diagnostic]:
+        """The coordinates without a decimal point that count least increments, where others of its moves have one."""
+        moves = [each for each in (own.lead, *own.travels, own.leaving) if each and not each.element and not each.file]
+        blocks = {each.line: self.blocks[each.line] for each in moves if each.line in self.blocks}
+        lexicon, shapes = self.dialect.modes.lexicon, {*own.plane.centers, self.dialect.modes.radius}
+        rows = lexicon.addresses
+        words = {
+            line: [
+                word for word in block.words if (row := rows.get(word.address)) and (row.axis or word.address in shapes)
+            ]
+            for line, block in blocks.items()
+        }
+        if any(word.has_point for each in words.values() for word in each):
+            for line, block in blocks.items():
+                context = Context(self.asked.rules, own.unit, place=block.span)
+                yield from move_without_point(context, words[line], lexicon, own.unit)
 
     def of_bare(self, own: CuttingRun, rules: ToolRules) -> Iterator[Diagnostic]:
         """The findings about moves that a program with compensation makes without it."""

@@ -215,3 +215,17 @@ def test_a_centre_may_be_absolute(center: str, tmp_path: Path):
         "the radius of the arc is"
         in CliRunner().invoke(main, ["check", "--control", "siemens-840d", "--tool", "R5", "-"], input=wrong).output
     )
+
+
+def test_a_missing_decimal_point_is_told_of_the_moves_of_a_tool():
+    text = program("fanuc-lathe", "T0101").replace("X30. Z-10.", "X30 Z-10.")
+    told = "X30 has no decimal point and is read as 0.030 mm; X30. would be 30.000 mm"
+    for more in ((), ("--strict",)):
+        done = call("check", text, "fanuc-lathe", *NOSE, *more)
+        assert (done.exit_code, done.stdout.count(told)) == (0, 1)
+        assert "warning[move-in-increments]" in done.stdout
+    assert "move-in-increments" in call("expand", text, "fanuc-lathe").stderr
+    assert "move-in-increments" not in call("check", text.replace("X30 ", "X30. "), "fanuc-lathe").stdout
+    # A program that writes no points at all, and one beside whose numbers none is missed.
+    assert "move-in-increments" not in call("check", text.replace("X30 ", "X30000 "), "fanuc-lathe").stdout
+    assert "move-in-increments" not in call("check", program("siemens-840d"), "siemens-840d").stdout
