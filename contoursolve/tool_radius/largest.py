@@ -44,6 +44,9 @@ class ToolTrials:
 
     def __init__(self, result: Result, asked: Request, wanted: ToolRequest) -> None:
         dialect, self.path, self.rules, self.runs = runs_beside(result, asked, replace(wanted, default=_UNSTATED))
+        for each in (word for own in self.runs for word in own.added if word.number):
+            told = f"{each.text} in program line {each.line} {each.row.meaning}"
+            raise ToolError(f"{told}, so that no radius is that of the tool alone; take it out")
         self.told = ToolFindings(result, dialect, asked, wanted)
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
 

@@ -144,6 +144,8 @@ def test_what_is_off_again_and_what_changes_no_offset_is_harmless(control: str, 
 def test_what_adds_to_the_radius_is_followed(control: str, lines: tuple[str, ...], radius: float):
     text = program(control, *lines)
     assert wall(text, control) == pytest.approx(30 + radius)
+    found = CliRunner().invoke(main, ["find", "--word", "tool", "--control", control, "-"], input=text)
+    assert ("adds to the radius, so that no radius is that of the tool alone" in found.stderr) == (radius != 5.0)
     assert ("tool-radius-added" in call("check", text, control).stdout) == (radius != 5.0)
 
 
