@@ -18,6 +18,7 @@ class ToolEffect(Enum):
     STATES = "its number is the radius of a tool"
     STOPS = "the path is another one, which is not followed"
     TURNS = "the same, where the programmed point is an imaginary tip"
+    BEHIND = "the same, where the way to the contour begins behind it, or the way away ends there"
 
 
 class ToolWord(Struct, frozen=True):
@@ -97,8 +98,8 @@ _SIEMENS_WORDS = (
     ToolWord(r"\bA?SCALE\b(?!(?:\s*[XYZ]=?\s*1(?:\.0*)?)*\s*$)", _FRAMES, *_UNSCALED),
     ToolWord(r"\bA?(?:ROTS?|MIRROR)\b(?=\s+[A-Z])", _FRAMES, *_TURNED),
     ToolWord(r"\bCUTCONON\b", r"\bCUTCONOF\b", "suspends compensation", "write G40, and G41 or G42 behind it"),
-    ToolWord(r"\bKONT\b", r"\bNORM\b|\bKONT[CT]\b", "leads around the contour, if the way begins behind it",
-             "begin before the contour, and write NORM"),
+    ToolWord(r"\bKONT\b", r"\bNORM\b|\bKONT[CT]\b", "leads around the contour from behind it",
+             "begin, and end, on the side of the tool", ToolEffect.BEHIND),
     ToolWord(r"\bKONT[CT]\b", r"\bNORM\b|\bKONT\b", _SOFT, "write NORM"),
     ToolWord(rf"\bDISC\s*={_OTHER}", r"\bDISC\s*=", *_ROUND),
     ToolWord(r"\bCUT(?:3D\w*|2DFD?)\b", r"\bCUT2D\b", "compensates in space", "write CUT2D"),

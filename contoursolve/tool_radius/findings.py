@@ -219,7 +219,7 @@ class ToolRules(Struct, frozen=True):
                 yield ToolFault(ToolFaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length)
         if (entry := self.entry_of(each)) is not None:
             yield from (replace(fault, element=0) for fault in entry.stops)
-        yield from (fault for fault in _of_words(each) if self.is_error(fault.kind))
+        yield from (fault for fault in _of_words(each, self.axes) if self.is_error(fault.kind))
         is_told = any(word.line == each.broken for word in each.words)
         if each.broken and each.is_stated and not is_told:
             yield ToolFault(ToolFaultKind.OTHER_TOOL if each.is_changed else ToolFaultKind.INTERRUPTED, 0)
@@ -233,7 +233,7 @@ class ToolRules(Struct, frozen=True):
             yield from (fault for fault in own if each.levels[fault.element] > 0)
 
 
-def _of_words(own: CuttingRun) -> Iterator[ToolFault]:
+def _of_words(own: CuttingRun, axes: Sequence[str]) -> Iterator[ToolFault]:
     """The faults of the words in force that change the radius, or compensation."""
     for number, each in enumerate(own.words):
         kind, is_told = ToolFaultKind.NOT_FOLLOWED, True
@@ -245,7 +245,21 @@ def _of_words(own: CuttingRun) -> Iterator[ToolFault]:
                 is_told = abs(float(stated) * float(own.unit.in_mm) - own.radius) > LENGTH
             case ToolEffect.TURNS:
                 is_told = any(own.vector)
+            case ToolEffect.BEHIND:
+                is_told = _is_behind(own, axes)
         yield from [ToolFault(kind, 0, working=number)] * is_told
+
+
+def _is_behind(own: CuttingRun, axes: Sequence[str]) -> bool:
+    """Whether the way to a contour begins behind its first element, or the way away ends behind the last; or nobody
+    knows that."""
+    first, last = own.elements[0], own.elements[-1]
+    for move, element, (c, d), at_end in ((own.lead, first, first.start, False), (own.leaving, last, last.end, True)):
+        a, b = place_of(move, axes, at_end=at_end) if move is not None else (c, d)
+        along, across = direction(element, at_end=at_end)
+        if a is None or b is None or own.side.sign * ((b - d) * along - (a - c) * across) < -LENGTH:
+            return True
+    return False
 
 
 def with_radius(own: CuttingRun, radius: float) -> CuttingRun:
@@ -313,7 +327,7 @@ class ToolFindings:
         told = [ToolFault(ToolFaultKind.APPROACH, 0)] if own.is_approached else []
         told += [ToolFault(ToolFaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
         told += [] if own.is_stated else self._uncompensated(own)
-        told += [fault for fault in _of_words(own) if not tool_run.rules.is_error(fault.kind)]
+        told += [fault for fault in _of_words(own, tool_run.rules.axes) if not tool_run.rules.is_error(fault.kind)]
         told += [ToolFault(ToolFaultKind.NO_D, 0)] if own.lacks_d else []
         told += [ToolFault(ToolFaultKind.NO_RADIUS, 0)] if own.radius <= LENGTH else []
         told += [ToolFault(ToolFaultKind.STILL_ON, len(own.elements) - 1)] if own.still_on else []
