@@ -12,7 +12,7 @@ from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
 from contoursolve.pictures.page import About, TextRun, visible
 from contoursolve.pictures.scene import Closeup, Scene, ToolDrawing, Trail, Weight, axis_names, coordinates, number
-from contoursolve.pictures.subject import Subject, fitting, subject_of, trace_known
+from contoursolve.pictures.subject import Subject, fitting, shared_part, subject_of, trace_known
 from contoursolve.pictures.theme import Role
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import SAME, ArcSegment, Contour, Point, distance, trace
@@ -35,11 +35,18 @@ MOST_ELEMENTS = 24
 """Elements that are told in words."""
 
 
-def compose(answer: Answer, title: str | None = None, beside: Sequence[ToolDrawing] = ()) -> Scene:
-    """The scene of one contour, whatever its status, with what else is drawn in its plane."""
+def compose(
+    answer: Answer, title: str | None = None, beside: Sequence[ToolDrawing] = (), *, is_shared: bool = False
+) -> Scene:
+    """The scene of one contour, whatever its status, with what else is drawn in its plane. If `is_shared`, of several
+    contours that fit only what they share."""
     subject = subject_of(answer)
+    ghosts: list[Trail]
+    if is_shared and subject.known.variants:
+        subject, ghosts, others = shared_part(subject), [], {}
+    else:
+        ghosts, others = _other_ways(subject) if subject.is_chain else _ghosts(subject)
     noted = noted_points(subject)
-    ghosts, others = _other_ways(subject) if subject.is_chain else _ghosts(subject)
     scene = Scene(
         title=title if title is not None else title_of(answer),
         axes=axis_names(answer.plane, answer.unit),

@@ -86,6 +86,33 @@ class Known(Struct, frozen=True):
         """One coordinate of a point, mm."""
         return self.points[point][axis] if point in self.points else self.scalars.get(scalar(point, axis))
 
+    def shared(self) -> "Known":
+        """Only what is the same in all variants."""
+        values = [each._values() for each in (self, *self.variants)]
+        same = {
+            name: value
+            for name, value in values[0].items()
+            if all(name in other and abs(other[name] - value) <= SAME for other in values[1:])
+        }
+        points, rest = by_point(self.points, same)
+        corners = {
+            name: each
+            for name, each in self.corners.items()
+            if all(name in other.corners and _is_at(each, other.corners[name]) for other in self.variants)
+        }
+        radii = {name: each for name, each in self.radii.items() if name in same}
+        rest |= {name: each for name, each in self.scalars.items() if name in same}
+        return Known(points, radii, corners, self.refusals, self.placed, scalars=rest)
+
+    def _values(self) -> dict[str, float]:
+        """All numbers by name."""
+        places = {scalar(name, axis): at[axis] for name, at in self.points.items() for axis in (FIRST, SECOND)}
+        return {**places, **self.radii, **self.scalars}
+
+
+def _is_at(one: CornerSolution, other: CornerSolution) -> bool:
+    return max(distance(one.begin, other.begin), distance(one.end, other.end)) <= SAME
+
 
 def known_of(solution: Solution) -> Known:
     """All that a solution says."""

@@ -213,6 +213,12 @@ def subject_of(answer: Answer) -> Subject:
     )
 
 
+def shared_part(subject: Subject) -> Subject:
+    """The subject with only what all contours share that fit."""
+    trails = tuple(each for each in subject.trails if each.role is not Role.SEVERAL)
+    return replace(subject, known=subject.known.shared(), trails=trails)
+
+
 def named_words(answer: Answer) -> dict[Span, About]:
     """Subjects of words and facts, by place: the key of each, and the errors and warnings that point at it."""
     keys = word_keys(answer.claim.words.values())

@@ -16,6 +16,7 @@ from contoursolve.diagnosis import (
     Listed,
     join,
     list_solutions,
+    status_text,
 )
 from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.pictures import find_known, in_part, list_trails
@@ -118,6 +119,14 @@ class SketchAnswer(Struct, frozen=True):
     def is_finished(self) -> bool:
         """Whether it has one contour, and nothing is missing."""
         return self.answer is not None and self.answer.contour is not None and not self.missing
+
+    @property
+    def said(self) -> str:
+        """Its state in one line: what is missing or wrong, or that it is finished."""
+        if self.missing or self.is_finished:
+            return self.missing or "the contour is finished"
+        errors = (each.message for each in self.findings if each.severity is Severity.ERROR)
+        return next(errors, f"the contour is {status_text(Status(self.status))}")
 
 
 def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchAnswer:
@@ -255,7 +264,7 @@ class _Reading:
         if ranked[0][0] == inf:
             return None
         if ranked[1][0] - ranked[0][0] <= AGREEMENT:
-            self.remarks.append("two solutions are equally near to the guess: put it nearer to one of them")
+            self.remarks.append("two contours are equally near to the guess: put it nearer to one of them")
             return None
         return several[ranked[0][1]]
 
@@ -281,7 +290,7 @@ class _Reading:
             apart = {n: min(dist(at[head], other[head]) for other in others) for n, head in self.heads.items()}
             element = next((n for n, gap in apart.items() if gap > AGREEMENT), max(apart, key=lambda n: apart[n]))
             place = written_place(self.answer, at[self.heads[element]])
-            yield SketchSolution(f"solution {number}", each.contour.elements, each is chosen, (element, place))
+            yield SketchSolution(f"contour {number}", each.contour.elements, each is chosen, (element, place))
 
     # States --------------------------------------------------------------------------------------------------
 

@@ -24,12 +24,18 @@ from contoursolve.sketches.sketch import ContourSketch
 from contoursolve.sketches.sketch_file import plain_element
 from contoursolve.solving import ArcSegment, LineSegment, Segment, middle
 
-_ROLES = {
-    PartState.KNOWN: Role.INK,
-    PartState.SLIDING: Role.FREE,
-    PartState.CONTRADICTING: Role.CONFLICTING,
-    PartState.GUESSED: Role.GUESSED,
-    PartState.UNKNOWN: Role.MUTED,
+_STATES = {
+    PartState.KNOWN: (Role.INK, "known"),
+    PartState.SLIDING: (Role.FREE, "can still slide"),
+    PartState.CONTRADICTING: (Role.CONFLICTING, "contradicts the rest"),
+    PartState.GUESSED: (Role.GUESSED, "chosen by your guess"),
+    PartState.UNKNOWN: (Role.MUTED, "open"),
+}
+"""The colour role of each state, and its name: the same in a picture, its legend and a list."""
+
+_MEANINGS = {
+    Role.SEVERAL: "one of several contours",
+    **{role: name for role, name in _STATES.values() if role not in (Role.INK, Role.MUTED)},
 }
 
 
@@ -41,14 +47,14 @@ def draw_sketch(found: SketchAnswer, *, theme: Theme = Theme.LIGHT) -> Picture |
     """
     if found.answer is None:
         return None
-    title = found.missing or f"sketch: {found.status}"
-    return draw_sketched(found.answer, [*_drawn(found)], title, " ".join(_told(found)), theme=theme)
+    told = " ".join(_told(found))
+    return draw_sketched(found.answer, [*_drawn(found)], found.said, told, meanings=_MEANINGS, theme=theme)
 
 
 def _drawn(found: SketchAnswer) -> Iterator[Part]:
     assert found.answer is not None
     for each in found.elements:
-        role = _ROLES[each.state]
+        role, _ = _STATES[each.state]
         for number, way in enumerate(each.ways):
             pieces = (LineSegment(f"way {number}", *ends) for ends in pairwise(way))
             yield Trail(tuple(pieces), role, Weight.GHOST)
@@ -57,13 +63,29 @@ def _drawn(found: SketchAnswer) -> Iterator[Part]:
         if each.segment is not None and each.off_mm is not None:
             text = f"off by {length_text(each.off_mm, found.answer.unit)}"
             yield Mark(middle(each.segment)[0], MarkKind.OTHER, (TextRun(text, role),), role=role)
+    if not any(each.is_chosen for each in found.solutions):
+        yield from _several(found)
+
+
+def _several(found: SketchAnswer) -> Iterator[Part]:
+    """All contours that fit, thin, each with its name where it ends an element as no other does."""
+    shared = {each.name for each in found.elements if each.state is PartState.KNOWN}
+    for each in found.solutions:
+        own = tuple(segment for segment in each.segments if segment.name not in shared)
+        yield Trail(own, Role.SEVERAL, Weight.BESIDE)
+        number, place = each.guess
+        name = found.sketch.name_of(number)
+        at = next((segment.end for segment in own if segment.name == name), own[-1].end)
+        written = " ".join(f"{axis}{value.normalize():f}" for axis, value in place.items())
+        runs = TextRun(each.name, Role.SEVERAL), TextRun(f"  {written}", Role.DERIVED)
+        yield Mark(at, MarkKind.PLACE, runs, runs[:1], Role.SEVERAL)
 
 
 def _told(found: SketchAnswer) -> Iterator[str]:
     assert found.answer is not None
     for each in found.elements:
         off = f", off by {length_text(each.off_mm, found.answer.unit)}" if each.off_mm is not None else ""
-        yield f"{each.name}: {each.state.value}{off}."
+        yield f"{each.name}: {_STATES[each.state][1]}{off}."
     yield from (f"{each[0].upper()}{each[1:]}." for each in (found.missing, *found.remarks) if each)
 
 
@@ -78,8 +100,12 @@ def sketch_view(sketch: ContourSketch, *, with_ranges: bool = False, theme: Them
         "diameters": [*sketch.control.plane.diameters],
         "program": found.program.text,
         "start": found.program.start,
-        "elements": [plain(each) | {"segment": each.segment and _segment(each.segment)} for each in found.elements],
+        "elements": [
+            plain(each) | {"segment": each.segment and _segment(each.segment), "told": _STATES[each.state][1]}
+            for each in found.elements
+        ],
         "missing": found.missing,
+        "said": found.said,
         "remarks": [*found.remarks],
         "asked": [{"number": n, "field": name, "value": _texts(each)} for (n, name), each in found.asked.items()],
         "entries": plain(found.entries),

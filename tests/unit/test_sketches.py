@@ -1,6 +1,7 @@
 """What is known of a sketch: states, what is missing, guesses, contradictions; each through the public door."""
 
 import json
+import re
 from collections import Counter
 from decimal import Decimal
 from math import radians, tan
@@ -157,7 +158,7 @@ def test_a_guess_chooses_and_is_no_dimension(name):
             next((each for each in solution.segments if each.name == part.name), None) for part in again.elements
         ]
     equal = contoursolve.solve_sketch(changed(sketch("guessed_length"), 1, guess={"X": Decimal(0)}))
-    assert equal.remarks == ("two solutions are equally near to the guess: put it nearer to one of them",)
+    assert equal.remarks == ("two contours are equally near to the guess: put it nearer to one of them",)
     unused = contoursolve.solve_sketch(sketch("milled_chord"))
     assert unused.remarks == ("the guess is not used: what is given has one solution",)
 
@@ -215,3 +216,45 @@ def test_a_key_costs_little():
     assert found.missing.startswith("one entry is missing")
     assert counts["slopes"] <= 150
     assert counts["collect"] <= 2
+
+
+SEVERAL = """sketch = 1
+part = "milled"
+start = { X = 0, Y = 0 }
+[[element]]
+kind = "line"
+AN = 0
+LEN = 30
+[[element]]
+kind = "line"
+LEN = 40
+IY = 25
+[[element]]
+kind = "line"
+AN = 0
+LEN = 20
+[[element]]
+kind = "line"
+LEN = 40
+Y = 60
+"""
+
+
+def test_all_contours_that_fit_are_drawn_by_name_and_only_what_they_share_has_dimensions():
+    found = contoursolve.solve_sketch(contoursolve.read_sketch(SEVERAL))
+    texts = re.findall(r"<text[^>]*>(.*?)</text>", contoursolve.draw_sketch(found).svg, re.DOTALL)
+    shown = [re.sub(r"<[^>]*>", "", each) for each in texts]
+    step, last = (40**2 - 25**2) ** 0.5, (40**2 - 35**2) ** 0.5
+    ends = [50 + one * step + other * last for one in (1, -1) for other in (1, -1)]
+    places = [f"  X{Decimal(f'{end:.4f}').normalize():f} Y60" for end in ends]
+    named = [f"contour {number}{place}" for number, place in enumerate(places, 1)]
+    assert [each.name for each in found.solutions] == ["contour 1", "contour 2", "contour 3", "contour 4"]
+    assert set(named) <= {*shown}
+    # LEN20, LEN40 and the end lie elsewhere in each contour.
+    assert {"AN0", "LEN30", "IY25", "Y60"} <= {*shown}
+    assert shown.count("AN0") == 1
+    assert not [each for each in shown if each.startswith(("LEN20", "LEN40", "end", "FSELECT"))]
+    chosen = contoursolve.read_sketch(SEVERAL + "guess = { X = 40 }")
+    svg = contoursolve.draw_sketch(contoursolve.solve_sketch(chosen)).svg
+    assert "contour 3" not in svg
+    assert "LEN20" in svg
