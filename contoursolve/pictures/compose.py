@@ -41,9 +41,10 @@ def compose(
     """The scene of one contour, whatever its status, with what else is drawn in its plane. If `is_shared`, of several
     contours that fit only what they share."""
     subject = subject_of(answer)
-    ghosts: list[Trail]
+    ghosts: list[Trail] = []
+    others: Others = {}
     if is_shared and subject.known.variants:
-        subject, ghosts, others = shared_part(subject), [], {}
+        subject = shared_part(subject)
     else:
         ghosts, others = _other_ways(subject) if subject.is_chain else _ghosts(subject)
     noted = noted_points(subject)

@@ -33,7 +33,7 @@ _STATES = {
 }
 """The colour role of each state, and its name: the same in a picture, its legend and a list."""
 
-_MEANINGS = {
+_MEANINGS: Mapping[Role, str] = {
     Role.SEVERAL: "one of several contours",
     **{role: name for role, name in _STATES.values() if role not in (Role.INK, Role.MUTED)},
 }
