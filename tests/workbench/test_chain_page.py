@@ -1,6 +1,8 @@
 """The contour editor of the workbench in a real browser: contours of drawings are built by keyboard alone."""
 
 import json
+import re
+from decimal import Decimal
 from pathlib import Path
 
 import pytest
@@ -148,11 +150,15 @@ def test_what_is_missing_or_wrong_is_said_as_python_says_it(old, new, opened, fo
     page.get_by_role("button", name="wrong.toml").click()
     page.locator(".card").first.wait_for()
     known = contoursolve.sketch_view(read_sketch(text), with_ranges=True)
-    errors = [each["message"] for each in known["findings"] if each["severity"] == "error"]
-    expect(page.locator(".missing")).to_have_text(known["missing"] or errors[0])
+    expect(page.locator(".missing")).to_have_text(known["said"])
     states = [each["state"] for each in known["elements"] if not each["name"].startswith("corner")]
     for number, state in enumerate(states):
         expect(page.locator(".card").nth(number)).to_have_attribute("data-state", state)
+    # The picture, its legend and the cards have one name for a state.
+    chips = page.locator(".card .chip").all_inner_texts()
+    told = [each["told"] for each in known["elements"] if not each["name"].startswith("corner")]
+    assert [chip.partition(":")[0] for chip in chips] == told
+    assert known["said"] in known["picture"]["svg"].replace("\n", " ") or len(known["said"]) > MOST_SAID
     expect(page.locator(".entries button")).to_have_count(len(known["entries"]))
 
 
@@ -179,9 +185,7 @@ def test_twenty_four_wrong_sketches_are_told_as_python_tells_them(opened, folder
     for name, plain in files.items():
         page.get_by_role("button", name=name).click()
         known = contoursolve.sketch_view(read_sketch(json.dumps(plain, default=str)), with_ranges=True)
-        errors = [each["message"] for each in known["findings"] if each["severity"] == "error"]
-        told = known["missing"] or (errors[0] if errors else "The contour is finished.")
-        expect(page.locator(".missing")).to_have_text(told, timeout=SECONDS * 1000)
+        expect(page.locator(".missing")).to_have_text(known["said"], timeout=SECONDS * 1000)
         page.get_by_role("button", name="File").click()
         page.get_by_role("menuitem", name="Open from the folder").click()
 
@@ -200,6 +204,103 @@ def test_a_value_that_is_no_number_is_marked_and_undone(opened) -> None:
     page.locator(".card").wait_for(state="detached")
     page.keyboard.press("Control+y")
     page.locator(".card").wait_for()
+
+
+SHAFT = """sketch = 1
+part = "turned"
+start = { Z = 0, X = 20 }
+[[element]]
+kind = "line"
+Z = -30
+X = 20
+"""
+
+
+def test_an_entry_that_cannot_be_read_marks_picture_and_cards_and_is_not_saved(opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    (folder / "shaft.toml").write_text(SHAFT, encoding="utf-8")
+    page = opened()
+    page.get_by_role("button", name="shaft.toml").click()
+    expect(page.locator(".missing")).to_have_text("the contour is finished")
+    card, picture, trouble = page.locator(".card"), page.locator(".chain-picture"), page.locator(".trouble")
+    for wrong in ("thirty", "-99999999999", "15*2"):
+        page.get_by_label("line 1: End X").fill(wrong)
+        page.locator(".missing.wrong", has_text="line 1: X").wait_for()
+        expect(card).to_have_attribute("data-state", "unchecked")
+        expect(card.locator(".chip")).to_have_text("not checked")
+        expect(picture.get_by_text("Not up to date")).to_be_visible()
+    for keys in ("Control+s", "Control+Shift+s"):
+        page.keyboard.press(keys)
+        expect(trouble).to_have_text(re.compile("^Not saved. Mend this first: line 1: X"))
+        expect(page.get_by_role("dialog")).to_have_count(0)
+        assert (folder / "shaft.toml").read_text(encoding="utf-8") == SHAFT
+    page.get_by_role("tab", name="Words").click()
+    expect(page.locator(".candidate")).to_have_count(0)
+    expect(page.locator(".result.words > [role=status]")).to_contain_text("line 1: X")
+    page.get_by_label("line 1: End X").fill("30,5")
+    expect(trouble).to_be_empty()
+    expect(card).to_have_attribute("data-state", "known")
+    expect(page.locator(".candidate").first).to_contain_text("30.5")
+    page.keyboard.press("Control+s")
+    said(page, "Saved as shaft.toml.")
+    assert read_sketch((folder / "shaft.toml").read_text(encoding="utf-8")).elements[0].words["X"] == Decimal("30.5")
+
+
+def test_new_contours_begin_with_their_picture_and_have_names_of_their_own(opened) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    page = opened()
+    for number in range(3):
+        if number:
+            page.get_by_role("tab", name="Words").click()
+            page.get_by_role("button", name="File").click()
+            page.get_by_role("menuitem", name="New contour").click()
+        else:
+            page.get_by_role("button", name="New contour").click()
+        expect(page.get_by_role("tab", name="Drawing")).to_have_attribute("aria-selected", "true")
+    expect(page.locator(".programs [role=tab]")).to_have_text(["new contour", "new contour 2", "new contour 3"])
+
+
+def test_a_card_stays_as_high_whatever_its_state(opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    wrong = SHAFT.replace("X = 20\n", "X = 20\nLEN = 99\n")
+    (folder / "slant.toml").write_text(wrong + SHAFT.partition("[[")[1] + SHAFT.partition("[[")[2], encoding="utf-8")
+    page = opened()
+    page.get_by_role("button", name="slant.toml").click()
+    first, second = page.locator(".card").nth(0), page.locator(".card").nth(1)
+    expect(first.locator(".chip")).to_contain_text("contradicts the rest: off by")
+    high = first.bounding_box()["height"]
+    page.get_by_label("line 1: Length").fill("")
+    expect(first.locator(".chip")).to_have_text("known")
+    assert first.bounding_box()["height"] == high
+    # Before the first element is nothing to which it could be tangent.
+    expect(first.get_by_text("tangent")).to_be_hidden()
+    expect(second.get_by_text("tangent to the one before")).to_be_visible()
+
+
+def test_the_picture_of_a_sketch_can_be_read_on_a_phone_and_be_enlarged(opened, folder) -> None:
+    (folder / "shaft.toml").write_text(SHAFT, encoding="utf-8")
+    page = opened(screen="phone")
+    page.get_by_role("button", name="shaft.toml").click()
+    page.get_by_role("tab", name="Drawing").click()
+    text = page.locator(".chain-picture svg text").first
+    text.wait_for()
+    small = text.bounding_box()["height"]
+    assert small >= READABLE
+    for _ in range(2):
+        page.get_by_role("button", name="Larger").click()
+    assert text.bounding_box()["height"] > 1.9 * small
+    page.get_by_role("button", name="Whole").click()
+    assert text.bounding_box()["height"] == small
+
+
+READABLE = 11
+"""Pixels of the box of a line of text."""
+
+MOST_SAID = 60
+"""Characters of a title that stand in one line."""
 
 
 @pytest.mark.parametrize("screen", SCREENS)

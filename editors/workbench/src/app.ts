@@ -229,9 +229,14 @@ export class App {
     const view = await this.asked<View>({ do: "open", ...what });
     if (!view) return;
     const program = this.pane.make(view);
-    this.works.push(program);
+    this.add(program);
     this.choose(program);
     this.pane.focus();
+  }
+
+  private add(work: Work): void {
+    numbered(work, this.works);
+    this.works.push(work);
   }
 
   private newContour(): HTMLElement[] {
@@ -248,7 +253,7 @@ export class App {
       this.changed(own, why);
     });
     sketch.measured = measured;
-    this.works.push(sketch);
+    this.add(sketch);
     this.choose(sketch);
     this.chain.focus();
   }
@@ -376,6 +381,11 @@ export class App {
   private async saveAs(): Promise<boolean> {
     const { active } = this;
     if (!active) return false;
+    const why = await active.refusal?.();
+    if (why) {
+      this.tell(new Trouble(`Not saved. ${why}`, {}));
+      return false;
+    }
     const name = make("input", { type: "text", value: active.name || fileOf(active), autocomplete: "off" });
     const folder = this.hello?.folder;
     const answer = await dialog(this.root, "Save as", [labelled(folder ? `Name in the folder ${folder}` : "Name", name)], "Save");
@@ -408,9 +418,11 @@ export class App {
   }
 
   private downloadActive(): void {
-    if (!this.active) return;
-    download(this.active.name || fileOf(this.active), this.active.text);
+    const { active } = this;
+    if (!active) return;
+    download(active.name || fileOf(active), active.text);
     this.say("Downloaded.");
+    void active.refusal?.().then((why) => why && this.tell(new Trouble(`Downloaded, but it cannot be opened as it is. ${why}`, {})));
   }
 
   private async copyActive(): Promise<void> {
@@ -479,5 +491,17 @@ function unpacked(text: string): string {
   }
 }
 
-const titleOf = (work: Work): string => work.name || (work instanceof Sketch ? "new contour" : "new program");
-const fileOf = (work: Work): string => `${work instanceof Sketch ? "contour" : "program"}.${work.ending}`;
+// Those without a name are told apart by numbers, as long as they are open.
+const numbers = new WeakMap<Work, number>();
+
+function numbered(work: Work, works: Work[]): void {
+  const taken = new Set(works.filter((each) => each !== work && !each.name && each.ending === work.ending).map((each) => numbers.get(each)));
+  let number = 1;
+  while (taken.has(number)) number += 1;
+  numbers.set(work, number);
+}
+
+const nounOf = (work: Work): string => (work instanceof Sketch ? "contour" : "program");
+const numberOf = (work: Work, before: string): string => ((numbers.get(work) ?? 1) > 1 ? `${before}${numbers.get(work)}` : "");
+const titleOf = (work: Work): string => work.name || `new ${nounOf(work)}${numberOf(work, " ")}`;
+const fileOf = (work: Work): string => `${nounOf(work)}${numberOf(work, "-")}.${work.ending}`;

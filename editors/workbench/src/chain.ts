@@ -8,6 +8,7 @@ import type { ControlName } from "./protocol";
 
 const VIEWS = { elements: "Elements", drawing: "Drawing", words: "Words" };
 type ViewName = keyof typeof VIEWS;
+const UNCHECKED = { state: "unchecked", told: "not checked", off_mm: null };
 const WIDE = 900; // px from which the elements stand beside the rest
 
 export class ChainPane {
@@ -90,6 +91,8 @@ export class ChainPane {
       this.sketch = sketch;
       this.chosen = sketch.chain.elements.length ? 1 : 0;
       this.structure = "";
+      // An empty one begins where it is drawn.
+      if (sketch.isEmpty) this.view = "elements";
     }
     this.choose(this.view);
     this.follow();
@@ -197,14 +200,15 @@ export class ChainPane {
     this.chosen = Math.min(this.chosen, chain.elements.length);
     const wrong = this.wrong(sketch);
     const hints = new Map((view?.entries ?? []).map((entry) => [`${entry.number} ${entry.field}`, hintOf(entry)]));
-    const isAsked = !sketch.trouble && view !== null;
+    const isAsked = !sketch.isBehind && view !== null;
     chain.elements.forEach((element, place) => {
       const number = place + 1;
       const own = (all: Iterable<string>) => [...all].filter((each) => each.startsWith(`${number} `)).map((each) => each.slice(String(number).length + 1));
       const part = view?.elements.find((each) => each.name === `${element.kind} ${number}`);
       const card = this.cards[place]!;
       const told = new Map(own(hints.keys()).map((name) => [name, hints.get(`${number} ${name}`)!]));
-      card.show(element, part?.state ?? "unknown", part?.off_mm ?? null, new Set(own(wrong)), isAsked ? told : new Map(), sketch.measured[place] ?? {});
+      const state = sketch.isBehind ? UNCHECKED : { state: part?.state ?? "unknown", told: part?.told ?? "open", off_mm: part?.off_mm ?? null };
+      card.show(element, state, new Set(own(wrong)), isAsked ? told : new Map(), sketch.measured[place] ?? {});
       card.node.classList.toggle("here", number === this.chosen);
     });
     for (const axis of AXES[chain.part]) setField(this.head, `start.${axis}`, chain.start[axis] ?? "", wrong.has(`0 start.${axis}`) || wrong.has("0 start"), "");
@@ -215,30 +219,29 @@ export class ChainPane {
     this.hints.hidden = chain.elements.length > 0;
     this.undo.setAttribute("aria-disabled", String(!sketch.canUndo));
     this.redo.setAttribute("aria-disabled", String(!sketch.canRedo));
-    this.picture.show(chain, view, this.chosen);
+    this.picture.show(chain, view, this.chosen, sketch.isBehind);
     this.tell(sketch);
     this.words.show(sketch, !this.panels.words.hidden);
   }
 
   // The fields that contradict, and the one that cannot be read.
-  private wrong({ view, place }: Sketch): Set<string> {
-    const blamed = (view?.findings ?? []).filter((each) => each.severity === "error").flatMap((each) => each.fields);
+  private wrong({ view, place, isBehind }: Sketch): Set<string> {
+    const blamed = (isBehind ? [] : (view?.findings ?? [])).filter((each) => each.severity === "error").flatMap((each) => each.fields);
     return new Set([...blamed, ...(place ? [place] : [])].map(([number, name]) => `${number} ${name}`));
   }
 
-  private tell({ view, trouble, chain }: Sketch): void {
-    this.missing.classList.toggle("wrong", trouble !== "");
+  private tell({ view, trouble, isBehind, chain }: Sketch): void {
+    this.missing.classList.toggle("wrong", isBehind);
     const isDone = view?.is_finished === true;
-    const wrong = view?.findings.find((each) => each.severity === "error")?.message ?? "";
-    const said = trouble || (chain.elements.length ? view?.missing || (isDone ? "The contour is finished." : wrong) : "Add the first line or arc.");
+    const said = trouble || (isBehind ? "Not checked: contoursolve does not answer." : "") || (chain.elements.length ? (view?.said ?? "") : "Add the first line or arc.");
     if (this.missing.textContent !== said) this.missing.textContent = said;
-    this.missing.classList.toggle("done", isDone && !trouble);
+    this.missing.classList.toggle("done", isDone && !isBehind);
     const place = (number: number, name: string) => (number ? `${name} of ${chain.elements[number - 1]?.kind ?? "line"} ${number}` : name.replace("start.", "start "));
-    const shown = trouble ? [] : (view?.entries ?? []);
+    const shown = isBehind ? [] : (view?.entries ?? []);
     renew(this.entries, shown, () => shown.map((each) => button(`${place(each.number, each.field)}${each.example ? `: such as ${each.example}` : ""}`, () => this.focusElement(each.number, each.field), { title: [each.meaning, hintOf(each)].filter(Boolean).join("; ") })));
-    const remarks = trouble ? [] : (view?.remarks ?? []);
+    const remarks = isBehind ? [] : (view?.remarks ?? []);
     // What is missing, and that several fit, stands above.
-    const found = trouble ? [] : (view?.findings ?? []).filter((each) => !["words-missing", "several-contours"].includes(each.code));
+    const found = isBehind ? [] : (view?.findings ?? []).filter((each) => !["words-missing", "several-contours"].includes(each.code));
     const item = (each: (typeof found)[number]) =>
       make(
         "li",
@@ -248,7 +251,7 @@ export class ChainPane {
         make("div", { class: "bar fixes" }, ...each.fixes.map((fix) => button(fix.title, () => this.mend(fix.elements)))),
       );
     renew(this.findings, [remarks, found], () => [...remarks.map((text) => make("li", { class: "info", text })), ...found.map(item)]);
-    const several = trouble ? [] : (view?.solutions ?? []);
+    const several = isBehind ? [] : (view?.solutions ?? []);
     const choices = () => several.map((each) => {
       const made = button(`${each.name}${each.is_chosen ? " (chosen)" : ""}`, () => this.changeElement("", each.guess.number, (element) => void (element.guess = { ...each.guess.place })), { "aria-pressed": String(each.is_chosen) });
       for (const name of ["pointerenter", "focus"]) made.addEventListener(name, () => this.picture.ghost(each.segments));

@@ -1,6 +1,6 @@
 // One line or arc of a sketch as a card: the usual fields, and behind "more" all others.
 import { button, make, newId } from "./dom";
-import { AXES, type Chain, type ChainElement, type Values } from "./chainSketch";
+import { AXES, type Chain, type ChainElement, type ChainView, type Values } from "./chainSketch";
 
 export type DrawingWords = Record<string, Record<"line" | "arc", Record<string, string>>>;
 
@@ -15,16 +15,10 @@ export interface CardHost {
 export interface Card {
   node: HTMLElement;
   open(): void;
-  show(element: ChainElement, state: string, off: number | null, wrong: Set<string>, hints: Map<string, string>, measured: Values): void;
+  show(element: ChainElement, state: PartState, wrong: Set<string>, hints: Map<string, string>, measured: Values): void;
 }
 
-const STATES: Record<string, string> = {
-  known: "known",
-  sliding: "can still slide",
-  contradicting: "contradicts",
-  guessed: "by your guess",
-  unknown: "open",
-};
+export type PartState = Pick<ChainView["elements"][number], "state" | "told" | "off_mm">;
 
 const isDiameter = (part: string, name: string): boolean => part === "turned" && name.endsWith("X") && !name.startsWith("R");
 
@@ -101,6 +95,7 @@ export function elementCard(host: CardHost, chain: Chain, number: number): Card 
   const turn = kind === "arc" ? choice(`${name}: sense`, "turn", [["", "Sense not given"], ["cw", "Clockwise"], ["ccw", "Counter-clockwise"]], element.turn, (value) => host.change("", number, (each) => void (each.turn = value))) : null;
   const tangent = make("input", { type: "checkbox", "data-field": "tangent" });
   tangent.addEventListener("change", () => host.change("", number, (each) => void (each.tangent = tangent.checked)));
+  const smooth = make("label", { class: "check" }, tangent, "tangent to the one before");
   const corner = choice(`${name}: corner behind it`, "shape", [["", "none"], ["rounding", "Rounding"], ["chamfer", "Chamfer"]], element.corner, (value) => host.change("", number, (each) => void (each.corner = value)));
   const size = field("Size", "corner", { meaning: "radius of the rounding, or how far the chamfer goes along each line", value: element.size, label: `${name}: size of the corner`, set: (value) => host.change(`${number} corner`, number, (each) => void (each.size = value)) });
   const facts = make("textarea", { rows: 2, "data-field": "facts", "aria-label": `${name}: statements, one in a line`, placeholder: `chord of ${name} = 20`, spellcheck: "false" });
@@ -114,7 +109,8 @@ export function elementCard(host: CardHost, chain: Chain, number: number): Card 
   const node = make(
     "li",
     { class: "card", "data-number": number, "data-element": name },
-    make("div", { class: "bar" }, heading, state, kinds, turn, make("label", { class: "check" }, tangent, number > 1 ? "tangent to the one before" : "tangent to the direction before")),
+    make("div", { class: "bar title" }, heading, state),
+    make("div", { class: "bar" }, kinds, turn, smooth),
     make("div", { class: "grid" }, ...first.map(([key, title]) => word(title, key)), make("label", {}, make("span", { class: "name", text: "Corner" }), corner), size),
     make(
       "div",
@@ -134,9 +130,9 @@ export function elementCard(host: CardHost, chain: Chain, number: number): Card 
   return {
     node,
     open: () => open(true),
-    show(now, is, off, wrong, hints, measured) {
-      node.dataset["state"] = is;
-      state.textContent = `${STATES[is] ?? is}${off === null ? "" : `: off by ${off.toFixed(3)} mm`}`;
+    show(now, is, wrong, hints, measured) {
+      node.dataset["state"] = is.state;
+      state.textContent = `${is.told}${is.off_mm === null ? "" : `: off by ${is.off_mm.toFixed(3)} mm`}`;
       const value = (key: string, values: Values) => values[key] ?? "";
       for (const key of [...first.map(([each]) => each), ...rest]) {
         const hint = hints.get(key) ?? (measured[key] && !now.words[key] ? `in the drawing ${measured[key]}` : "");
@@ -148,6 +144,7 @@ export function elementCard(host: CardHost, chain: Chain, number: number): Card 
       corner.value = now.corner;
       if (turn) turn.value = now.turn;
       tangent.checked = now.tangent;
+      smooth.hidden = number === 1 && !now.tangent; // before the first one is nothing
       if (facts.value !== now.facts) facts.value = now.facts;
       if ([...wrong].some((key) => rest.includes(key))) open(true);
     },

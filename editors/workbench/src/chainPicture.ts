@@ -1,5 +1,5 @@
 // The picture of a sketch: what is known of it, the ghost of a solution, and guesses, which a touch sets.
-import { button, make, picture } from "./dom";
+import { button, make, picture, zoomBar } from "./dom";
 import { AXES, type Chain, type ChainView, type Frame, type Piece } from "./chainSketch";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -7,7 +7,7 @@ const INCH = 25.4;
 
 export interface ChainPicture {
   node: HTMLElement;
-  show(chain: Chain, view: ChainView | null, chosen: number): void;
+  show(chain: Chain, view: ChainView | null, chosen: number, isBehind: boolean): void;
   ghost(pieces: Piece[] | null): void;
 }
 
@@ -20,10 +20,12 @@ export function chainPicture(select: (number: number) => void, guess: (number: n
   over.setAttribute("class", "over");
   over.setAttribute("aria-hidden", "true");
   const drawn = make("div", { class: "drawn" });
-  const paper = make("div", { class: "canvas contoursolve" }, drawn);
+  const paper = make("div", { class: "canvas contoursolve", tabindex: 0, role: "group", "aria-label": "Picture of the contour; arrow keys move it" }, drawn);
   const toggle = button("Guess by touch", () => set(!isGuessing), { "aria-pressed": "false" });
   const told = make("span", { class: "muted" });
-  const node = make("div", { class: "chain-picture" }, make("div", { class: "bar" }, toggle, told), paper);
+  const stale = make("p", { class: "wrong", role: "status", hidden: true, text: "Not up to date: this picture is older than what is entered." });
+  const zoom = zoomBar((times) => drawn.style.setProperty("--times", String(times)), paper, "the picture");
+  const node = make("div", { class: "chain-picture" }, make("div", { class: "bar" }, toggle, zoom, told), stale, paper);
   let elements: ChainView["elements"] = [];
   let ghostly: Piece[] | null = null;
   let guesses: [number, number][] = [];
@@ -44,7 +46,7 @@ export function chainPicture(select: (number: number) => void, guess: (number: n
       return;
     }
     const box = drawn.getBoundingClientRect();
-    if (!frame || !now || !box.width) return;
+    if (!frame || !now || !box.width || !stale.hidden) return;
     const x = ((event.clientX - box.left) / box.width) * frame.width;
     const y = ((event.clientY - box.top) / box.height) * frame.height;
     guess(now, [(x - frame.origin[0]) / frame.scale, (frame.origin[1] - y) / frame.scale]);
@@ -88,9 +90,11 @@ export function chainPicture(select: (number: number) => void, guess: (number: n
       ghostly = pieces;
       overlay();
     },
-    show(chain, view, chosen) {
+    show(chain, view, chosen, isBehind) {
+      node.classList.toggle("stale", isBehind);
+      stale.hidden = !isBehind || !view?.picture;
       now = chosen;
-      toggle.setAttribute("aria-disabled", String(!chosen || !view?.picture));
+      toggle.setAttribute("aria-disabled", String(isBehind || !chosen || !view?.picture));
       toggle.textContent = chosen ? `Guess by touch: end of ${chain.elements[chosen - 1]?.kind ?? "line"} ${chosen}` : "Guess by touch";
       frame = view?.picture?.frame.scale ? view.picture.frame : null;
       elements = view?.elements ?? [];

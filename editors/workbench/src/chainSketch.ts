@@ -59,8 +59,9 @@ export interface ChainView {
   is_finished: boolean;
   text: string; // of its file, as TOML and as JSON
   json: string;
-  elements: { name: string; number: number; state: string; off_mm: number | null; segment: Piece | null }[];
+  elements: { name: string; number: number; state: string; told: string; off_mm: number | null; segment: Piece | null }[];
   missing: string;
+  said: string; // its state in one line
   entries: ChainEntry[];
   findings: { code: string; severity: string; message: string; help: string; fields: [number, string][]; fixes: { title: string; elements: Record<string, Plain> }[] }[];
   solutions: { name: string; segments: Piece[]; is_chosen: boolean; guess: { number: number; place: Values } }[];
@@ -139,12 +140,14 @@ export class Sketch implements Work {
   view: ChainView | null = null;
   trouble = ""; // about what was typed
   place: [number, string] | null = null; // of the field that makes it
+  isBehind = false; // whether the view is that of an earlier chain, for of this one nothing is known
   measured: Values[] = []; // what a drawing of CAD has of each element, as long as they are those
   private past: Chain[] = [];
   private future: Chain[] = [];
   private mark = ""; // of the field that is being typed in: all of it is one change
   private saved: string;
   private asked = 0;
+  private seen: Chain | null = null; // of which the view tells
   private timer = 0;
 
   constructor(
@@ -171,7 +174,8 @@ export class Sketch implements Work {
   }
 
   private textFor(name: string): string {
-    return (/\.json$/i.test(name) ? this.view?.json : this.view?.text) ?? JSON.stringify(plainOf(this.chain), null, 1);
+    const seen = this.seen === this.chain ? this.view : null;
+    return (/\.json$/i.test(name) ? seen?.json : seen?.text) ?? JSON.stringify(plainOf(this.chain), null, 1);
   }
 
   get canUndo(): boolean {
@@ -227,32 +231,46 @@ export class Sketch implements Work {
   }
 
   private async askedFor(number: number, ranges: boolean): Promise<void> {
+    const { chain } = this;
     try {
-      const view = await this.transport.ask<ChainView>({ do: "sketch", sketch: plainOf(this.chain), ranges, ...(ranges ? { window: "ranges" } : {}) });
+      const view = await this.transport.ask<ChainView>({ do: "sketch", sketch: plainOf(chain), ranges, ...(ranges ? { window: "ranges" } : {}) });
       if (number !== this.asked) return;
-      [this.view, this.trouble, this.place] = [view, "", null];
+      [this.view, this.seen, this.trouble, this.place, this.isBehind] = [view, chain, "", null, false];
       this.shown(this, null);
     } catch (error) {
       if (!(error instanceof Trouble)) throw error;
       if (number !== this.asked) return;
+      this.isBehind = true;
       if (error.reply) {
         // "element 2: X is ..." names the field.
         const [, number, field] = /^(?:element (\d+): )?([\w.]+) /.exec(error.message) ?? [];
         this.place = [Number(number ?? 0), field ?? ""];
-        this.trouble = error.message.replace(/^element (\d+)/, (whole, at) => (this.chain.elements[at - 1] ? `${this.chain.elements[at - 1]!.kind} ${at}` : whole));
+        this.trouble = this.named(error.message);
       }
       this.shown(this, error.reply ? null : error);
     }
   }
 
+  private named(message: string): string {
+    return message.replace(/^element (\d+)/, (whole, at) => (this.chain.elements[at - 1] ? `${this.chain.elements[at - 1]!.kind} ${at}` : whole));
+  }
+
+  // Where there are none, the reason.
   async words<Reply>(control: string | null): Promise<Reply | null> {
     try {
       return await this.transport.ask<Reply>({ do: "sketch_words", sketch: plainOf(this.chain), control });
     } catch (error) {
       if (!(error instanceof Trouble)) throw error;
+      if (error.reply) return { reason: this.named(error.message), candidates: [], rows: [] } as Reply;
       this.shown(this, error);
       return null;
     }
+  }
+
+  // What makes no sense cannot be read again.
+  async refusal(): Promise<string> {
+    await this.ask();
+    return this.trouble && `Mend this first: ${this.trouble}`;
   }
 
   wasSaved(name: string, base: string): void {
@@ -261,8 +279,11 @@ export class Sketch implements Work {
   }
 
   async save(options: { name?: string; over?: string }, isKnown: (why: Trouble) => boolean): Promise<{ saved: string; base: string } | null> {
-    await this.ask();
-    if (this.trouble) return null; // what makes no sense cannot be read again
+    const why = await this.refusal();
+    if (why) {
+      this.shown(this, new Trouble(`Not saved. ${why}`, {}));
+      return null;
+    }
     try {
       return await this.transport.ask({ do: "save", name: this.name, text: this.textFor(options.name ?? this.name), base: options.name ? "" : this.base, ...options });
     } catch (error) {

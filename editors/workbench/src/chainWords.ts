@@ -48,13 +48,14 @@ export function wordsPanel(controls: () => ControlName[], open: (name: string, t
   async function ask(): Promise<void> {
     const asked = sketch;
     if (!asked) return;
-    const mark = `${control.value} ${asked.text}`;
+    const mark = `${control.value} ${asked.trouble} ${asked.text}`;
     if (mark === made) return;
     made = mark;
     table.replaceChildren();
-    all.setAttribute("aria-disabled", String(!asked.view?.is_finished));
-    if (!asked.view?.is_finished) {
-      said.textContent = "The contour is not finished yet: enter what is missing, then its words are written here.";
+    const isReady = !asked.isBehind && asked.view?.is_finished === true;
+    all.setAttribute("aria-disabled", String(!isReady));
+    if (!isReady) {
+      said.textContent = asked.trouble || "The contour is not finished yet: enter what is missing, then its words are written here.";
       list.replaceChildren();
       return;
     }
@@ -90,7 +91,7 @@ export function wordsPanel(controls: () => ControlName[], open: (name: string, t
 
   async function askAll(): Promise<void> {
     const asked = sketch;
-    if (!asked?.view?.is_finished) return;
+    if (!asked?.view?.is_finished || asked.isBehind) return;
     said.textContent = "Writing for all controls …";
     const reply = await asked.words<{ rows: Row[] }>(null);
     said.textContent = "";

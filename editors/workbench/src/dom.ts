@@ -27,6 +27,39 @@ export function picture(svg: string): SVGSVGElement | null {
   return root.localName === "svg" ? (document.importNode(root, true) as unknown as SVGSVGElement) : null;
 }
 
+const ZOOMS = [1, 1.5, 2, 3, 4, 6, 8];
+
+// Buttons, and the wheel with Ctrl, that set the size of what a box shows in part.
+export function zoomBar(size: (times: number) => void, scroller: HTMLElement, of: string): HTMLElement {
+  let zoom = 0;
+  const smaller = button("−", () => zoomTo(zoom - 1), { "aria-label": "Smaller" });
+  const larger = button("+", () => zoomTo(zoom + 1), { "aria-label": "Larger" });
+  const whole = button("Whole", () => zoomTo(0));
+
+  function zoomTo(wanted: number): void {
+    const before = ZOOMS[zoom]!;
+    zoom = Math.max(0, Math.min(ZOOMS.length - 1, wanted));
+    const by = ZOOMS[zoom]! / before;
+    // The middle of what is seen stays there.
+    const [x, y] = [scroller.scrollLeft + scroller.clientWidth / 2, scroller.scrollTop + scroller.clientHeight / 2];
+    size(ZOOMS[zoom]!);
+    scroller.scrollTo(x * by - scroller.clientWidth / 2, y * by - scroller.clientHeight / 2);
+    smaller.setAttribute("aria-disabled", String(zoom === 0));
+    larger.setAttribute("aria-disabled", String(zoom === ZOOMS.length - 1));
+  }
+  scroller.addEventListener(
+    "wheel",
+    (event) => {
+      if (!event.ctrlKey) return;
+      event.preventDefault();
+      zoomTo(zoom + (event.deltaY < 0 ? 1 : -1));
+    },
+    { passive: false },
+  );
+  zoomTo(0);
+  return make("div", { class: "bar zoom", role: "group", "aria-label": `Size of ${of}` }, smaller, larger, whole);
+}
+
 let count = 0;
 export function newId(): string {
   count += 1;

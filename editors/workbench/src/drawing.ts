@@ -1,9 +1,8 @@
 // All contours of a program on one drawing: touch one, and its text is shown.
-import { button, make, picture } from "./dom";
+import { make, picture, zoomBar } from "./dom";
 import { kindOf } from "./editor";
 import type { ContourRow } from "./protocol";
 
-const ZOOMS = [1, 1.5, 2, 3, 4, 6, 8];
 const MOST = 200; // buttons under the drawing
 
 const NEAR = 22; // px from a line that a finger means
@@ -32,38 +31,15 @@ export interface DrawingPanel {
 }
 
 export function drawingPanel(go: (line: number) => void, open: (line: number) => void): DrawingPanel {
-  let zoom = 0;
   let isLit: number | null = null;
   let listed: ContourRow[] | null = null;
   const paper = make("div", { class: "canvas" });
   const scroller = make("div", { class: "all contoursolve", tabindex: 0, role: "group", "aria-label": "Drawing of all contours; arrow keys move it" }, paper);
-  const smaller = button("−", () => zoomTo(zoom - 1), { "aria-label": "Smaller" });
-  const larger = button("+", () => zoomTo(zoom + 1), { "aria-label": "Larger" });
-  const whole = button("Whole", () => zoomTo(0));
+  const zoom = zoomBar((times) => (paper.style.width = `${100 * times}%`), scroller, "the drawing");
   const rows = make("ul", { class: "contours", "aria-label": "Contours" });
   const said = make("p", { class: "muted" });
-  const node = make("div", { class: "drawing" }, make("div", { class: "bar", role: "group", "aria-label": "Size of the drawing" }, smaller, larger, whole), scroller, said, rows);
+  const node = make("div", { class: "drawing" }, zoom, scroller, said, rows);
 
-  function zoomTo(wanted: number): void {
-    const before = ZOOMS[zoom]!;
-    zoom = Math.max(0, Math.min(ZOOMS.length - 1, wanted));
-    const by = ZOOMS[zoom]! / before;
-    // The middle of what is seen stays there.
-    const [x, y] = [scroller.scrollLeft + scroller.clientWidth / 2, scroller.scrollTop + scroller.clientHeight / 2];
-    paper.style.width = `${100 * ZOOMS[zoom]!}%`;
-    scroller.scrollTo(x * by - scroller.clientWidth / 2, y * by - scroller.clientHeight / 2);
-    smaller.setAttribute("aria-disabled", String(zoom === 0));
-    larger.setAttribute("aria-disabled", String(zoom === ZOOMS.length - 1));
-  }
-  scroller.addEventListener(
-    "wheel",
-    (event) => {
-      if (!event.ctrlKey) return;
-      event.preventDefault();
-      zoomTo(zoom + (event.deltaY < 0 ? 1 : -1));
-    },
-    { passive: false },
-  );
   const lineOf = (event: MouseEvent) => {
     const parts = [...paper.querySelectorAll<SVGGraphicsElement>("[data-line]")];
     // The drawing of a single contour names no line.
@@ -85,7 +61,6 @@ export function drawingPanel(go: (line: number) => void, open: (line: number) =>
     for (const each of paper.querySelectorAll("[data-line]")) each.classList.toggle("lit", Number(each.getAttribute("data-line")) === isLit);
     for (const each of rows.querySelectorAll<HTMLElement>("button")) each.setAttribute("aria-pressed", String(Number(each.dataset["at"]) === isLit));
   }
-  zoomTo(0);
 
   return {
     node,

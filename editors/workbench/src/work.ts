@@ -12,6 +12,8 @@ export interface Work {
   readonly ending: string;
   /** Its file is this now. */
   wasSaved(name: string, base: string): void;
+  /** Why it cannot be saved, in one sentence; empty where it can. */
+  refusal?(): Promise<string>;
   save(options: { name?: string; over?: string }, isKnown: (why: Trouble) => boolean): Promise<{ saved: string; base: string } | null>;
   /** Ask for all of it again, after the Desk was away. */
   again(): Promise<unknown>;
