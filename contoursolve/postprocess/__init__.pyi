@@ -40,6 +40,9 @@ from .rewrite import (
     Writer as Writer,
     rewrite as rewrite,
 )
+from .small_program import (
+    ending_of as ending_of,
+)
 from .wordings import (
     NumberGround as NumberGround,
     WrittenBlock as WrittenBlock,

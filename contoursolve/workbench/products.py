@@ -13,6 +13,7 @@ from contoursolve.execution import named_variables
 from contoursolve.notebook import Product, converted, expanded, page_about, stated_tool
 from contoursolve.output import beside_of, receipt_lines, to_json
 from contoursolve.pictures import Theme, draw_result
+from contoursolve.postprocess import ending_of
 from contoursolve.program import CONTROL, Result
 from contoursolve.tool_radius import ToolReport, title_of
 from contoursolve.workbench.fields import ActionError, Data, read_field
@@ -120,7 +121,7 @@ def _expand(view: ProgramView, action: Mapping[str, Any]) -> Data:
         for name in ("comments", "inline", "keep_going", "keep_untranslated")
         if name in action
     }
-    return _program(view, expanded(view.program, **options), "plain")
+    return _program(view, expanded(view.program, **options), f"-plain{_suffix(view)}")
 
 
 def _convert(view: ProgramView, action: Mapping[str, Any]) -> Data:
@@ -128,14 +129,14 @@ def _convert(view: ProgramView, action: Mapping[str, Any]) -> Data:
     if control not in DIALECTS:
         raise ActionError(f"{control!r} is no control here")
     settings = {name: value for name, value in view.settings.items() if name != CONTROL}
-    return _program(view, converted(view.program, control, settings), control)
+    return _program(view, converted(view.program, control, settings), f"-{control}{ending_of(DIALECTS[control])}")
 
 
-def _program(view: ProgramView, made: Product, what: str) -> Data:
+def _program(view: ProgramView, made: Product, ending: str) -> Data:
     """Another program in the encoding of the first one."""
     if made.text is None:
         raise ActionError(made.message or "nothing was written: a contour is not solved; mend its findings first")
-    return {**_file(view, f"-{what}{_suffix(view)}", view.file.encode(made.text), made.message), "text": made.text}
+    return {**_file(view, ending, view.file.encode(made.text), made.message), "text": made.text}
 
 
 def _report(view: ProgramView, _: Mapping[str, Any]) -> Data:

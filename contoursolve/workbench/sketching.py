@@ -5,7 +5,7 @@ from typing import Any, Literal
 
 from contoursolve import sketches
 from contoursolve.controls import DIALECTS
-from contoursolve.postprocess import NumberGround, Written, WrittenContour
+from contoursolve.postprocess import NumberGround, Written, WrittenContour, ending_of
 from contoursolve.sketches import ContourSketch
 from contoursolve.workbench.fields import ActionError, Data, read_field
 
@@ -32,7 +32,8 @@ def words_of_sketch(action: Mapping[str, Any]) -> Data:
     if control not in DIALECTS:
         raise ActionError(f"{control!r} is no control here")
     written = sketches.write(sketch, control)
-    return {**_row(written), "candidates": [_candidate(each) for each in written.candidates]}
+    candidates = [_candidate(each) for each in written.candidates]
+    return {**_row(written), "ending": ending_of(DIALECTS[control]), "candidates": candidates}
 
 
 def _row(written: Written) -> Data:

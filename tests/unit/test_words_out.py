@@ -55,8 +55,8 @@ OWN_WORDS = [
             "19 END PGM A MM"
         ),
         (
-            "2 FL LEN64.5 CLSD+ P1X+15 P1Y+35/3 FSELECT 1/4 FPOL X+50 Y+20/5 FL PR+67 AN+21/6 FL IX+15 IY+0/"
-            "7 FL LEN40 PAR 2/8 FSELECT 2/9 FL X+75 Y+20/10 FL CLSD-"
+            "5 FL LEN64.5 CLSD+ P1X+15 P1Y+35/6 FSELECT 1/7 FPOL X+50 Y+20/8 FL PR+67 AN+21/9 FL IX+15 IY+0/"
+            "10 FL LEN40 PAR 5/11 FSELECT 2/12 FL X+75 Y+20/13 FL CLSD-"
         ),
     ),
     (
@@ -65,7 +65,7 @@ OWN_WORDS = [
             "0 BEGIN PGM A MM\n1 L X+0 Y+30 R0\n2 FC DR- R20 CCX+20 CCY+30\n3 FLT\n"
             "4 FCT DR- R12 CCX+90 CCY+45 X+102 Y+45\n5 END PGM A MM"
         ),
-        "2 FC R20 CCX+20 CCY+30 DR-/3 FLT/4 FCT R12 CCX+90 CCY+45 X+102 Y+45 DR-",
+        "5 FC R20 CCX+20 CCY+30 DR-/6 FLT/7 FCT R12 CCX+90 CCY+45 X+102 Y+45 DR-",
     ),
     (
         "heidenhain",
@@ -73,7 +73,7 @@ OWN_WORDS = [
             "0 BEGIN PGM A MM\n7 L X+0 Y+0 R0\n8 FL AN+80 LEN50 CLSD+\n9 FCT DR- R15\n10 FLT X+90 Y+40\n11 RND R8\n"
             "12 FL X+90 Y+0\n13 CHF 5\n14 FL X+0 Y+0 CLSD-\n17 END PGM A MM"
         ),
-        "2 FL AN+80 LEN50/3 FCT R15 DR-/4 FLT X+90 Y+40/5 RND R8/6 L Y+0/7 CHF 5/8 L X+0",
+        "5 FL AN+80 LEN50/6 FCT R15 DR-/7 FLT X+90 Y+40/8 RND R8/9 L Y+0/10 CHF 5/11 L X+0",
     ),
     ("fanuc-lathe", "G00 X20. Z0.\nG01 X40. ,A150.", "G01 X40. ,A150."),
     (
@@ -112,12 +112,12 @@ OWN_WORDS = [
             "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0\n12 FPOL X+10 Y+10\n13 FL PR+20 PA+20\n14 FL AN+45\n"
             "15 FCT IX+20 DR- R20 CCA+90 RX 13\n16 FL IPR+35 PA+0 RPR 13\n17 END PGM A MM"
         ),
-        "2 FPOL X+10 Y+10/3 FL PR+20 PA+20/4 FL AN+45/5 FCT IX+20 R20 CCA+90 RX 3 DR-/6 FL IPR+35 PA+0 RPR 3",
+        "5 FPOL X+10 Y+10/6 FL PR+20 PA+20/7 FL AN+45/8 FCT IX+20 R20 CCA+90 RX 6 DR-/9 FL IPR+35 PA+0 RPR 6",
     ),
     (
         "heidenhain",
         "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0\n2 FL AN+60\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM",
-        "2 FL AN+60/3 FL X+80 Y+20 AN-30",
+        "5 FL AN+60/6 FL X+80 Y+20 AN-30",
     ),
 ]
 
@@ -137,11 +137,16 @@ def test_all_that_is_found_for_them_is_the_same_contour(control: str, text: str,
 
 
 PROGRAMS = {
-    "fanuc-lathe": "%\nO0001\nG21\nG00 X0 Z0\nG01 X40. ,C1.5\nZ-30.\nX80. ,A135. ,R2.\nZ-60.\nM30\n%\n",
-    "yasnac-lx3": "%\nO0001\nG21\nG00 X0 Z0\nG01 K-1.5 X40.\nZ-30.\nG111 A135. B180. X80. Z-60. P2.\nM30\n%\n",
-    "siemens-840d": "G71 G18 G90 DIAMON\nG00 X0 Z0\nG01 X40 CHR=1.5\nZ-30\nX80 ANG=135 RND=2\nZ-60\nM30\n",
-    "isg": "%CONTOUR\nG71 G18 G90 G51\nG00 X0 Z0\nG01 X40 #CHR=1.5\nZ-30\nX80 #ANG=135 #RND=2\nZ-60\nM30\n",
+    "fanuc-lathe": "%\nO0001\n{}G21\n{}G00 X0 Z0\nG01 X40. ,C1.5\nZ-30.\nX80. ,A135. ,R2.\nZ-60.\nM30\n%\n",
+    "yasnac-lx3": "%\nO0001\n{}G21\n{}G00 X0 Z0\nG01 K-1.5 X40.\nZ-30.\nG111 A135. B180. X80. Z-60. P2.\nM30\n%\n",
+    "siemens-840d": "{}G71 G18 G90 DIAMON\n{}G00 X0 Z0\nG01 X40 CHR=1.5\nZ-30\nX80 ANG=135 RND=2\nZ-60\nM30\n",
+    "isg": "%CONTOUR\n{}G71 G18 G90 G51\n{}G00 X0 Z0\nG01 X40 #CHR=1.5\nZ-30\nX80 #ANG=135 #RND=2\nZ-60\nM30\n",
 }
+TOLD = (
+    "contoursolve control: {}",
+    "Add tool, speed, feed, approach and retract: they are not in it.",
+    "The next block is a rapid straight to the start of the contour. Make it a safe approach.",
+)
 
 
 @pytest.mark.parametrize("control", PROGRAMS)
@@ -149,8 +154,11 @@ def test_the_command_writes_a_whole_program(control: str, tmp_path: Path):
     sketch = Path(__file__).parent.parent / "sketches" / "turned_shaft.toml"
     done = CliRunner().invoke(commands(), ["write", str(sketch), "--to", control, "-o", str(tmp_path / "new.nc")])
     assert (done.exit_code, done.stdout) == (0, "")
-    assert (tmp_path / "new.nc").read_text(encoding="utf-8") == PROGRAMS[control]
-    checked = CliRunner().invoke(commands(), ["check", "--control", control, "--strict", str(tmp_path / "new.nc")])
+    remark = contoursolve.DIALECTS[control].modes.syntax.remark
+    own, missing, rapid = (f"{remark.format(each.format(control))}\n" for each in TOLD)
+    text = (tmp_path / "new.nc").read_text(encoding="utf-8")
+    assert text == PROGRAMS[control].format(own + missing, rapid)
+    checked = CliRunner().invoke(commands(), ["check", "--strict", str(tmp_path / "new.nc")])
     assert (checked.exit_code, checked.stdout.split("solved")[1]) == (0, ", no problems\n")
 
 

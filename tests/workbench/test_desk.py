@@ -89,6 +89,7 @@ def test_each_product_is_that_of_the_command_of_its_name(tmp_path):
     assert drawn["svg"] == contoursolve.pictures.draw(contoursolve.solve(text), theme=Theme.PAGE).svg
     plain = b64decode(page.ask("expand", comments=False)["base64"])
     assert plain == contoursolve.expand(text, comments=False).text.encode()
+    assert page.ask("convert", to="siemens-840d")["name"].endswith("-siemens-840d.mpf")
     other = b64decode(page.ask("convert", to="fanuc-lathe")["base64"])
     assert other == contoursolve.convert(text, "fanuc-lathe").text.encode()
     assert page.ask("verify")["verdict"] == "verified"

@@ -48,6 +48,7 @@ def test_a_sketch_is_opened_known_written_and_saved(desk, tmp_path) -> None:
     wanted = contoursolve.write(read_sketch(TEXT), "fanuc-lathe").candidates
     assert [each["block"] for each in words["candidates"]] == ["\n".join(each.lines) for each in wanted]
     assert {"text": "Z-30.5", "rests": "drawing"} in words["candidates"][0]["words"]
+    assert [ask(desk, "sketch_words", sketch=sketch, control=each)["ending"] for each in ENDINGS] == [*ENDINGS.values()]
     rows = ask(desk, "sketch_words", sketch=sketch, control=None)["rows"]
     assert {row["control"] for row in rows if row["block"]} >= {"fanuc-lathe", "haas-lathe", "yasnac-lx3"}
     assert all(row["block"] or row["reason"] for row in rows)
@@ -56,6 +57,9 @@ def test_a_sketch_is_opened_known_written_and_saved(desk, tmp_path) -> None:
     saved = ask(desk, "save", name="part.toml", text=TEXT.replace("60", "70"), base=opened["base"])
     assert saved["saved"] == "part.toml"
     assert (tmp_path / "part.toml").read_text(encoding="utf-8") == TEXT.replace("60", "70")
+
+
+ENDINGS = {"haas-lathe": ".nc", "siemens-808d": ".mpf", "heidenhain": ".h"}
 
 
 @pytest.mark.parametrize(
