@@ -83,8 +83,11 @@ from .word import (
     NamedAs as NamedAs,
     Program as Program,
     Substitution as Substitution,
+    TypedPlace as TypedPlace,
     Word as Word,
     call as call,
     number_of as number_of,
     spell as spell,
+    typed_places as typed_places,
+    typed_span as typed_span,
 )

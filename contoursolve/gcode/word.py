@@ -1,9 +1,10 @@
 """Words, blocks and programs exactly as they were typed."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from enum import Enum
+from typing import NamedTuple
 
 from msgspec import Struct
 
@@ -176,6 +177,26 @@ class Substitution(Struct, frozen=True):
     number: str
     reason: str = ""
 
+    def is_within(self, span: Span) -> bool:
+        """Whether the typed value is in a stretch of the line as it was typed."""
+        return span.column <= self.begin + 1 and self.end < span.end_column
+
+
+def typed_span(span: Span, substituted: Sequence[Substitution]) -> Span:
+    """The place in a line as it was typed of a stretch of the line with numbers for its variables; of a part of such a
+    number, all of what it replaces."""
+    begin, end = span.column - 1, span.end_column - 1
+    typed_begin, typed_end, shift = begin, end, 0
+    for each in substituted:
+        first = each.begin + shift
+        last = first + len(each.number or each.typed)
+        shift += last - first - (each.end - each.begin)
+        if begin > first:
+            typed_begin = begin - shift if begin >= last else each.begin
+        if end > first:
+            typed_end = end - shift if end >= last else each.end
+    return Span(span.line, typed_begin + 1, typed_end + 1)
+
 
 class Block(Shown, Struct, frozen=True):
     """One line of a program; `text` is the line without its end, with numbers in the place of known variables."""
@@ -208,6 +229,10 @@ class Block(Shown, Struct, frozen=True):
                 return word
         return None
 
+    def typed_span(self, span: Span) -> Span:
+        """The place of a stretch of its text in the line as it was typed."""
+        return typed_span(span, self.substituted)
+
     @property
     def says_something(self) -> bool:
         """Whether it has more than its number."""
@@ -219,6 +244,30 @@ class Block(Shown, Struct, frozen=True):
         stripped = self.text.strip()
         column = self.text.find(stripped) + 1 if stripped else 1
         return Span(self.line, column, column + max(len(stripped), 1))
+
+
+class TypedPlace(NamedTuple):
+    """The place of a word in its line as it was typed, and the variables and expressions that give its value."""
+
+    span: Span
+    formulas: tuple[str, ...]
+
+
+def typed_places(words: Iterable[Word], blocks: Iterable[Block]) -> dict[Span, TypedPlace]:
+    """The places of words as they were typed, by their places in blocks that have numbers for variables."""
+    lines: dict[int, list[Block]] = {}
+    for block in blocks:
+        if block.substituted:
+            lines.setdefault(block.line, []).append(block)
+    return {word.span: _typed_place(word, lines.get(word.span.line, ())) for word in words}
+
+
+def _typed_place(word: Word, blocks: Iterable[Block]) -> TypedPlace:
+    # In a loop, a line may run several times.
+    block = next((each for each in blocks if word in each.words), None)
+    span = word.span if block is None else block.typed_span(word.span)
+    typed = [each.typed for each in block.substituted if each.is_within(span)] if block is not None else []
+    return TypedPlace(span, tuple(typed or [word.text.strip()] * (word.number is None and not word.is_asked)))
 
 
 class Program(Shown, Struct, frozen=True):

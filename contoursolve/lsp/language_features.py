@@ -46,7 +46,9 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
     answer, block = opened.program.contour_at(line), _block(opened, line)
     word = next((each for each in block.words if each.span.column <= column < each.span.end_column), None)
     if answer is not None:
-        stated = next((each for each in stated_words(answer) if word and each.word.span == word.span), None)
+        ran = next((each for each in answer.claim.blocks if each.line == line), block)
+        here = {ran.typed_span(each.word.span): each for each in stated_words(answer) if each.word.span.line == line}
+        stated = here.get(word.span) if word is not None else None
         if stated is not None and word is not None:
             return _hover(opened, _with_tool(opened, _about_word(stated, answer), line), word)
         is_drawn = opened.options.has_pictures and opened.reads_markdown

@@ -17,12 +17,13 @@ from contoursolve.diagnosis import (
     EditKind,
     Listed,
     apply_edits,
+    join,
     list_solutions,
     word_keys,
     write_word,
 )
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import FACT, Word, number_of, parse, spell, split_lines
+from contoursolve.gcode import FACT, TypedPlace, Word, number_of, parse, spell, split_lines, typed_places
 from contoursolve.geometry import Pick, Unit
 from contoursolve.notebook.block_place import BlockPlace
 from contoursolve.output import stated_words
@@ -240,10 +241,45 @@ def words_of(answer: Answer) -> dict[str, Word]:
     return {key: words[span] for span, key in keys.items()}
 
 
-def values_of(exploration: Exploration) -> dict[str, float]:
-    """The values of the words as they are typed, by their keys; none of those that are asked for."""
+def places_of(answer: Answer) -> dict[Span, TypedPlace]:
+    """The places of the words of a contour in the text, by their places in its blocks with numbers for variables."""
+    return typed_places(answer.claim.words.values(), answer.claim.blocks)
+
+
+class ComputedWord(Struct, frozen=True):
+    """A word as it is typed, and the variables and expressions that give its value."""
+
+    text: str
+    formulas: tuple[str, ...]
+
+    @property
+    def told(self) -> str:
+        """The reason why it cannot be moved."""
+        names = join([each.lstrip("+-") for each in self.formulas])
+        return f"{self.text} takes its value from {names}; change that in the program"
+
+
+def computed_words(exploration: Exploration) -> dict[str, ComputedWord]:
+    """The words of the contour whose values are variables or expressions, by their keys."""
     answer = exploration.answer
-    found = {} if answer is None else {each.key: each.value for each in stated_words(answer)}
+    if answer is None:
+        return {}
+    texts, places = {each.line: each.text for each in exploration.result.program.blocks}, places_of(answer)
+    found = {}
+    for key, word in words_of(answer).items():
+        span, formulas = places[word.span]
+        if formulas:
+            text = texts[span.line][span.column - 1 : span.end_column - 1].strip()
+            found[key] = ComputedWord(text, formulas)
+    return found
+
+
+def values_of(exploration: Exploration) -> dict[str, float]:
+    """The values of the words as they are typed, by their keys; none of those that are asked for, or computed."""
+    answer = exploration.answer
+    computed = computed_words(exploration)
+    words = () if answer is None else stated_words(answer)
+    found = {each.key: each.value for each in words if each.key not in computed}
     tool = tool_place(exploration)
     found |= {TOOL: float(tool[1].radius)} if tool is not None else {}
     return {key: value for key, value in found.items() if value is not None and key != FACT}
@@ -267,7 +303,7 @@ def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Ex
             edits.append(Edit(EditKind.CHANGE, FACT, span, f"{old.radius}", text))
             continue
         answer, word = _find(exploration, key)
-        edits.append(Edit(EditKind.CHANGE, word.address, word.span, word.text, _written(answer, word, value)))
+        edits.append(_change(answer, word, _written(answer, word, value)))
     return _edited(exploration, edits)
 
 
@@ -293,14 +329,14 @@ def free(exploration: Exploration, key: str) -> Exploration:
     that it had."""
     answer, word = _find(exploration, key)
     if not word.is_asked:
-        freed = _change(exploration, word, spell(word.address, "?"))
+        freed = _edited(exploration, [_change(answer, word, spell(word.address, "?"))])
         return replace(freed, last={**exploration.last, key: word.text})
     found = next((each for each in answer.answers if each.question.word.span == word.span), None)
     text = exploration.last.get(key, spell(word.address, "0."))
     if found is not None and found.value is not None:
         text = write_word(word.address, found.value, answer.claim.lexicon, answer.unit)
         text = _signed(text, word.address, exploration.last.get(key, ""))
-    return _change(exploration, word, text)
+    return _edited(exploration, [_change(answer, word, text)])
 
 
 def apply_fix(exploration: Exploration, finding: int, number: int, *, is_example: bool = False) -> Exploration:
@@ -351,8 +387,7 @@ def _picking(answer: Answer, picks: Sequence[Pick]) -> Iterator[Edit]:
     wanted = {each.element: each.number for each in picks}
     present = {each.element: claim.words[each.given] for each in answer.profile.picks if each.given}
     for element, old in present.items():
-        text = spell(word, str(wanted.get(element, 1)))
-        yield Edit(EditKind.CHANGE, word, old.span, old.text, text)
+        yield _change(answer, old, spell(word, str(wanted.get(element, 1))))
     for element in wanted.keys() - present.keys():
         line = lines[answer.profile.figure.path[element - 1].name]
         yield Edit(EditKind.ADD, word, text="\n" + spell(word, str(wanted[element])), line=line)
@@ -368,7 +403,7 @@ def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iter
         present = [word for word in words_of(answer).values() if word.address == address]
         lines = [block.line for block in reversed(answer.claim.blocks) if block.words]
         ways.append(
-            [Edit(EditKind.CHANGE, address, word.span, word.text, text) for word in present]
+            [_change(answer, word, text) for word in present]
             or [Edit(EditKind.ADD, address, text=text, line=line) for line in lines]
         )
     yield from product(*ways) if ways else ()
@@ -388,8 +423,9 @@ def _changed(exploration: Exploration, changes: Changes) -> Exploration:
     return _solved(exploration, changed(exploration.text, changes), moved)
 
 
-def _change(exploration: Exploration, word: Word, text: str) -> Exploration:
-    return _edited(exploration, [Edit(EditKind.CHANGE, word.address, word.span, word.text, text)])
+def _change(answer: Answer, word: Word, text: str) -> Edit:
+    """The edit that writes a text for a word of a contour, where that was typed."""
+    return Edit(EditKind.CHANGE, word.address, places_of(answer)[word.span].span, word.text, text)
 
 
 def _find(exploration: Exploration, key: str) -> tuple[Answer, Word]:
@@ -399,6 +435,8 @@ def _find(exploration: Exploration, key: str) -> tuple[Answer, Word]:
         raise ValueError(f"the contour has no word {key}; there are {', '.join(words) or 'none'}")
     if not is_movable(answer, words[key]):
         raise ValueError(f"{key} has no value to move")
+    if key in (computed := computed_words(exploration)):
+        raise ValueError(computed[key].told)
     return answer, words[key]
 
 

@@ -15,7 +15,17 @@ from contoursolve.diagnostics import Applicability, Diagnostic, Span
 from contoursolve.families import End, FamilyError, Feasible, Way, called, feasible
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Question, Unit
-from contoursolve.notebook.exploration import TOOL, Exploration, free, is_movable, tool_place, words_of
+from contoursolve.notebook.exploration import (
+    TOOL,
+    ComputedWord,
+    Exploration,
+    computed_words,
+    free,
+    is_movable,
+    places_of,
+    tool_place,
+    words_of,
+)
 from contoursolve.notebook.handles import Handle, HandleKind, derivatives_of, handles_of, moving_of
 from contoursolve.notebook.range_text import range_texts
 from contoursolve.notebook.reader_edits import MOST_FIXES, ArrangedFix, ReaderEdits, arranged
@@ -76,7 +86,9 @@ def view_of(
     answer = exploration.answer
     drawn = drawn if drawn is not None or answer is None else picture_of(answer, None, exploration.tool)
     motion = derivatives_of(answer) if answer is not None and drawn is not None else None
-    handles = handles_of(answer, drawn, motion, pinned, held) if answer is not None and drawn is not None else []
+    computed = computed_words(exploration)
+    still = {*pinned, *computed}
+    handles = handles_of(answer, drawn, motion, still, held) if answer is not None and drawn is not None else []
     moved = {key for handle in handles for key in handle.keys}
     return {
         "text": exploration.block,
@@ -87,7 +99,7 @@ def view_of(
         "frame": drawn.frame if drawn is not None else {},
         "handles": [_handle(handle) for handle in handles],
         "elements": to_builtins(moving_of(motion, drawn, moved)) if motion is not None and drawn is not None else [],
-        "fields": [*_fields(answer, pinned), *_tool_field(exploration, answer)] if answer else [],
+        "fields": [*_fields(answer, pinned, computed), *_tool_field(exploration, answer)] if answer else [],
         "findings": list(_findings(exploration, edits)),
         "elsewhere": _elsewhere(exploration),
         "solutions": _solutions(answer) if answer else {"text": "", "items": []},
@@ -117,8 +129,8 @@ def _handle(handle: Handle) -> Data:
     return {**to_builtins(handle), "keys": handle.keys, "text": texts.get(handle.kind, f"{handle.name}: size")}
 
 
-def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
-    """A field for each word."""
+def _fields(answer: Answer, pinned: Collection[str], computed: Mapping[str, ComputedWord]) -> Iterator[Data]:
+    """A field for each word with a value; one that is computed says why it cannot be moved."""
     claim, size = answer.claim, _size(answer)
     names = {word.span: name for name, word in claim.words.items()}
     ignored = {answer.profile.givens[fact.given].word for fact in answer.profile.ignored if fact.given}
@@ -126,18 +138,19 @@ def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
     for key, word in words_of(answer).items():
         row = claim.lexicon.addresses.get(word.address)
         if row is None or not is_movable(answer, word) or (word.number is None and not word.is_asked):
-            continue  # a variable has no value to move
+            continue  # a variable without a value
         value, unit = stated_value(word, answer)
         asked = found_value(found[word.span], answer)[0] if word.span in found else None
         value = value if asked is None else round(asked, DECIMALS)
         low, high, step = _scale(answer, word, value or 0.0, size)
         yield {
             "key": key,
-            "word": short(word.text),
+            "word": short(computed[key].text if key in computed else word.text),
             "meaning": meaning_of(names[word.span], word, answer.claim),
             "unit": unit,
             "value": None if value is None else round(value, 6) + 0.0,
-            "state": "free" if word.is_asked else "ignored" if word in ignored else "given",
+            "state": "computed" if key in computed else _state(word, ignored),
+            "reason": short(computed[key].told) if key in computed else "",
             "is_pinned": key in pinned,
             "increment": float(claim.lexicon.numbers.step(row.unit, answer.unit)),
             "low": low,
@@ -145,6 +158,10 @@ def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
             "step": step,
             "size": TURN if row.unit is Unit.DEGREE else size,
         }
+
+
+def _state(word: Word, ignored: Collection[Word | None]) -> str:
+    return "free" if word.is_asked else "ignored" if word in ignored else "given"
 
 
 def _tool_field(exploration: Exploration, answer: Answer) -> Iterator[Data]:
@@ -372,7 +389,9 @@ def frames_of(exploration: Exploration) -> dict[str, str]:
     rest = "\n".join(each.text for each in blocks if not exploration.has(each.line))
     mark = f"{crc32(rest.encode()):08x}\n" if rest else ""
     own = [each for each in blocks if exploration.has(each.line)]
-    spans = {key: word.span for key, word in words_of(answer).items() if word.number is not None}
+    places = places_of(answer)
+    typed = {key: places[word.span] for key, word in words_of(answer).items() if word.number is not None}
+    spans = {key: each.span for key, each in typed.items() if not each.formulas}
     tool = tool_place(exploration)
     spans |= {TOOL: tool[0]} if tool is not None else {}
     return {key: mark + _frame(own, span) for key, span in spans.items()}

@@ -328,10 +328,12 @@ function render({ model, el }) {
       row.slider.max = row.scale.high;
       row.slider.step = row.scale.step;
       const isFree = field.state === "free";
-      row.slider.disabled = isFree;
+      const isComputed = field.state === "computed";
+      row.slider.disabled = isFree || isComputed;
+      row.number.readOnly = isComputed;
       row.free.setAttribute("aria-pressed", String(isFree));
       row.pin.setAttribute("aria-pressed", String(field.is_pinned));
-      for (const each of [row.free, row.pin]) each.style.visibility = field.state === "tool" ? "hidden" : "";
+      for (const each of [row.free, row.pin]) each.style.visibility = field.state === "tool" || isComputed ? "hidden" : "";
       row.label.textContent = field.word;
       row.row.dataset.state = field.state;
       row.range.dataset.state = field.state;
@@ -342,7 +344,7 @@ function render({ model, el }) {
       if (field.state === "free" && field.value !== null) row.text = "free; the others give its value";
       else if (field.state === "free") row.text = isSeveral ? "free; each solution gives its own" : "free; nothing gives its value";
       else if (field.state === "ignored") row.text = "ignored by the control";
-      else row.text = "";
+      else row.text = field.reason ?? "";
       order.push(row.row);
     }
     for (const key of gone) rows.delete(key);

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report, status_text
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.execution import ARGUMENT, MACHINES, Limit, Machine, Surroundings, machine_of
-from contoursolve.gcode import Block, Caller, Program, Substitution
+from contoursolve.gcode import Block, Caller, Program, Substitution, typed_span
 from contoursolve.program.cycle_profiles import CycleProfile, profiles_of, turns_back
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import Dialect, ReadIssue, Rule, State
@@ -312,18 +312,7 @@ def _as_typed(
 
 def _place(span: Span, here: _Substituted) -> Span:
     """The columns of what was typed."""
-    return Span(span.line, *(_column(at, here.get(span.line, ())) for at in (span.column, span.end_column)))
-
-
-def _column(column: int, here: Sequence[Substitution]) -> int:
-    shift = 0
-    for each in here:
-        end = each.begin + shift + len(each.number or each.typed)
-        if column - 1 >= end:
-            shift += len(each.number or each.typed) - (each.end - each.begin)
-        elif column - 1 > each.begin + shift:
-            return each.begin + 1 if column - 1 < end else each.end + 1
-    return column - shift
+    return typed_span(span, here.get(span.line, ()))
 
 
 def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], here: _Substituted) -> Fix:

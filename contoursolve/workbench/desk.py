@@ -21,7 +21,7 @@ import contoursolve
 from contoursolve.controls import DIALECTS, DRAWINGS, ChainFinder, words_of_drawing
 from contoursolve.diagnosis import word_keys
 from contoursolve.diagnostics import ProgramError, UserError
-from contoursolve.gcode import Blocks
+from contoursolve.gcode import Blocks, typed_places
 from contoursolve.output import notebook_style
 from contoursolve.program import likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
@@ -323,8 +323,10 @@ def _explored(program: ProgramView, explored: Explored | None, changed: Data | N
         return {"line": None, "last": None}
     told: Data = {"state": explored.conversation.state} if changed is None else {"changed": changed}
     answer = explored.conversation.exploration.answer
-    keys = word_keys(answer.claim.words.values()) if answer is not None else {}
-    places = {key: program.stretch(span) for span, key in keys.items() if explored.first <= span.line <= explored.last}
+    words, blocks = (answer.claim.words.values(), answer.claim.blocks) if answer is not None else ((), ())
+    typed, keys = typed_places(words, blocks), word_keys(words)
+    own = {key: typed[span].span for span, key in keys.items() if explored.first <= span.line <= explored.last}
+    places = {key: program.stretch(span) for key, span in own.items()}
     told["words"] = {key: [each["line"], each["from"], each["to"]] for key, each in places.items()}
     return {"line": explored.first, "last": explored.last, "seq": program.seq, **told}
 

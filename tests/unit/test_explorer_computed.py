@@ -1,0 +1,164 @@
+"""Words whose values are variables or expressions: the explorer leaves them, and every other character, as they are."""
+
+import pytest
+
+import contoursolve
+from contoursolve.notebook import exploration as explore
+from contoursolve.notebook.exploration_view import frames_of, range_of, view_of
+from contoursolve.workbench.desk import Desk
+
+PROGRAMS = {
+    "fanuc-lathe": [
+        (
+            (
+                "#100=24.\n#101=1.5\nG0 X16. Z0.\nN30 G1 X#100 ,C1.5 F0.2 (X#100 ,C1.5)\nN35 Z-20. ,R[#101*2.]\n"
+                "N40 X[#100+12.] ,A120.\nN45 Z - [#100 + 8.]"
+            ),
+            {"4:X": "X#100", ",R": ",R[#101*2.]", "6:X": "X[#100+12.]"},
+        ),
+        # A call gives the values, which are longer than what is typed.
+        (
+            "G0 X60. Z0.\nG65 P2 X58.1234 D0.12345\nM30\nO2\nG1 X#24,C#7,A100.\nZ-[#24/2.],C1.5;(Z-1)\nX70.\nM99",
+            {"5:X": "X#24", "5:,C": ",C#7", "Z": "Z-[#24/2.]"},
+        ),
+        # An empty variable leaves its word out.
+        (
+            "#1=#0\n#2=3\nG0 X40. Z0.\nG1 ,A180. X#1 Z#1 ,R#2\nU20. W-20.",
+            {",R": ",R#2"},
+        ),
+        ("G0 X40. Z0.\n#1=20. (NEXT)\nG1 W[-#1] ,R[3.] (SET)\nU#1 ,A120.", {"W": "W[-#1]", ",R": ",R[3.]", "U": "U#1"}),
+    ],
+    "fanuc-mill": [
+        (
+            "#1=10.\nG17 G90 G0 X0 Y0\nG1 X-[#1],R#1 F200.\nY[#1*3.],C2.\nX[50.-#1/2.]",
+            {"3:X": "X-[#1]", ",R": ",R#1", "Y": "Y[#1*3.]", "5:X": "X[50.-#1/2.]"},
+        )
+    ],
+    "nct-99m": [
+        (
+            "#1=5\nG17 G41 G0 X50 Y0\nG3 X-50 Y0 R[#1*10] Q-1\nG1 X-[#1*10] Y42.857 ,A171.87",
+            {"R": "R[#1*10]", "4:X": "X-[#1*10]"},
+        )
+    ],
+    "yasnac-lx3": [
+        (
+            "#100=40.\nG00 X#100 Z0.\nG111 X[#100*2.5]A180. K-[#100] B120. P5.",
+            {"X": "X[#100*2.5]", "K": "K-[#100]"},
+        )
+    ],
+    "haas-lathe": [
+        ("#100 = 24.\nG00 X16. Z0.\nG01 X#100 ,C1.5\nZ-[#100 - 4.] ,R3.\nX36.", {"3:X": "X#100", "Z": "Z-[#100 - 4.]"})
+    ],
+    "haas-mill": [("#3=2.5\nG17 G00 X0 Y0\nG01 X#3 ,R1.\nY[#3*4] ,C0.5\nX20.", {"3:X": "X#3", "Y": "Y[#3*4]"})],
+    "mitsubishi": [
+        (
+            "#100=24.\nG18 G00 X16. Z0.\nG01 X#100 ,C1.5\nZ-[#100-4.] ,R3.\nX36. ,A120.",
+            {"3:X": "X#100", "Z": "Z-[#100-4.]"},
+        )
+    ],
+    "siemens-840d": [
+        (
+            (
+                "DEF REAL W_1=60\nR1=5\nG18 G90\nG0 X40 Z0\nG1 Z=-R1*4 RND=R1 F0.2 ; RND=R1\nG1 X=IC(R1*4) ANG=120\n"
+                "G1 Z=-W_1"
+            ),
+            {"Z": "Z=-R1*4", "RND": "RND=R1", "X=IC": "X=IC(R1*4)"},
+        )
+    ],
+    "siemens-808d": [
+        (
+            "R1=5.25\nG18 G90\nG0 X40 Z0\nG1 Z=-(R1*4) RND=2\nG1 X=IC(20) ANG=R1+115.5\nG1 Z-60",
+            {"Z": "Z=-(R1*4)", "ANG": "ANG=R1+115.5"},
+        )
+    ],
+    "isg": [
+        (
+            "P1=5\nG18 G90\nG0 X40 Z0\nG1 Z=-P1*4 #RND=P1\nG1 X[P1*12] #CHF=2\nZ-50\n",
+            {"4:Z": "Z=-P1*4", "#RND": "#RND=P1", "X": "X[P1*12]"},
+        )
+    ],
+    "heidenhain": [
+        (
+            (
+                "0 BEGIN PGM A MM\n1 Q1 = 50\n2 Q2 = 3\n3 L X+0 Y+0 R0 FMAX\n4 FPOL X+0 Y+0\n5 FL X+Q1 Y-Q2 F500\n"
+                "6 RND R3\n7 FL X+90 Y+Q1\n8 END PGM A MM"
+            ),
+            {"6:X": "X+Q1", "6:Y": "Y-Q2", "8:Y": "Y+Q1"},
+        )
+    ],
+}
+CASES = [pytest.param(name, *each, id=f"{name}-{at}") for name, own in PROGRAMS.items() for at, each in enumerate(own)]
+
+
+def check_only_changed(now, moved, words):
+    """Nothing but these words, none of which stands twice in a line outside of a comment, has another text."""
+    old, new = now.text.split("\n"), moved.text.split("\n")
+    assert len(old) == len(new)
+    written = explore.words_of(moved.answer)
+    for number, (before, after) in enumerate(zip(old, new, strict=True), 1):
+        wanted = before
+        for key, word in words.items():
+            if word.span.line == number:
+                assert word.text in wanted
+                wanted = wanted.replace(word.text, written[key].text, 1)
+        assert after == wanted
+
+
+def begun(control, text):
+    line = contoursolve.solve(text, control=control).answers[0].lines[0]
+    return explore.begin(text, line=line, control=control)
+
+
+@pytest.mark.parametrize(("control", "text", "computed"), CASES)
+def test_a_word_with_a_variable_stays_and_moves_of_others_keep_every_character(control, text, computed):
+    now = begun(control, text)
+    fields = {each["key"]: each for each in view_of(now)["fields"]}
+    words = explore.words_of(now.answer)
+    movable = {key: words[key] for key in fields if key not in computed}
+    assert movable
+    assert {key: each["word"] for key, each in fields.items() if each["state"] == "computed"} == computed
+    assert computed.keys().isdisjoint(explore.values_of(now))
+    assert computed.keys().isdisjoint(frames_of(now))
+    for key, typed in computed.items():
+        assert fields[key]["reason"].startswith(f"{typed} takes its value from ")
+        for change in (lambda key=key: explore.set_word(now, key, 7.5), lambda key=key: explore.free(now, key)):
+            with pytest.raises(ValueError, match="change that in the program"):
+                change()
+    assert not {key for handle in view_of(now)["handles"] for key in handle["keys"]} & computed.keys()
+    for key, word in movable.items():
+        check_only_changed(now, explore.set_word(now, key, fields[key]["value"] + 1), {key: word})
+        free = explore.free(now, key)
+        check_only_changed(now, free, {key: word})
+        assert explore.words_of(free.answer)[key].is_asked
+    several = {key: fields[key]["value"] + 0.5 for key in movable if key != "Q"}
+    moved = explore.set_words(now, several)
+    check_only_changed(now, moved, {key: movable[key] for key in several})
+    assert several.items() <= explore.values_of(moved).items()
+
+
+def test_the_page_writes_beside_a_variable_and_marks_whole_words():
+    desk, (text, computed) = Desk(), PROGRAMS["fanuc-lathe"][0]
+    opened = desk.answer({"window": "a", "do": "open", "text": text, "control": "fanuc-lathe"})
+    about = {"window": "a", "program": opened["id"], "line": 4}
+
+    def marked(words):
+        lines = desk.answer({**about, "do": "view"})["text"].split("\n")
+        return {key: lines[line - 1][begin:end] for key, (line, begin, end) in words.items()}
+
+    looked = desk.answer({**about, "do": "look"})
+    assert marked(looked["words"]) == {**computed, ",C": ",C1.5", "Z": "Z-20.", ",A": ",A120."}
+    acted = desk.answer({**about, "do": "act", "action": {"do": "move", "values": {",C": "2"}}})
+    assert [each["text"] for each in acted["edits"]] == ["2."]
+    assert marked(acted["words"]) == {**computed, ",C": ",C2.", "Z": "Z-20.", ",A": ",A120."}
+    refused = desk.answer({**about, "do": "act", "action": {"do": "move", "values": {"4:X": 26}}})
+    assert refused["changed"]["view"]["trouble"] == "X#100 takes its value from #100; change that in the program"
+    assert "edits" not in refused
+
+
+def test_a_range_beside_a_variable_is_that_of_the_whole_program():
+    now = begun("fanuc-lathe", PROGRAMS["fanuc-lathe"][0][0])
+    found = range_of(now, next(each for each in view_of(now)["fields"] if each["key"] == ",C"))
+    least, most = found["intervals"][0]
+    for value, is_solved in ((most - 0.01, True), (most + 0.01, False)):
+        assert (explore.set_word(now, ",C", value).answer.contour is not None) is is_solved
+    assert least == 0
