@@ -109,7 +109,10 @@ def _report(found: Written) -> None:
     """Print on standard error how good the first candidate is."""
     first, *others = _candidate_lines(found.candidates[0])
     said = [line.strip() for line in others if not line.startswith("    ")]
-    print_lines((first, *said, *filter(None, (found.reason,))), err=True)
+    reason = found.reason
+    if reason and found.candidates[0].is_plain and not all(each.is_plain for each in found.candidates):
+        reason += " (--all lists them)"
+    print_lines((first, *said, *filter(None, (reason,))), err=True)
 
 
 def _open_lines(sketch: ContourSketch, style: Style) -> Iterator[str]:

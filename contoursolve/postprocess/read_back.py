@@ -28,6 +28,8 @@ class ReadBack(Struct, frozen=True):
     word: str = ""
     """The text to which a finding points."""
     end: Point = (0.0, 0.0)
+    reason: str = ""
+    """Why it is refused."""
 
 
 def read_back(
@@ -48,7 +50,8 @@ def read_back(
         if finding.is_error or (is_strict and finding.about is not ReadIssue.NO_CONTOUR):
             span = finding.span
             text = program.split("\n")[span.line - 1] if span.line > 0 else ""
-            return ReadBack(None, span.line, text[span.column - 1 : span.end_column - 1])
+            word = text[span.column - 1 : span.end_column - 1]
+            return ReadBack(None, span.line, word, reason=f"{finding.code}: {finding.message}")
     axes, numbers = drawn.plane.axes, target.modes.lexicon.numbers
     path = follow(result, target, drawn.unit, axes)
     # The first move leads to where the contour begins, from a place that is not known.
@@ -64,7 +67,8 @@ def read_back(
     if found.difference is None and isinstance(last, Travel):
         return ReadBack(found.deviation, 0, "", (last.end[0] or 0.0, last.end[1] or 0.0))
     blamed = (found.difference.new if found.difference else None) or last
-    return ReadBack(None, blamed.line if blamed else 0)
+    reason = found.difference.reason if found.difference else "no motion"
+    return ReadBack(None, blamed.line if blamed else 0, reason=f"rounded numbers lead elsewhere: {reason}")
 
 
 _NO_SIDE = 40

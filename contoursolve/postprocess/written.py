@@ -1,5 +1,6 @@
 """A contour in the words of a control: the wordings that its rules allow, read back and proven, the best first."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from heapq import heappop, heappush
@@ -10,6 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.comparison import Motion
 from contoursolve.diagnosis import Answer, Depth
+from contoursolve.gcode import spell
 from contoursolve.postprocess.chain_wordings import ChainWordings, language_of
 from contoursolve.postprocess.contour_drawing import ContourDrawing, draw, with_roundings
 from contoursolve.postprocess.emit import Format, MotionBlock
@@ -107,18 +109,33 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
         candidate = searches[-1].take(tried)
         found += [candidate] if candidate else []
     found.sort(key=lambda each: (each.cost, each.lines))
-    return Written(target.name, target.title, tuple(found), _reason(target, found), sum(each.read for each in searches))
+    reason = _reason(target, found, searches)
+    return Written(target.name, target.title, tuple(found), reason, sum(each.read for each in searches))
 
 
-def _reason(target: Dialect, found: Sequence[WrittenContour]) -> str:
+def _reason(target: Dialect, found: Sequence[WrittenContour], searches: Sequence["_Search"]) -> str:
     if not found:
         return f"{target.name} accepts no blocks for this contour, not even plain ones"
     best = found[0]
     if best.written_out:
         return f"{target.name} has no word for {' and '.join(best.written_out)}: a block of its own makes it"
     if best.is_plain and best.cost[0]:
-        return f"no blocks in {target.name}'s own words pass its check: these are plain lines and arcs"
+        return _why_plain(target.name, found, searches)
     return ""
+
+
+def _why_plain(name: str, found: Sequence[WrittenContour], searches: Sequence["_Search"]) -> str:
+    """Why the first candidate has no words that only this control has, though some of its numbers are computed."""
+    others = sum(not each.is_plain for each in found)
+    if others:
+        ways = "1 further way has" if others == 1 else f"{others} further ways have"
+        return f"plain lines and arcs are the shortest; {ways} {name}'s own words"
+    refused = next((each.refused for each in searches if each.refused), "")
+    if refused:
+        return f"these are plain lines and arcs: {name} refuses its own words for this contour ({refused})"
+    if any(each.has_own_words() for each in searches):
+        return "plain lines and arcs are the shortest"
+    return f"these are plain lines and arcs: {name} has no other words for this contour"
 
 
 def _needed(wordings: Iterator[Wording]) -> list[Wording]:
@@ -212,10 +229,14 @@ class _Search:
         places = enumerate(zip(state.plane.axes, drawn.start, strict=True))
         self.start = tuple(self.wordings.word(axis, at, number) for number, (axis, at) in places)
         self.back, self.taken = ReadBack(None), tuple[_Choice, ...]()
-        self.read = 0
-        """The number of programs that were read back."""
+        self.read, self.refused = 0, ""
+        """The number of programs that were read back, and why the first one in the control's own words was refused."""
         self.banned = set[tuple[int, bool, Wording]]()
         self.options = dict[tuple[int, bool], list[Wording]]()
+        self.kinds = dict[tuple[int, bool], list[Wording]]()
+        self.axes = {
+            _address(spell(step, "1")): _address(spell(axis, "1")) for axis, step in self.wordings.steps.items()
+        }
         self.motions = {0, 1, 2, 3}
         self.next: tuple[Cost, tuple[str, ...], tuple[_Choice, ...]] | None = None
         self.found = self._in_order()
@@ -243,6 +264,8 @@ class _Search:
         program, first = self._program(blocks, lines, needs_side=needs_side)
         self.back = self._read_back("\n".join(program) + "\n", self.drawn, cost)
         if self.back.deviation is None:
+            is_own = not all(each.wording.is_plain for each in choices)
+            self.refused = self.refused or (self.back.reason if is_own else "")
             self._ban(choices, self.back.line - first)
             return None
         self.taken = choices
@@ -264,7 +287,7 @@ class _Search:
         is_before = bool(number and self.back.word and each.wording.is_plain and has_word)
         blamed = before if is_before else each
         index, is_cut = blamed.node.index, blamed.node.is_cut
-        several, last = self._at(index, is_cut), [*_words(blamed.wording)][-1:]
+        several, last = self._allowed(index, is_cut), [*_words(blamed.wording)][-1:]
         found = [blamed.wording]
         if is_before:
             found = [other for other in several if other.count == before.wording.count and not other.writes_corner]
@@ -272,11 +295,33 @@ class _Search:
             found = [other for other in several if [*_words(other)][-1:] == last]
         if len(several) > 1:
             self.banned.update((index, is_cut, other) for other in found)
+            self.kinds.pop((index, is_cut), None)
             self.next, self.found = None, self._in_order()
 
     # All of them, in order
 
+    def has_own_words(self) -> bool:
+        """Whether the control has words for an element that are more than its end."""
+        return any(not each.is_plain for several in self.options.values() for each in several)
+
     def _at(self, index: int, is_cut: bool) -> list[Wording]:
+        """The best wording of each kind: ends and increments are the same kind, in whatever order the words stand."""
+        key = index, is_cut
+        if key not in self.kinds:
+            kinds = dict[tuple[object, ...], Wording]()
+            for each in sorted(self._allowed(index, is_cut), key=_cost):
+                kinds.setdefault(self._kind(each), each)
+            self.kinds[key] = [*kinds.values()]
+        return self.kinds[key]
+
+    def _kind(self, wording: Wording) -> tuple[object, ...]:
+        axes, blocks = {*self.wordings.plane.axes}, list[tuple[str, ...]]()
+        for block in wording.blocks:
+            named = [(self.axes.get(at, at), word.text) for word in block.words for at in (_address(word.text),)]
+            blocks.append((block.code, *sorted(at if at in axes else text for at, text in named)))
+        return wording.count, wording.is_cut, wording.writes_corner, *blocks
+
+    def _allowed(self, index: int, is_cut: bool) -> list[Wording]:
         key = index, is_cut
         if key not in self.options:
             self.options[key] = _needed(self.wordings.at(index, is_cut=is_cut, is_plain=self.is_plain))
@@ -320,15 +365,13 @@ class _Search:
 
     def _step(self, node: _Node, wording: Wording) -> tuple[Cost, _Node, tuple[str, ...]]:
         """The cost of a wording at a place, the place behind it, and its lines."""
-        motion, texts, words = node.motion, list[str](), 0
+        motion, texts, codes = node.motion, list[str](), 0
         for block in wording.blocks:
             code = () if block.motion is not None and block.motion == motion else (block.code,)
             texts.append(" ".join((*filter(None, code), *(word.text for word in block.words))))
-            words += sum(map(bool, code)) + len(block.words)
+            codes += sum(map(bool, code))
             motion = motion if block.motion is None else block.motion
-        rests = [word.ground for word in _words(wording)]
-        steps = sum(word.is_indirect for word in _words(wording)) + wording.count - 1
-        cost = rests.count(NumberGround.COMPUTED), words, len(wording.blocks), steps, rests.count(NumberGround.ROUND)
+        cost = _add(_cost(wording), (0, codes, 0, 0, 0))
         return cost, _Node(node.index + wording.count, wording.is_cut, motion), tuple(texts)
 
     # Reading back
@@ -370,6 +413,28 @@ class _Search:
         program, _ = self.around.assemble(blocks, lines, start, needs_side=False)
         self.read += 1
         return read_back("\n".join(program), part, self.target, is_exact=True).deviation is not None
+
+
+def _cost(wording: Wording) -> Cost:
+    """The cost of a wording without its codes."""
+    words = [*_words(wording)]
+    rests = [word.ground for word in words]
+    steps = sum(word.is_indirect for word in words) + wording.count - 1
+    return (
+        rests.count(NumberGround.COMPUTED),
+        len(words),
+        len(wording.blocks),
+        steps,
+        rests.count(NumberGround.ROUND),
+    )
+
+
+_NUMBER = re.compile(r"[-+ .\d]+\)?$")
+
+
+def _address(text: str) -> str:
+    """A word without its number."""
+    return _NUMBER.sub("", text).removesuffix("=")
 
 
 def _add(one: Cost, other: Cost) -> Cost:

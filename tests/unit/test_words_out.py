@@ -1,5 +1,6 @@
 """A contour in the words of a control: the manuals' own blocks come back, and every candidate is the same contour."""
 
+import re
 from math import hypot
 from pathlib import Path
 
@@ -276,6 +277,51 @@ def test_a_corner_without_a_word_has_its_own_block():
     told = contoursolve.write(bow, "haas-mill")
     assert told.reason.startswith("haas-mill has no word for corner 1")
     check_all(bow.answers[0], told)
+
+
+BY_LENGTH = """sketch = 1
+part = "milled"
+start = { X = 0, Y = 0 }
+[[element]]
+kind = "line"
+LEN = 40
+Y = 25
+guess = { X = 31, Y = 25 }
+[[element]]
+kind = "line"
+AN = 0
+LEN = 20
+"""
+WHY_PLAIN = [
+    (BY_LENGTH, "siemens-840d", "plain lines and arcs are the shortest; 3 further ways have siemens-840d's own words"),
+    (BY_LENGTH, "fanuc-mill", "these are plain lines and arcs: fanuc-mill has no other words for this contour"),
+    (
+        "guessed_meeting",
+        "yasnac-lx3",
+        (
+            "these are plain lines and arcs: yasnac-lx3 refuses its own words for this contour (g112-touches: the line "
+            "through V2 just touches the arc, so the path has no corner there)"
+        ),
+    ),
+]
+
+
+@pytest.mark.parametrize(("sketch", "control", "told"), WHY_PLAIN)
+def test_plain_lines_that_come_first_say_why(sketch: str, control: str, told: str):
+    own = [path.read_text(encoding="utf-8") for path in SKETCHES if path.stem == sketch]
+    found = contoursolve.write(read_sketch(*own or [sketch]), control)
+    assert (found.reason, found.candidates[0].is_plain) == (told, True)
+    assert sum(not each.is_plain for each in found.candidates) == (3 if "3 further" in told else 0)
+
+
+@pytest.mark.parametrize("path", SKETCHES, ids=lambda path: path.stem)
+def test_no_two_ways_differ_in_increments_alone(path: Path):
+    sketch = read_sketch(path.read_text(encoding="utf-8"))
+    for control in OF_KIND[sketch.part]:
+        ways = [re.sub(r"[-+]?[.\d]+", "", each.program) for each in contoursolve.write(sketch, control).candidates]
+        alike = [re.sub(r"\bU", "X", re.sub(r"\bW", "Z", re.sub(r"=IC\(\)", "", each))) for each in ways]
+        blocks = [tuple(tuple(sorted(line.split())) for line in each.split("\n")) for each in alike]
+        assert len({*blocks}) == len(blocks)
 
 
 def test_an_open_contour_has_no_words():
