@@ -41,6 +41,9 @@ TOOL = "tool"
 MOST_DIGITS = 8
 """Of a number; controls read no more."""
 
+_DECIMALS = 4
+"""Of the radius of a tool, at most."""
+
 MOST_TRIED = 16
 """Ways to write what selects a solution that are tried."""
 
@@ -298,7 +301,7 @@ def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Ex
         place = tool_place(exploration) if key == TOOL else None
         if place is not None:
             span, old = place
-            radius = make_tool(Decimal(f"{float(value):.4f}"), None).radius
+            radius = make_tool(round(_decimal(TOOL, value), _DECIMALS), None).radius
             text = f"{radius.normalize():f}"
             edits.append(Edit(EditKind.CHANGE, FACT, span, f"{old.radius}", text))
             continue
@@ -442,14 +445,7 @@ def _find(exploration: Exploration, key: str) -> tuple[Answer, Word]:
 
 def _written(answer: Answer, word: Word, value: float | str) -> str:
     """A word with another number, as the control reads it."""
-    try:
-        number = Decimal(str(value))
-    except InvalidOperation:
-        number = Decimal("NaN")
-    if not number.is_finite():
-        raise ValueError(f"{word.address} needs a number, not {value!r}")
-    if number.adjusted() > MOST_DIGITS:
-        raise ValueError(f"{word.address} takes numbers below {10 ** (MOST_DIGITS + 1):,}, not {value}")
+    number = _decimal(word.address, value)
     lexicon = answer.claim.lexicon
     if lexicon.addresses[word.address].unit is Unit.SIGN:
         return spell(word.address, "-1" if number < 0 else "1")
@@ -459,6 +455,19 @@ def _written(answer: Answer, word: Word, value: float | str) -> str:
     return _signed(
         text, word.address, "+" if is_signed and number_of(word.text, word.address)[:1] == "-" else word.text
     )
+
+
+def _decimal(name: str, value: float | str) -> Decimal:
+    """A number that a reader gives, perhaps with a decimal comma. Raises ValueError for what is none."""
+    try:
+        number = Decimal(value.replace(",", ".") if isinstance(value, str) else str(value))
+    except InvalidOperation:
+        number = Decimal("NaN")
+    if not number.is_finite():
+        raise ValueError(f"{name} needs a number, not {value!r}")
+    if number.adjusted() > MOST_DIGITS:
+        raise ValueError(f"{name} takes numbers below {10 ** (MOST_DIGITS + 1):,}, not {value}")
+    return number
 
 
 def _signed(text: str, address: str, like: str) -> str:

@@ -254,7 +254,7 @@ function render({ model, el }) {
   function wordRow(field) {
     const name = `${field.key}: ${field.meaning}`;
     const slider = make("input", { type: "range", "aria-label": `${name}, slider` });
-    const number = make("input", { type: "number", step: "any", "aria-label": field.unit ? `${name}, ${field.unit}` : name });
+    const number = make("input", { type: "text", autocomplete: "off", spellcheck: "false", class: "value", "aria-label": field.unit ? `${name}, ${field.unit}` : name });
     const free = button("?", () => act({ do: "free", key: field.key }), {
       class: "free",
       title: "Free this word: let the others give its value",
@@ -293,10 +293,12 @@ function render({ model, el }) {
       release(isPointed ? 0 : SETTLED);
       isPointed = false;
     });
+    // A field for text: one for numbers drops a decimal comma, and a keyboard for decimals may lack the minus.
+    const isEmpty = () => !number.value.trim();
     number.addEventListener("input", () => (shown.isTyping = true));
     // A value that is proposed is no change for the browser; Enter and Tab take it.
     const accept = () => {
-      if (shown.isProposed && number.value !== "") act({ do: "move", values: { [field.key]: number.value } });
+      if (shown.isProposed && !isEmpty()) act({ do: "move", values: { [field.key]: number.value } });
       shown.isProposed = false;
     };
     number.addEventListener("keydown", (event) => {
@@ -306,8 +308,8 @@ function render({ model, el }) {
     number.addEventListener("blur", () => (shown.isTyping = shown.isProposed = false));
     number.addEventListener("change", () => {
       shown.isTyping = shown.isProposed = false;
-      if (number.value !== "") act({ do: "move", values: { [field.key]: number.value } });
-      else showWords(model.get("view").fields, false); // what is no number changes nothing
+      if (!isEmpty()) act({ do: "move", values: { [field.key]: number.value } });
+      else showWords(model.get("view").fields, false); // nothing changes nothing
     });
     const shown = { about: aboutOf(field), row, slider, number, free, pin, band, range, label, scale: null, text: "", isTyping: false };
     return shown;

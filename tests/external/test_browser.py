@@ -137,7 +137,7 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         finding.wait_for(state="detached")
         assert explorer.locator(".state").inner_text().startswith("solved")
 
-        number = row.locator("input[type=number]")
+        number = row.locator("input.value")
         kept = number.input_value()
         number.fill("")
         number.press("Enter")

@@ -176,8 +176,8 @@ def test_the_slider_of_the_tool_moves_the_picture_and_the_findings(browser, tmp_
     assert not row.locator("button.free").is_visible()
     assert desk.page.locator(".paper .s-track").count() > 0
     desk.page.screenshot(path=artefacts / "touch-tool.png")
-    row.locator("input[type=number]").fill("6")
-    row.locator("input[type=number]").press("Enter")
+    row.locator("input.value").fill("6")
+    row.locator("input.value").press("Enter")
     desk.page.locator(".finding.error").wait_for()
     assert "(contoursolve tool: R6, tip 3)" in desk.text
     assert desk.page.locator(".paper .s-track").count() == 0
@@ -235,7 +235,7 @@ def test_a_fix_that_asks_for_a_word_leads_to_its_field(desk):
     desk.page.locator("button[aria-label='free X']").click()
     desk.page.locator("button.fix", has_text="add Z?").click()
     desk.settle()
-    field = desk.page.locator(".row[data-word='Z'] input[type=number]")
+    field = desk.page.locator(".row[data-word='Z'] input.value")
     assert field.evaluate("input => input === document.activeElement")
     assert field.input_value() == "-47.321"
     desk.page.keyboard.type("-60")
@@ -389,7 +389,7 @@ def test_what_is_typed_in_the_block_is_never_forgotten(desk):
     desk.page.keyboard.press("End")
     desk.page.keyboard.type(" ")
     desk.page.keyboard.press("Backspace")
-    field = desk.page.locator(".row[data-word='K'] input[type=number]")
+    field = desk.page.locator(".row[data-word='K'] input.value")
     field.fill("-50")
     field.press("Enter")
     desk.settle()
@@ -420,7 +420,7 @@ def test_sections_that_are_opened_show_the_equations_and_follow_each_word(desk, 
     assert "0.866" in section.inner_text()
     assert section.locator("math[alttext*='sin(B)']").count()
     section.locator("summary", has_text="Unknowns and values").click()
-    field = desk.page.locator(".row[data-word='B'] input[type=number]")
+    field = desk.page.locator(".row[data-word='B'] input.value")
     field.fill("150")
     field.press("Enter")
     desk.page.wait_for_function("document.querySelector('details.equations').innerText.match(/B150[^]*\\b0\\.5\\b/)")
@@ -444,7 +444,7 @@ def test_whatever_part_of_an_answer_comes_first_all_of_it_is_shown(desk, order):
     desk.page.evaluate("order => (window.order = order)", order)
     desk.page.locator("details.equations > summary").click()
     for value, status in (("60", "no-solution"), ("9", "solved")):
-        field = desk.page.locator(".row[data-word='P'] input[type=number]")
+        field = desk.page.locator(".row[data-word='P'] input.value")
         field.fill(value)
         field.press("Enter")
         desk.page.locator(".state strong", has_text=status).wait_for()

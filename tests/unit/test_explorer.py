@@ -36,6 +36,7 @@ def test_a_word_is_written_as_the_control_reads_it():
     now = explore.begin(WHOLE, **START)
     assert explore.set_word(now, "P", 7.12349).text == "G111 X100. A180. K-30. B120. P7.123 Q5."
     assert explore.set_word(now, "A", "-170").text == "G111 X100. A-170. K-30. B120. P5. Q5."
+    assert explore.set_word(now, "K", "-22,5").text == "G111 X100. A180. K-22.5 B120. P5. Q5."
     assert field(explore.set_word(now, "X", 90), "X")["value"] == 90
     inch = explore.begin("G111 X4. A180. K-1. B120. P.2", start="X2. Z0.", units="inch")
     moved = explore.set_word(inch, "P", 0.12345)
@@ -43,7 +44,7 @@ def test_a_word_is_written_as_the_control_reads_it():
     assert (field(moved, "P")["value"], field(moved, "P")["unit"]) == (0.1234, "in")
 
 
-@pytest.mark.parametrize(("key", "value"), [("Z", 1), ("P", "x"), ("P", float("nan")), ("P", 1e300), ("P", "")])
+@pytest.mark.parametrize(("key", "value"), [("Z", 1), ("P", "x"), ("P", float("nan")), ("P", 1e300), ("P", ""), ("P", "1.060,5")])
 def test_what_is_no_word_or_no_number_is_refused(key, value):
     with pytest.raises(ValueError, match=key):
         explore.set_word(explore.begin(WHOLE, **START), key, value)

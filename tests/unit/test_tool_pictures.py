@@ -226,7 +226,7 @@ def test_the_explorer_moves_the_radius_of_the_tool():
     talk.answer({"do": "undo", "number": 4})
     assert "R6, tip 3" in talk.answer({"do": "move", "values": {"tool": -1.0}, "number": 5})["view"]["text"]
     assert "must not be less than 0" in talk.state["view"]["trouble"]
-    assert "could not convert" in talk.answer({"do": "move", "values": {"tool": "x"}, "number": 6})["view"]["trouble"]
+    assert "tool needs a number" in talk.answer({"do": "move", "values": {"tool": "x"}, "number": 6})["view"]["trouble"]
 
 
 @pytest.mark.parametrize(("tool", "side"), [("R0.8", "right"), ("R0.8, tip 3", None), ("8 mm", "right")])

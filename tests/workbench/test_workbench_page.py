@@ -54,12 +54,29 @@ def test_an_example_of_each_control_is_mended_and_saved(control, opened, folder)
     assert text_of(page) == wanted
 
 
+def test_a_word_with_a_variable_is_shown_and_not_moved(opened, folder) -> None:
+    text = "#100=100.\nG00 X40. Z0.\nG111 X#100 A180. K-30. B120. P6. Q5.\nM30\n"
+    (folder / "shaft.nc").write_text(text)
+    page = opened("shaft.nc")
+    show(page, "Contour")
+    row = page.locator('.contour .row[data-word="X"]')
+    assert row.locator(".range").inner_text() == "X#100 takes its value from #100; change that in the program"
+    assert (row.locator(".word").inner_text(), row.locator("input.value").input_value()) == ("X#100", "100")
+    assert row.locator("input[type=range]").is_disabled()
+    assert not row.locator("input.value").is_editable()
+    assert not row.locator("button.free").is_visible()
+    number = page.locator('.contour .row[data-word="P"] input.value')
+    number.fill("4,25")
+    number.press("Tab")
+    wait_for_text(page, "G111 X#100 A180. K-30. B120. P4.25 Q5.")
+
+
 def test_a_word_is_changed_by_its_row_or_in_the_text_and_taken_back(opened, folder) -> None:
     (folder / "shaft.nc").write_bytes(SHAFT.encode())
     page = opened("shaft.nc")
     show(page, "Contour")
-    number = page.locator('.contour [data-word="K"] input[type=number]')
-    number.fill("-25")
+    number = page.locator('.contour [data-word="K"] input.value')
+    number.fill("-22,5")
     # A word, its row and its dimension are one, also in the text.
     number.focus()
     assert page.locator(".cm-lit").inner_text() == "K-30."
@@ -68,9 +85,9 @@ def test_a_word_is_changed_by_its_row_or_in_the_text_and_taken_back(opened, fold
     for _ in range(len("G111 X100. A1")):
         page.keyboard.press("ArrowRight")
     page.locator('.contour .row.lit[data-word="A"]').wait_for()
-    number.fill("-25")
+    number.fill("-22,5")
     number.press("Enter")
-    wait_for_text(page, "G111 X100. A180. K-25. B120. P6.")
+    wait_for_text(page, "G111 X100. A180. K-22.5 B120. P6.")
     page.locator(".cm-line").nth(2).click()
     page.keyboard.press("Control+z")
     wait_for_text(page, "G111 X100. A180. K-30. B120. P6.")
