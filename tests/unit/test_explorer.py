@@ -44,7 +44,9 @@ def test_a_word_is_written_as_the_control_reads_it():
     assert (field(moved, "P")["value"], field(moved, "P")["unit"]) == (0.1234, "in")
 
 
-@pytest.mark.parametrize(("key", "value"), [("Z", 1), ("P", "x"), ("P", float("nan")), ("P", 1e300), ("P", ""), ("P", "1.060,5")])
+@pytest.mark.parametrize(
+    ("key", "value"), [("Z", 1), ("P", "x"), ("P", float("nan")), ("P", 1e300), ("P", ""), ("P", "1.060,5")]
+)
 def test_what_is_no_word_or_no_number_is_refused(key, value):
     with pytest.raises(ValueError, match=key):
         explore.set_word(explore.begin(WHOLE, **START), key, value)
