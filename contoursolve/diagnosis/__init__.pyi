@@ -152,6 +152,7 @@ from .wording import (
     limit_text as limit_text,
     meaning_of as meaning_of,
     measured as measured,
+    place_text as place_text,
     short_name as short_name,
     status_text as status_text,
     statuses_text as statuses_text,

@@ -10,7 +10,17 @@ import htpy as h
 from msgspec import to_builtins
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, AskedValue, count, inward, join, list_solutions, meaning_of, written
+from contoursolve.diagnosis import (
+    Answer,
+    AskedValue,
+    count,
+    inward,
+    join,
+    list_solutions,
+    meaning_of,
+    status_text,
+    written,
+)
 from contoursolve.diagnostics import Applicability, Diagnostic, Span
 from contoursolve.families import End, FamilyError, Feasible, Way, called, feasible
 from contoursolve.gcode import Block, Word
@@ -111,7 +121,7 @@ def _status(exploration: Exploration) -> Data:
     worst, answer = worst_of([each for _, each in exploration.findings]), exploration.answer
     if answer is None:
         return {"kind": worst, "text": "no contour"}
-    return {"kind": worst, "text": answer.status.value, "form": short(form_text(answer))}
+    return {"kind": worst, "text": status_text(answer.status), "form": short(form_text(answer))}
 
 
 def picture_of(answer: Answer, like: Picture | None = None, tool: ToolReport | None = None) -> Picture | None:

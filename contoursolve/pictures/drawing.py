@@ -5,7 +5,7 @@ An answer or a family comes in, one page of shapes goes out. Begin with `compose
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from msgspec.structs import replace
@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.pictures.compose import compose, describe, told_of
 from contoursolve.pictures.layout import lay_out
-from contoursolve.pictures.scene import Part, ToolDrawing, Trail, Weight
+from contoursolve.pictures.scene import Dimension, Part, ToolDrawing, Trail, Weight
 from contoursolve.pictures.sheet import stack_sheets
 from contoursolve.pictures.svg import Picture, finish
 from contoursolve.pictures.theme import Role, Theme
@@ -83,14 +83,20 @@ def draw_sketched(
     title: str,
     told: str,
     *,
+    spell: Callable[[str], str] = str,
     meanings: Mapping[Role, str] = {},
     theme: Theme = Theme.LIGHT,
 ) -> Picture:
     """The picture of a contour with another path than that of its answer, such as one that is not finished: its words
     as dimensions, without its program. Where several contours fit, a dimension stands only where all of them have it.
-    `told` is the description, `meanings` the legend's words for roles."""
+    `told` is the description, `spell` makes the text of a dimension of its words, and `meanings` are the legend's words
+    for roles."""
     scene = compose(answer, title, is_shared=True)
-    others = (each for each in scene.parts if not isinstance(each, Trail) or each.weight is not Weight.MAIN)
+    others = (
+        replace(each, text=spell(each.text)) if isinstance(each, Dimension) else each
+        for each in scene.parts
+        if not isinstance(each, Trail) or each.weight is not Weight.MAIN
+    )
     scene = replace(scene, parts=(*path, *others), lines=(), remarks=(), meanings=meanings)
     return finish(lay_out(scene), theme, told)
 

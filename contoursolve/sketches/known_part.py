@@ -1,7 +1,6 @@
 """The known part of a sketch: each element and corner with its state, what is missing and what would finish it, all
 solutions and the one that a guess chooses."""
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
@@ -15,7 +14,9 @@ from contoursolve.diagnosis import (
     Depth,
     Listed,
     join,
+    length_text,
     list_solutions,
+    place_text,
     status_text,
 )
 from contoursolve.diagnostics import Diagnostic, Severity
@@ -35,7 +36,8 @@ from contoursolve.sketches.finishing import (
 )
 from contoursolve.sketches.sketch import ContourSketch, SketchElement
 from contoursolve.sketches.sliding import Loose, loosely_drawn
-from contoursolve.solving import ArcSegment, Point, RefusalKind, Segment, Status
+from contoursolve.sketches.terms import on_drawing
+from contoursolve.solving import ArcSegment, Point, RefusalKind, Segment, Status, scalars_of
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
 
@@ -216,6 +218,7 @@ class _Reading:
         self.blamed = dict(self._blamed())
         path = answer.profile.figure.path
         self.heads = {number: element.head for number, element in enumerate(path, 1)}
+        self.loose: Loose | None = None
 
     def result(self, *, with_ranges: bool) -> SketchAnswer:
         answer = self.answer
@@ -228,20 +231,20 @@ class _Reading:
             self.remarks.append("the guess is not used: what is given has one solution")
         elif has_guess and answer.status is Status.UNDERDETERMINED:
             self.remarks.append("the guess is no dimension: it only shows where an element may be")
-        missing, loose = "", None
+        missing = ""
         entries: Iterable[SketchEntry] = ()
         if chosen is not None:
             picked = examined(self.sketch, picks={each.element: each.number for each in chosen.picks})
             answer = picked if picked is not None and picked.contour is not None else answer
         elif answer.contour is None:
-            loose = self._loosely()
-            missing, entries = self._missing(loose, len(several), with_ranges=with_ranges)
+            self.loose = self._loosely()
+            missing, entries = self._missing(self.loose, len(several), with_ranges=with_ranges)
         return SketchAnswer(
             self.sketch,
             self.program,
             answer.status.value,
             answer,
-            tuple(self._parts(answer, several, chosen, loose)),
+            tuple(self._parts(answer, several, chosen, self.loose)),
             missing,
             tuple(entries),
             tuple(self._findings(answer)),
@@ -320,12 +323,13 @@ class _Reading:
             # What follows from directions as they are is no less sure than what does so whatever they are.
             self.sure = {*known.points} - known.several | {*in_part(answer.profile).points}
         shared = {name for name in drawn if not several or _is_shared(name, several)}
-        completed = self._completed(loose, drawn)
+        completed, gap = self._completed(loose, drawn), self._gap()
         for number, element in enumerate(self.sketch.elements, 1):
             for part in (self.sketch.name_of(number), *([f"corner {number}"] if element.corner else [])):
                 segment, off = completed.get(part, drawn.get(part)), self.blamed.get(part)
                 if part in self.blamed:
                     state = PartState.CONTRADICTING
+                    off = gap.off_mm if gap is not None and number == len(self.sketch.elements) else off
                     off = off if off is not None or loose is None else loose.off_of(number)
                 elif answer.contour is None and loose is not None and not several:
                     state = self._state(part, number, loose, drawn)
@@ -370,6 +374,10 @@ class _Reading:
         """The missing entries in one line, and one by one."""
         if several > 1:
             return f"{several} contours fit: choose one, or guess where an element ends", ()
+        senses = self._senses()
+        if senses:
+            told = join([self.sketch.name_of(each.number) for each in senses])
+            return f"the sense of {told} is missing: clockwise or counter-clockwise", senses
         unfinished = [each for each in self.errors if each.about is None]
         if self.answer.status is Status.REJECTED and unfinished:
             first = self._finding(unfinished[0])
@@ -382,9 +390,44 @@ class _Reading:
             entries = with_examples(self.sketch, self.answer, loose, entries)
         return missing_text(self.sketch, count, fields), entries
 
+    def _senses(self) -> tuple[SketchEntry, ...]:
+        """The senses of arcs that are not given."""
+        arcs = [n for n, each in enumerate(self.sketch.elements, 1) if each.kind == "arc" and each.turn is None]
+        return tuple(SketchEntry(n, "turn", "clockwise or counter-clockwise") for n in arcs)
+
+    def _gap(self) -> SketchFinding | None:
+        """The finding about a closed contour that ends elsewhere: of both axes together; None if it does not."""
+        last = len(self.sketch.elements)
+        field = last, "closed"
+        errors = [each for each in self.errors if field in self._fields(each) and isinstance(each.about, RefusalKind)]
+        if not errors or self.loose is None:
+            return None
+        points, figure = self.loose.points, self.answer.profile.figure
+        start, end = points[figure.start], points[self.heads[last]]
+        gap = dist(start, end)
+        if gap <= LENGTH:
+            return None
+        there, amount = self._place(end), length_text(gap, self.answer.unit)
+        message = f"the contour ends at {there}, {amount} from where it begins"
+        help_ = "add what leads back to the start, or say that it does not end where it begins"
+        fixes = tuple(fix for each in errors for fix in self._fixes(each))
+        return SketchFinding(errors[0].code, Severity.ERROR, message, help_, (field, (0, "closed")), gap, fixes)
+
+    def _place(self, at: Point) -> str:
+        return place_text(self.answer.profile, scalars_of({"": at}))
+
+    def _fields(self, finding: Diagnostic) -> tuple[Field, ...]:
+        fields = (self.program.field_at(label.span) for label in finding.labels)
+        return tuple(dict.fromkeys(field for field in fields if field is not None))
+
     def _findings(self, answer: Answer) -> Iterator[SketchFinding]:
         """The findings; that a field agrees with others is not told where it also contradicts."""
-        found = [*map(self._finding, answer.diagnostics)]
+        gap = self._gap()
+        if gap is not None:
+            yield gap
+        # What is not given yet is no error; what is missing tells it.
+        own = [each for each in answer.diagnostics if gap is None or gap.fields[0] not in self._fields(each)]
+        found = [self._finding(each) for each in own if each.code != "drawing-sense"]
         wrong = {field for each in found if each.severity is Severity.ERROR for field in each.fields}
         for each in found:
             if each.severity is not Severity.INFO or not each.fields or not wrong.issuperset(each.fields):
@@ -394,13 +437,12 @@ class _Reading:
 
     def _finding(self, finding: Diagnostic) -> SketchFinding:
         """A finding in the words of the sketch, with its fixes."""
-        fields = (self.program.field_at(label.span) for label in finding.labels)
         return SketchFinding(
             finding.code,
             finding.severity,
-            self._told(finding.message),
-            self._told(finding.help),
-            tuple(dict.fromkeys(field for field in fields if field is not None)),
+            on_drawing(finding.message, self.sketch),
+            on_drawing(finding.help, self.sketch),
+            self._fields(finding),
             finding.values.get("off_by_mm"),
             tuple(self._fixes(finding)),
         )
@@ -421,29 +463,27 @@ class _Reading:
                     changed[line] = now
             else:
                 if changed:
-                    yield SketchFix(self._told(fix.description), changed)
+                    yield SketchFix(self._moved(on_drawing(fix.description, self.sketch)), changed)
+
+    def _moved(self, title: str) -> str:
+        """The title of a fix without the places that it leaves where they are."""
+        change, arrow, outcome = title.partition(" -> ")
+        points = self.loose.points if self.loose is not None else {}
+        ends = {f"{name} is": at for name, at in points.items()}
+        if points:
+            ends["the contour ends"] = points[self.heads[max(self.heads)]]
+        for lead, at in ends.items():
+            same = f"{lead} at {self._place(at)}"
+            if outcome == same or outcome.startswith(f"{same}, "):
+                outcome = outcome.removeprefix(same).removeprefix(", ")
+        return f"{change}{arrow}{outcome}" if outcome else change
 
     def _own_facts(self, line: int) -> int:
         """The facts of the whole sketch among those in the line of an element."""
         return len(self.sketch.facts) if line == 1 else 0
 
-    def _told(self, text: str) -> str:
-        """A sentence about a program as one about a drawing: its lines are the elements, by their names."""
-        for written, told in _CORNERS:
-            text = text.replace(written, told)
-        text = _LINE.sub(lambda found: self._named(int(found["line"])), text)
-        return _WORD.sub(lambda found: _WORDS[found[0]], text)
-
-    def _named(self, number: int) -> str:
-        return self.sketch.name_of(number) if 0 < number <= len(self.sketch.elements) else "the start"
-
 
 _OPEN = (Status.UNDERDETERMINED, Status.AMBIGUOUS)
-
-_LINE = re.compile(r"program line (?P<line>-?\d+)")
-_CORNERS = (("RND R", "rounding "), ("CHF ", "chamfer "))
-_WORDS = {"CLSD-": "closed", "CLSD+": "closed", "FLT": "tangent", "FCT": "tangent", "DR+": "ccw", "DR-": "cw"}
-_WORD = re.compile(rf"(?<!\w)(?:{'|'.join(map(re.escape, _WORDS))})(?!\w)")
 
 
 def _amount(finding: Diagnostic) -> float | None:

@@ -5,7 +5,7 @@ from decimal import Decimal
 from itertools import pairwise
 from typing import Any
 
-from contoursolve.diagnosis import length_text
+from contoursolve.diagnosis import length_text, status_text
 from contoursolve.diagnostics import plain
 from contoursolve.pictures import (
     Mark,
@@ -22,7 +22,8 @@ from contoursolve.pictures import (
 from contoursolve.sketches.known_part import PartState, SketchAnswer, SketchFinding, solve_sketch
 from contoursolve.sketches.sketch import ContourSketch
 from contoursolve.sketches.sketch_file import plain_element
-from contoursolve.solving import ArcSegment, LineSegment, Segment, middle
+from contoursolve.sketches.terms import entry_text
+from contoursolve.solving import ArcSegment, LineSegment, Segment, Status, middle
 
 _STATES = {
     PartState.KNOWN: (Role.INK, "known"),
@@ -48,7 +49,17 @@ def draw_sketch(found: SketchAnswer, *, theme: Theme = Theme.LIGHT) -> Picture |
     if found.answer is None:
         return None
     told = " ".join(_told(found))
-    return draw_sketched(found.answer, [*_drawn(found)], found.said, told, meanings=_MEANINGS, theme=theme)
+    return draw_sketched(
+        found.answer, [*_drawn(found)], _title(found), told, spell=entry_text, meanings=_MEANINGS, theme=theme
+    )
+
+
+def _title(found: SketchAnswer) -> str:
+    """What is missing, or its state: a title has no room for a finding."""
+    if found.missing or found.is_finished:
+        return found.said
+    is_wrong = any(each.state is PartState.CONTRADICTING for each in found.elements)
+    return "some entries contradict the rest" if is_wrong else f"the contour is {status_text(Status(found.status))}"
 
 
 def _drawn(found: SketchAnswer) -> Iterator[Part]:

@@ -12,7 +12,7 @@ from time import monotonic
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import rank
+from contoursolve.diagnosis import rank, status_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity, Span, UserError
 from contoursolve.notebook import project_settings
 from contoursolve.output import effect_of
@@ -184,6 +184,7 @@ class ProgramView:
                     "line": each.first,
                     "last": each.last,
                     "status": each.answer.status.value,
+                    "told": status_text(each.answer.status),
                     "title": each.answer.claim.form.name,
                 }
                 for each in contours

@@ -8,6 +8,7 @@ from typing import Any
 import contoursolve
 from contoursolve.comparison import Document, verify
 from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis import status_text
 from contoursolve.diagnostics import importing
 from contoursolve.execution import named_variables
 from contoursolve.notebook import Product, converted, expanded, page_about, stated_tool
@@ -96,7 +97,13 @@ def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
         "left_out": max(len(found) - MOST_VARIABLES, 0),
         "findings": _told(view, result),
         "contours": [
-            {"line": each.lines[0], "last": each.lines[-1], "status": each.status.value, "title": each.claim.form.name}
+            {
+                "line": each.lines[0],
+                "last": each.lines[-1],
+                "status": each.status.value,
+                "told": status_text(each.status),
+                "title": each.claim.form.name,
+            }
             for each in result.answers
         ],
     }

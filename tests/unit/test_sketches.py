@@ -82,7 +82,7 @@ def test_an_end_may_be_as_far_as_another_line():
         ("fk_two_circles", 3, {"X": 98, "Y": 0}, "conflicting", "fact-conflict", {"arc 3"}, 5.0),
         ("guessed_meeting", 2, {"R": 3}, "no-solution", "no-point", {"line 1", "arc 2"}, None),
         ("milled_slot", 2, {"R": 7}, "conflicting", None, None, 1.0),
-        ("fk_cam", 2, {"turn": None}, "rejected", "drawing-sense", set(), None),
+        ("fk_cam", 2, {"turn": None}, "rejected", None, set(), None),
         ("milled_distances", 4, {"P1Y": None}, "rejected", "drawing-point-1", set(), None),
         ("milled_plate", 2, {"facts": ("chord of line 9 = 3",)}, "rejected", "fact-unreadable", set(), None),
         ("milled_plate", 2, {"facts": ("chord of line 2 = 3",)}, "rejected", "fact-impossible", set(), None),
@@ -258,3 +258,41 @@ def test_all_contours_that_fit_are_drawn_by_name_and_only_what_they_share_has_di
     svg = contoursolve.draw_sketch(contoursolve.solve_sketch(chosen)).svg
     assert "contour 3" not in svg
     assert "LEN20" in svg
+
+
+def test_what_an_arc_lacks_is_no_error_and_names_the_arc():
+    plain = contoursolve.read_sketch(SEVERAL)
+    arcs = tuple(contoursolve.SketchElement("arc", {}) for _ in range(2))
+    found = contoursolve.solve_sketch(replace(plain, elements=(*plain.elements[:1], *arcs)))
+    assert found.missing == "the sense of arc 2 and arc 3 is missing: clockwise or counter-clockwise"
+    assert [(each.number, each.field) for each in found.entries] == [(2, "turn"), (3, "turn")]
+    assert not [each for each in found.findings if each.severity.value == "error"]
+    assert found.elements[0].state.value == "known"
+
+
+@pytest.mark.parametrize(
+    ("x", "gap", "there"), [(20, 30.0, "Z-30.000 mm X20.000 mm"), (60, 36.056, "Z-30.000 mm X60.000 mm")]
+)
+def test_a_closed_contour_that_ends_elsewhere_is_told_once(x, gap, there):
+    ends = ({"Z": 0, "X": 60}, {"Z": -30, "X": 60}, {"Z": -30, "X": x})
+    elements = tuple(
+        contoursolve.SketchElement("line", {n: Decimal(v) for n, v in each.items()})
+        for each in ends[: 2 if x == 60 else 3]
+    )
+    start = {"Z": Decimal(0), "X": Decimal(20)}
+    found = contoursolve.solve_sketch(contoursolve.ContourSketch("turned", elements, start, closed=True))
+    errors = [each for each in found.findings if each.severity.value == "error"]
+    assert [each.message for each in errors] == [f"the contour ends at {there}, {gap:.3f} mm from where it begins"]
+    assert (0, "closed") in errors[0].fields
+    assert found.elements[-1].off_mm == pytest.approx(gap, abs=1e-3)
+    svg = contoursolve.draw_sketch(found).svg
+    assert "CLSD" not in svg
+    assert "some entries contradict the rest" in svg
+
+
+def test_fixes_tell_no_place_that_they_leave_where_it_is():
+    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 2, Z=-30, X=40, AN=170), with_ranges=True)
+    titles = [fix.title for each in found.findings for fix in each.fixes]
+    assert "delete AN170" in titles
+    assert any(" -> " in each for each in titles)
+    assert not any("-> P1 is at Z0.000 mm X40.000 mm" in each for each in titles)

@@ -213,7 +213,9 @@ export class ChainPane {
     });
     for (const axis of AXES[chain.part]) setField(this.head, `start.${axis}`, chain.start[axis] ?? "", wrong.has(`0 start.${axis}`) || wrong.has("0 start"), "");
     for (const axis of AXES[chain.part]) setField(this.head, `pole.${axis}`, chain.pole[axis] ?? "", wrong.has("0 pole"), "");
-    this.head.querySelector<HTMLInputElement>("[data-field=closed]")!.checked = chain.closed;
+    const closed = this.head.querySelector<HTMLInputElement>("[data-field=closed]")!;
+    closed.checked = chain.closed;
+    closed.setAttribute("aria-invalid", String(wrong.has("0 closed")));
     const facts = this.head.querySelector<HTMLTextAreaElement>("[data-field=facts]")!;
     if (facts.value !== chain.facts) facts.value = chain.facts;
     this.hints.hidden = chain.elements.length > 0;
@@ -236,7 +238,7 @@ export class ChainPane {
     const said = trouble || (isBehind ? "Not checked: contoursolve does not answer." : "") || (chain.elements.length ? (view?.said ?? "") : "Add the first line or arc.");
     if (this.missing.textContent !== said) this.missing.textContent = said;
     this.missing.classList.toggle("done", isDone && !isBehind);
-    const place = (number: number, name: string) => (number ? `${name} of ${chain.elements[number - 1]?.kind ?? "line"} ${number}` : name.replace("start.", "start "));
+    const place = (number: number, name: string) => (number ? `${name === "turn" ? "Sense" : name} of ${chain.elements[number - 1]?.kind ?? "line"} ${number}` : name.replace("start.", "start "));
     const shown = isBehind ? [] : (view?.entries ?? []);
     renew(this.entries, shown, () => shown.map((each) => button(`${place(each.number, each.field)}${each.example ? `: such as ${each.example}` : ""}`, () => this.focusElement(each.number, each.field), { title: [each.meaning, hintOf(each)].filter(Boolean).join("; ") })));
     const remarks = isBehind ? [] : (view?.remarks ?? []);

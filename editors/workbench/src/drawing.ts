@@ -79,7 +79,7 @@ export function drawingPanel(go: (line: number) => void, open: (line: number) =>
         : "There is no contour to solve in this program yet.";
       rows.replaceChildren(
         ...shown.map((each) =>
-          make("li", {}, make("button", { type: "button", class: kindOf(each.status), "data-at": each.line, onclick: () => go(each.line) }, make("span", { class: "line", text: `line ${each.line}` }), ` ${each.title}: ${each.status}`)),
+          make("li", {}, make("button", { type: "button", class: kindOf(each.status), "data-at": each.line, onclick: () => go(each.line) }, make("span", { class: "line", text: `line ${each.line}` }), ` ${each.title}: ${each.told}`)),
         ),
       );
       relight();

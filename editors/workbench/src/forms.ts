@@ -145,7 +145,7 @@ export function variablesPanel(set: (values: Record<string, number>) => void, go
         list.replaceChildren(...fields.map((each) => labelled(told(each), inputs.get(each.name)!)));
       }
       paper.replaceChildren(...(fields.length ? drawn(varied.svg) : []));
-      const contours = fields.length ? varied.contours.map((each) => ({ line: each.line, text: `${each.title}: ${each.status}`, kind: each.status === "solved" ? "fine" : "unsolved" })) : [];
+      const contours = fields.length ? varied.contours.map((each) => ({ line: each.line, text: `${each.title}: ${each.told}`, kind: each.status === "solved" ? "fine" : "unsolved" })) : [];
       rows.show([...contours, ...(fields.length ? placesOf(varied.findings) : [])]);
     },
   };

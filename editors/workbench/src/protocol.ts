@@ -33,6 +33,7 @@ export interface ContourRow {
   line: number;
   last: number;
   status: string;
+  told: string; // its status as the drawing names it
   title: string;
 }
 
