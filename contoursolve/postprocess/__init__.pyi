@@ -28,6 +28,7 @@ from .moved import (
 from .post_processors import (
     POSTS as POSTS,
     Arcs as Arcs,
+    MachineKind as MachineKind,
     Numbering as Numbering,
     Post as Post,
     Risk as Risk,

@@ -23,7 +23,8 @@ from contoursolve.diagnosis import word_keys
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import Blocks, typed_places
 from contoursolve.output import notebook_style
-from contoursolve.program import likely_fixes, mend_open, safe_fixes
+from contoursolve.postprocess import MachineKind, machine_of
+from contoursolve.program import for_kind, likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import ActionError, Data, read_field
 from contoursolve.workbench.files import ENCODINGS, FileConflictError, FileText, Folder, mark_of, safe_name, text_of
@@ -161,7 +162,12 @@ def _hello(desk: Desk, window: PageWindow, _action: Mapping[str, Any]) -> Data:
     return {
         "version": contoursolve.__version__,
         "controls": [
-            {"name": name, "title": each.title, "may_be_target": isinstance(each.find, ChainFinder)}
+            {
+                "name": name,
+                "title": each.title,
+                "may_be_target": isinstance(each.find, ChainFinder),
+                "machines": [kind.value for kind in MachineKind if machine_of(for_kind(each, {}, kind.value)) is kind],
+            }
             for name, each in DIALECTS.items()
         ],
         "folder": desk.folder.name if desk.folder is not None else "",

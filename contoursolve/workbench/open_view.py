@@ -16,7 +16,9 @@ from contoursolve.diagnosis import rank, status_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity, Span, UserError
 from contoursolve.notebook import project_settings
 from contoursolve.output import effect_of
+from contoursolve.postprocess import machine_of
 from contoursolve.program import CONTROL, OpenProgram, changes_of
+from contoursolve.reading import Dialect
 from contoursolve.solving import Status
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import Data
@@ -202,7 +204,7 @@ class ProgramView:
             "has_order_mark": bool(self.file.order_mark),
             "line_end": program.line_end,
             "has_changes": self.has_changes,
-            "control": {"name": dialect.name, "title": dialect.title} if dialect is not None else None,
+            "control": _control(dialect) if dialect is not None else None,
             "control_from": self._source(),
             "trouble_control": "; ".join(filter(None, (self._project, program.trouble))),
             "unit": contours[0].answer.unit.value if contours else "",
@@ -281,6 +283,10 @@ class ProgramView:
         text = self.program.line(span.line)
         begin = _units(text[: span.column - 1])
         return {"line": span.line, "from": begin, "to": _units(text[: max(span.end_column, span.column + 1) - 1])}
+
+
+def _control(dialect: Dialect) -> Data:
+    return {"name": dialect.name, "title": dialect.title, "machines": [machine_of(dialect).value]}
 
 
 def _page_lines(text: str) -> list[str]:

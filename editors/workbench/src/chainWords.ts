@@ -1,6 +1,6 @@
 // The words of a sketch for a control: the shortest first, and the same for all controls as a table.
 import { button, copyText, download, make } from "./dom";
-import type { Sketch } from "./chainSketch";
+import { AXES, type Sketch } from "./chainSketch";
 import type { ControlName } from "./protocol";
 
 interface Word {
@@ -19,6 +19,7 @@ interface Written {
   title: string;
   candidates: Candidate[];
   reason: string;
+  ending: string; // of the files of its programs
 }
 
 interface Row {
@@ -28,7 +29,7 @@ interface Row {
   reason: string;
 }
 
-const RESTS: Record<string, string> = { drawing: "from the drawing", round: "round", computed: "computed" };
+const RESTS: Record<string, string> = { drawing: "from the drawing", round: "exact, but not from the drawing", computed: "computed and rounded" };
 
 export interface WordsPanel {
   node: HTMLElement;
@@ -38,6 +39,7 @@ export interface WordsPanel {
 export function wordsPanel(controls: () => ControlName[], open: (name: string, text: string) => void): WordsPanel {
   let sketch: Sketch | null = null;
   let made = ""; // for which sketch and control
+  let offered = ""; // the kind of machine whose controls are offered
   const control = make("select", { onchange: () => void ask() });
   const said = make("p", { role: "status", class: "muted" });
   const list = make("div", { class: "candidates" });
@@ -63,12 +65,14 @@ export function wordsPanel(controls: () => ControlName[], open: (name: string, t
     const written = await asked.words<Written>(control.value);
     if (mark !== made) return;
     said.textContent = written?.reason ?? "";
-    list.replaceChildren(...(written?.candidates ?? []).map((each, number) => candidate(each, number, asked)));
+    list.replaceChildren(...(written?.candidates ?? []).map((each, number) => candidate(each, number, asked, written?.ending ?? "")));
+    const start = AXES[asked.chain.part].map((axis) => `${axis}${asked.chain.start[axis] || "0"}`).join(" ");
+    if (written?.candidates.length) list.prepend(make("p", { class: "muted", text: `The blocks begin at ${start}. Tool, speed, feed, approach and retract are yours to add.` }));
   }
 
-  function candidate(each: Candidate, number: number, asked: Sketch): HTMLElement {
+  function candidate(each: Candidate, number: number, asked: Sketch, ending: string): HTMLElement {
     const copied = make("span", { role: "status" });
-    const name = `${asked.name.replace(/\.[^.]*$/, "") || "contour"}-${control.value}.nc`;
+    const name = `${asked.name.replace(/\.[^.]*$/, "") || "contour"}-${control.value}${ending}`;
     const words = (each.words ?? []).map((word) => make("span", { class: `word ${word.rests}`, text: word.text, title: RESTS[word.rests] ?? word.rests }));
     const counts = Object.entries(RESTS).map(([kind, text]) => [text, (each.words ?? []).filter((word) => word.rests === kind).length] as const).filter(([, count]) => count);
     return make(
@@ -106,7 +110,14 @@ export function wordsPanel(controls: () => ControlName[], open: (name: string, t
     node,
     show(now, isWanted) {
       sketch = now;
-      if (!control.options.length) control.replaceChildren(...controls().map((each) => make("option", { value: each.name, text: each.title })));
+      const machine = sketch.chain.part === "turned" ? "lathe" : "mill";
+      if (machine !== offered) {
+        const { value } = control;
+        const alike = controls().filter((each) => each.machines?.includes(machine) !== false);
+        control.replaceChildren(...alike.map((each) => make("option", { value: each.name, text: each.title })));
+        if (alike.some((each) => each.name === value)) control.value = value;
+        if (alike.length) offered = machine;
+      }
       if (isWanted) void ask();
     },
   };

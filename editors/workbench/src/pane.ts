@@ -362,16 +362,22 @@ export class ProgramPane {
   }
 
   private async convert(): Promise<void> {
-    const control = make("select", {}, ...this.around.controls().filter((each) => each.may_be_target !== false).map((each) => make("option", { value: each.name, text: each.title })));
-    const answer = await dialog(this.around.root, "Convert for another control", [labelled("Control", control)], "Convert");
+    const own = this.program?.view.control;
+    const machine = own?.machines?.[0];
+    const alike = this.around.controls().filter((each) => each.name !== own?.name && (!machine || each.machines?.includes(machine) !== false));
+    const targets = alike.filter((each) => each.may_be_target !== false);
+    const others = alike.filter((each) => !targets.includes(each)).map((each) => each.title);
+    const control = make("select", {}, ...targets.map((each) => make("option", { value: each.name, text: each.title })));
+    const said = [machine ? `The program is for a ${machine}: these are the other controls of ${machine === "lathe" ? "lathes" : "mills"}.` : "", others.length ? `${others.join(" and ")}: no target. Its contours are blocks of another kind.` : ""];
+    const notes = said.filter(Boolean).map((text) => make("p", { class: "muted", text }));
+    const answer = await dialog(this.around.root, "Convert for another control", [labelled("Control", control), ...notes], "Convert");
     if (answer) await this.command("convert", { to: control.value });
   }
 
   private async command(what: string, options: Record<string, unknown>): Promise<void> {
     const program = this.program;
-    const reply = await program?.ask<Made & { verdict?: string }>(() => ({ do: what, ...options }));
-    if (!program || !reply) return;
-    const made = reply.verdict === undefined ? reply : { name: "", message: `${reply.verdict}\n${reply.text ?? ""}` };
+    const made = await program?.ask<Made>(() => ({ do: what, ...options }));
+    if (!program || !made) return;
     this.beside.get(program)!.made = made;
     if (program !== this.program) return;
     this.result.show(made);

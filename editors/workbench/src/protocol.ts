@@ -40,7 +40,8 @@ export interface ContourRow {
 export interface ControlName {
   name: string;
   title: string;
-  may_be_target?: boolean;
+  may_be_target?: boolean; // of a program that is converted
+  machines?: string[]; // lathe, mill
 }
 
 export interface View {
@@ -80,6 +81,7 @@ export interface Made {
   text?: string;
   base64?: string;
   message: string;
+  details?: string;
 }
 
 // Where words stand: line, and columns.

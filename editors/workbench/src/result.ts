@@ -39,6 +39,7 @@ export function resultPanel(open: (name: string, text: string) => void, save: ((
           copied,
         ),
         ...(shown ? [shown] : []),
+        ...(made.details ? [make("details", {}, make("summary", { text: "Details" }), make("pre", { tabindex: 0, text: made.details, role: "group", "aria-label": "Details" }))] : []),
       );
     },
   };
