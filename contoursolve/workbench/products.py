@@ -191,7 +191,7 @@ _VERIFIED = {
         "Checked again without the solver: each path agrees with its words. "
         "{count} of {all} may have another path: that was not checked."
     ),
-    ReceiptVerdict.NOTHING_CHECKED: "Nothing could be checked: see the details.",
+    ReceiptVerdict.NOTHING_CHECKED: "Nothing could be checked: see why in the details.",
 }
 """What a verification says, for all who ask no more."""
 

@@ -113,10 +113,16 @@ def test_a_contour_is_built_by_keyboard_alone_and_written_for_three_controls(pat
     said(page, f"Saved as {path.name}.")
     assert read_sketch((folder / path.name).read_text(encoding="utf-8")) == sketch
     page.get_by_role("tab", name="Words").click()
+    is_milled = sketch.part == "milled"
+    expect(page.locator(f"option[value={CONTROLS['turned' if is_milled else 'milled'][0]}]")).to_have_count(1)
     for control in CONTROLS[sketch.part]:
         page.get_by_label("Write it for").select_option(control)
         wanted = contoursolve.write(sketch, control).candidates
         expect(page.locator(".candidate pre")).to_have_text(["\n".join(each.lines) for each in wanted])
+    expect(page.get_by_text("Tool, speed, feed, approach and retract are yours to add.")).to_be_visible()
+    with page.expect_download() as got:
+        page.locator(".candidate").first.get_by_role("button", name="Download").click()
+    assert got.value.suggested_filename == f"{path.stem}-{control}.nc"
 
 
 OPEN = """sketch = 1

@@ -186,6 +186,31 @@ def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened)
     assert not page.locator(".trouble:not(:empty)").count()
 
 
+def test_converted_for_the_controls_of_the_same_machine_and_verified_in_a_sentence(opened) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    page = opened()
+    page.get_by_role("button", name="New program").click()
+    page.locator(".cm-content").focus()
+    page.keyboard.type("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
+    page.locator(".drawing svg").first.wait_for()
+    make = page.get_by_role("button", name="Do", exact=True)
+    make.click()
+    page.get_by_role("menuitem", name="Convert").click()
+    dialog = page.get_by_role("dialog")
+    offered = dialog.locator("option").evaluate_all("(all) => all.map((each) => each.value)")
+    assert {"siemens-808d", "fanuc-lathe"} < {*offered}
+    assert not {"yasnac-lx3", "heidenhain", "nct-99m"} & {*offered}
+    expect(dialog).to_contain_text("The program is for a lathe")
+    dialog.get_by_role("button", name="Cancel").click()
+    make.click()
+    page.get_by_role("menuitem", name="Verify").click()
+    expect(page.locator(".result .said")).to_contain_text("Checked again without the solver: the contour is as shown.")
+    expect(page.get_by_text("SHA-256")).to_be_hidden()
+    page.locator("summary", has_text="Details").click()
+    expect(page.get_by_text("SHA-256")).to_be_visible()
+
+
 def test_in_a_network_the_page_saves_only_with_the_password(browser, tmp_path) -> None:
     (tmp_path / "part.nc").write_bytes(SHAFT.encode())
     server = Served(tmp_path, "--lan", CONTOURSOLVE_PASSWORD="correct horse")
