@@ -38,12 +38,12 @@ MOST_ELEMENTS = 24
 def compose(
     answer: Answer, title: str | None = None, beside: Sequence[ToolDrawing] = (), *, is_shared: bool = False
 ) -> Scene:
-    """The scene of one contour, whatever its status, with what else is drawn in its plane. If `is_shared`, of several
-    contours that fit only what they share."""
+    """The scene of one contour, whatever its status, with what else is drawn in its plane. If `is_shared`, without the
+    others that fit, and where nothing chooses only what all of them share."""
     subject = subject_of(answer)
     ghosts: list[Trail] = []
     others: Others = {}
-    if is_shared and subject.known.variants:
+    if is_shared:
         subject = shared_part(subject)
     else:
         ghosts, others = _other_ways(subject) if subject.is_chain else _ghosts(subject)

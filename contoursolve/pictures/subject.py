@@ -214,7 +214,9 @@ def subject_of(answer: Answer) -> Subject:
 
 
 def shared_part(subject: Subject) -> Subject:
-    """The subject with only what all contours share that fit."""
+    """The subject with only what all contours share that fit; all of it where one is taken."""
+    if not subject.known.variants:
+        return subject
     trails = tuple(each for each in subject.trails if each.role is not Role.SEVERAL)
     return replace(subject, known=subject.known.shared(), trails=trails)
 

@@ -36,6 +36,7 @@ _STATES = {
 
 _MEANINGS: Mapping[Role, str] = {
     Role.SEVERAL: "one of several contours",
+    Role.GHOST: "another contour",
     **{role: name for role, name in _STATES.values() if role not in (Role.INK, Role.MUTED)},
 }
 
@@ -74,22 +75,24 @@ def _drawn(found: SketchAnswer) -> Iterator[Part]:
         if each.segment is not None and each.off_mm is not None:
             text = f"off by {length_text(each.off_mm, found.answer.unit)}"
             yield Mark(middle(each.segment)[0], MarkKind.OTHER, (TextRun(text, role),), role=role)
-    if not any(each.is_chosen for each in found.solutions):
-        yield from _several(found)
+    yield from _others(found)
 
 
-def _several(found: SketchAnswer) -> Iterator[Part]:
-    """All contours that fit, thin, each with its name where it ends an element as no other does."""
+def _others(found: SketchAnswer) -> Iterator[Part]:
+    """All contours that fit and are not chosen, thin, each with its name where it ends an element as no other does."""
     shared = {each.name for each in found.elements if each.state is PartState.KNOWN}
-    for each in found.solutions:
+    is_chosen = any(each.is_chosen for each in found.solutions)
+    role, weight = (Role.GHOST, Weight.GHOST) if is_chosen else (Role.SEVERAL, Weight.BESIDE)
+    for each in (each for each in found.solutions if not each.is_chosen):
         own = tuple(segment for segment in each.segments if segment.name not in shared)
-        yield Trail(own, Role.SEVERAL, Weight.BESIDE)
+        yield Trail(own, role, weight)
         number, place = each.guess
         name = found.sketch.name_of(number)
         at = next((segment.end for segment in own if segment.name == name), own[-1].end)
         written = " ".join(f"{axis}{value.normalize():f}" for axis, value in place.items())
-        runs = TextRun(each.name, Role.SEVERAL), TextRun(f"  {written}", Role.DERIVED)
-        yield Mark(at, MarkKind.PLACE, runs, runs[:1], Role.SEVERAL)
+        runs = TextRun(each.name, role), *([] if is_chosen else [TextRun(f"  {written}", Role.DERIVED)])
+        kind = MarkKind.OTHER if is_chosen else MarkKind.PLACE
+        yield Mark(at, kind, runs, runs[:1], role)
 
 
 def _told(found: SketchAnswer) -> Iterator[str]:

@@ -23,9 +23,9 @@ export function chainPicture(select: (number: number) => void, guess: (number: n
   const paper = make("div", { class: "canvas contoursolve", tabindex: 0, role: "group", "aria-label": "Picture of the contour; arrow keys move it" }, drawn);
   const toggle = button("Guess by touch", () => set(!isGuessing), { "aria-pressed": "false" });
   const told = make("span", { class: "muted" });
-  const stale = make("p", { class: "wrong", role: "status", hidden: true, text: "Not up to date: this picture is older than what is entered." });
+  const stale = make("p", { class: "wrong note", role: "status", hidden: true, text: "Not up to date: this picture is older than what is entered." });
   const zoom = zoomBar((times) => drawn.style.setProperty("--times", String(times)), paper, "the picture");
-  const node = make("div", { class: "chain-picture" }, make("div", { class: "bar" }, toggle, zoom, told), stale, paper);
+  const node = make("div", { class: "chain-picture" }, make("div", { class: "bar" }, toggle, zoom, told), make("div", { class: "framed" }, paper, stale));
   let elements: ChainView["elements"] = [];
   let ghostly: Piece[] | null = null;
   let guesses: [number, number][] = [];
