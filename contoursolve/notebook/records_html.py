@@ -7,7 +7,7 @@ import htpy as h
 from markupsafe import Markup
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join, status_text
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block
@@ -98,7 +98,7 @@ def _answer(answer: Answer) -> Iterator[h.Node]:
 
 def _contour_of(answer: Answer, result: Result) -> Iterator[h.Node]:
     """The picture, the path, what was given, and the findings of one contour."""
-    yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form_text(answer)}: {answer.status.value}")]
+    yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form_text(answer)}: {status_text(answer.status)}")]
     yield figure(answer)
     yield path_element(answer)
     yield from remarks(answer, result.control or "")
