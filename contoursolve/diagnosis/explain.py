@@ -369,13 +369,21 @@ def _adding_by_line(
 
 
 def _adding(names: Sequence[str], claim: ParsedContour, profile: Profile, unable: Collection[str]) -> Iterator[str]:
-    """To add the words that complete a contour: with their lines where it has several."""
+    """To add the words that complete a contour, with their lines where it has several; to give a value to one that is
+    there and asks for it."""
     from contoursolve.diagnosis.missing_words import lack_of, lack_text, still_able  # noqa: PLC0415 - few blocks lack words
 
     if claim.form.is_general:
         return
     lack = lack_of(claim, profile, names)
     lack = (still_able(lack, unable) or lack) if lack else None
+    if lack is None:
+        return
+    asking = [name for name in names if name in claim.words and claim.words[name].is_asked]
+    asking = [name for name in asking if lack.number == 1 and any(name in kind for kind in lack.kinds)]
+    if asking:
+        yield f"give {either([claim.words[name].text for name in asking])} a value"
+        lack = still_able(lack, asking)
     if lack is None:
         return
     lines = {name: claim.blocks[claim.vocabulary[name][1]].line for kind in lack.kinds for name in kind}

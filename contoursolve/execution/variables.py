@@ -67,11 +67,13 @@ def _setting(name: str) -> str:
 
 
 class NamedVariable(Struct, frozen=True):
-    """A variable that a program names: the first line that does, and the first that sets it, if any does."""
+    """A variable that a program names: the first line that does, and the first that sets it, if any does, with the
+    number there; none where that depends on more than numbers."""
 
     name: str
     line: int
     set_on: int | None
+    number: float | None = None
 
 
 def named_variables(language: MacroLanguage, lines: Iterable[str]) -> list[NamedVariable]:
@@ -83,13 +85,22 @@ def named_variables(language: MacroLanguage, lines: Iterable[str]) -> list[Named
         code = language.read(text)
         set_here = (each.variable for each in code.statements if isinstance(each, _SETTING))
         targets = {*code.parameters, *_names_in(tuple(set_here))}
+        numbers = {each.variable: _number_of(each) for each in code.statements if isinstance(each, Assign)}
         for name in (*code.parameters, *_names_in((code.statements, code.words))):
             set_on = number if name in targets else None
-            before = found.setdefault(name, NamedVariable(name, number, set_on))
-            if before.set_on is None and set_on is not None:
-                found[name] = NamedVariable(name, before.line, set_on)
+            is_set = set_on is not None
+            value = numbers.get(Variable(name)) if is_set else None
+            before = found.setdefault(name, NamedVariable(name, number, set_on, value))
+            if before.set_on is None and is_set:
+                found[name] = NamedVariable(name, before.line, set_on, value)
     own = (each for each in found.values() if each.name not in (SKIP_SWITCH.name, language.always_empty))
     return [each for each in own if not language.unknown(each.name).endswith(MACHINES)]
+
+
+def _number_of(assigned: Assign) -> float | None:
+    """The number that an assignment says by itself."""
+    value = evaluate(assigned.value, lambda name: Unknown(name))
+    return value if isinstance(value, float) else None
 
 
 _SETTING = (Assign, Forget, For)

@@ -87,11 +87,20 @@ def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
     if not all(isinstance(each, int | float) and abs(each) <= MOST_VALUE for each in values.values()):
         raise ActionError(f"values of variables are numbers up to {MOST_VALUE:,}")
     found = named_variables(language, view.lines()) if language is not None else []
-    result = contoursolve.solve(program.text, control=program.dialect, name=program.name, variables=values)
+    start = read_field(action, "start", str, "").strip() or None
+    result = contoursolve.solve(
+        program.text, control=program.dialect, name=program.name, variables=values, start=start
+    )
     return {
         **_drawn(result, None),
         "fields": [
-            {"name": each.name, "line": each.line, "set_on": each.set_on, "value": values.get(each.name)}
+            {
+                "name": each.name,
+                "line": each.line,
+                "set_on": each.set_on,
+                "number": each.number,
+                "value": values.get(each.name),
+            }
             for each in found[:MOST_VARIABLES]
         ],
         "left_out": max(len(found) - MOST_VARIABLES, 0),

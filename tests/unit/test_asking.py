@@ -1220,3 +1220,9 @@ CHAIN = "G17 G90 G42 G0 X100 Y20\n{}\n{} (contoursolve: arc tangent to line 1)"
 )
 def test_a_fact_that_nothing_needs_is_compared_beside_a_size_that_nothing_tells(text, control, status):
     assert solve(text, control=control).answers[0].status is status
+
+
+def test_a_word_that_asks_where_it_is_missing_is_to_get_a_value():
+    block = "G111 A90. C2. B180. Z-30. Q3."
+    (found,) = solve(f"{block} I?", start="X20. Z0.").diagnostics
+    assert found.message.endswith(": give I? a value; or add one of X, U")

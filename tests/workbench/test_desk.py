@@ -121,10 +121,15 @@ def test_the_variables_of_a_subprogram_have_fields_and_their_values_show_what_it
     page.ask("open", name="q.nc", control="fanuc-lathe", text="#5=10\nG00 X40. Z0.\nG01 Z-30. ,R#5\nX#1 ,A#2 F#5041\n")
     asked = page.ask("variables")
     assert [(each["name"], each["set_on"]) for each in asked["fields"]] == [("#5", 1), ("#1", None), ("#2", None)]
+    assert [each["number"] for each in asked["fields"]] == [10.0, None, None]
     # The drawing names its state so.
     assert [asked["contours"][0][each] for each in ("status", "told")] == ["underdetermined", "incomplete"]
     assert page.ask("variables", values={"#1": 100.0, "#2": 120})["contours"][0]["status"] == "solved"
     assert "there is no variable" in page.ask("variables", values={"nothing": 1})["trouble"]
+    page.ask("open", name="o.nc", control="fanuc-lathe", text="O9\nG01 X#24\nX[#24-#4*2.] ,A251. ,R0.5\nW-3.\nM99\n")
+    given = {"#24": 60, "#4": 8}
+    assert page.ask("variables", values=given)["contours"][0]["status"] == "underdetermined"
+    assert page.ask("variables", values=given, start="X60. Z2.")["contours"][0]["status"] == "solved"
 
 
 def test_programs_that_nobody_has_used_lately_rest_and_come_back_as_they_were(monkeypatch):

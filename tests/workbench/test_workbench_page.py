@@ -171,6 +171,51 @@ def test_files_are_chosen_or_dropped_and_keep_their_bytes_when_saved(opened, fol
     assert (folder / "a.nc").read_bytes() == "(Ø 40)\r\n".encode("latin-1") + SHAFT.encode()
 
 
+def test_variables_and_the_start_point_are_followed_while_they_are_typed(opened, folder) -> None:
+    (folder / "groove.nc").write_text("O9\n#18=0.5\nN10 G01 X#24\nN20 X[#24-#4*2.] ,A251. ,R#18\nN30 W-3.\nM99\n")
+    page = opened("groove.nc")
+    show(page, "Variables")
+    contour = page.locator(".view.variables .contours button").first
+    page.locator(".view.variables .contours button", has_text="incomplete").wait_for()
+    assert page.get_by_label("#18").get_attribute("placeholder") == "0.5"
+    page.get_by_label("#24").fill("60")
+    page.get_by_label("#4").fill("8,5")
+    page.get_by_label("Start point").fill("X60. Z2.")
+    page.locator(".view.variables .contours button", has_text="solved").wait_for()
+    assert "solved" in contour.inner_text()
+    page.get_by_label("#4").fill("abc")
+    page.locator(".view.variables [role=status]", has_text="#4: abc is no number").wait_for()
+
+
+def test_a_file_that_was_changed_meanwhile_can_be_looked_at(opened, folder) -> None:
+    (folder / "twice.nc").write_text(SHAFT)
+    page = opened("twice.nc")
+    page.locator(".cm-line").nth(3).click()
+    page.keyboard.type("(MINE)")
+    (folder / "twice.nc").write_text(SHAFT.replace("P6.", "P7."))
+    page.keyboard.press("Control+s")
+    page.get_by_role("button", name="Open that file beside").click()
+    page.get_by_role("tab", name="twice.nc (2)").wait_for()
+    wait_for_text(page, "G111 X100. A180. K-30. B120. P7.")
+    page.get_by_role("tab", name="twice.nc •").click()
+    wait_for_text(page, "G111 X100. A180. K-30. B120. P6.")
+    assert "(MINE)" in text_of(page)
+
+
+def test_the_tool_shows_the_contour_before_its_side_is_chosen(opened, folder) -> None:
+    (folder / "side.nc").write_text(SHAFT)
+    page = opened("side.nc")
+    show(page, "Tool")
+    page.locator(".view.tool input[type=text]").fill("0,8")
+    page.keyboard.press("Tab")
+    page.locator(".view.tool [role=status]", has_text="choose the side here").wait_for()
+    page.locator(".view.tool svg").first.wait_for()
+    page.locator(".view.tool select").nth(1).select_option("right")
+    page.locator(".view.tool select").first.select_option("3")
+    page.locator(".view.tool [role=status]", has_text="The largest radius").wait_for()
+    assert "↙" in page.locator(".view.tool select").first.inner_text()
+
+
 def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened) -> None:
     page = opened()
     page.get_by_role("button", name="New program").click()

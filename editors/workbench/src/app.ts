@@ -219,8 +219,8 @@ export class App {
     return hello !== null;
   }
 
-  private async open(what: Opening): Promise<void> {
-    const isNew = what.text === undefined && what.base64 === undefined;
+  private async open(what: Opening, isBeside = false): Promise<void> {
+    const isNew = !isBeside && what.text === undefined && what.base64 === undefined;
     const known = isNew && what.name && this.works.find((each) => each.name === what.name && each.base);
     if (known) return this.choose(known);
     if (!(await this.greeted())) return;
@@ -338,9 +338,14 @@ export class App {
     this.start.hidden = active !== null;
     this.host.hidden = this.actions.hidden = active === null;
     this.tabs.hidden = !this.works.length;
+    // A file may be open twice, as it was and as it is now.
+    const again = (work: Work, number: number) => {
+      const same = this.works.slice(0, number).filter((each) => each.name && each.name === work.name).length;
+      return same ? ` (${same + 1})` : "";
+    };
     const names = this.works.map((each, number) => ({
       name: String(number),
-      text: `${titleOf(each)}${each.isChanged && !each.isEmpty ? " •" : ""}`,
+      text: `${titleOf(each)}${again(each, number)}${each.isChanged && !each.isEmpty ? " •" : ""}`,
       title: each.isChanged ? `${titleOf(each)}: changes are not saved` : titleOf(each),
       panel: this.host.id,
     }));
@@ -399,8 +404,9 @@ export class App {
       return conflict !== "";
     });
     if (conflict) {
-      const what = make("p", { text: options.name ? "There is a file with this name already. Your text is still here." : "Somebody else has changed this file since it was opened. Your text is still here." });
-      const answer = await dialog(this.root, options.name ? `${options.name} exists` : `${work.name} has changed`, [what], "Save under another name", ["Replace it"]);
+      const what = make("p", { text: options.name ? "There is a file with this name already. Your text is still here." : "This file was changed since it was opened: by another program, or in another window. Your text is still here." });
+      const answer = await dialog(this.root, options.name ? `${options.name} exists` : `${work.name} has changed`, [what], "Save under another name", ["Replace it", "Open that file beside"]);
+      if (answer === "Open that file beside") return this.openBeside(options.name ?? work.name);
       if (answer === "Replace it") return this.write(work, { ...options, over: conflict });
       return answer !== null && this.saveAs();
     }
@@ -409,6 +415,12 @@ export class App {
     this.say(`Saved as ${saved.saved}.`);
     this.follow();
     return true;
+  }
+
+  // What is in the folder now, in a tab of its own: nothing is lost, and nothing saved.
+  private async openBeside(name: string): Promise<boolean> {
+    await this.open({ name }, true);
+    return false;
   }
 
   private async keep(made: Made): Promise<void> {

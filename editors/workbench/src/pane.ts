@@ -26,6 +26,7 @@ interface Beside {
   tool: ToolState;
   tooled: Tooled | null;
   values: Record<string, number>;
+  start: string;
   toolTrouble: string;
   varied: number; // seq of the text for which the variables are shown
   toolSeq: number; // and the tool
@@ -73,7 +74,7 @@ export class ProgramPane {
     (line) => this.go(line),
   );
   private readonly variables = variablesPanel(
-    (values) => void this.setVariables(values),
+    (values, start) => void this.setVariables(values, start),
     (line) => this.go(line),
   );
   private readonly result;
@@ -119,7 +120,7 @@ export class ProgramPane {
     this.program?.show(null);
     this.program = program;
     if (!this.beside.has(program)) {
-      this.beside.set(program, { seq: -1, svg: null, took: 0, looked: null, tool: { radius: "", tip: "", side: "" }, tooled: null, toolTrouble: "", values: {}, varied: -1, toolSeq: -1, made: null });
+      this.beside.set(program, { seq: -1, svg: null, took: 0, looked: null, tool: { radius: "", tip: "", side: "" }, tooled: null, toolTrouble: "", values: {}, start: "", varied: -1, toolSeq: -1, made: null });
     }
     program.show(this.editor);
     const { svg, made } = this.own;
@@ -200,7 +201,7 @@ export class ProgramPane {
     this.drawing.list(program.contours);
     this.drawing.light(this.here?.line ?? null);
     this.lightRow();
-    this.tool.show(this.own.tool, program.view.unit || "mm", this.own.tooled, this.own.toolTrouble);
+    this.showTool(program);
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.settle(), REST);
   }
@@ -247,11 +248,12 @@ export class ProgramPane {
     // Nothing can be drawn of a program for no control; the head says why there is none.
     if (!program.view.control) return this.drawing.show(null);
     // An edit waits for a drawing that is under way: that of a long program comes when its user rests longer.
-    if (this.isShown("drawing") && this.own.seq !== program.view.seq) this.rest = setTimeout(() => void this.draw(program), 2 * this.own.took);
+    const isDrawn = this.isShown("drawing") || (this.isShown("tool") && !this.own.tooled);
+    if (isDrawn && this.own.seq !== program.view.seq) this.rest = setTimeout(() => void this.draw(program), 2 * this.own.took);
     if (this.isShown("contour") && !this.isActing && !this.isHeld) void this.look(program);
     if (this.isShown("variables") && this.own.varied !== program.view.seq) {
       this.own.varied = program.view.seq;
-      void this.setVariables(this.own.values);
+      void this.setVariables(this.own.values, this.own.start);
     }
     if (this.isShown("tool") && this.own.tooled && this.own.toolSeq !== program.view.seq) void this.setTool(this.own.tool);
   }
@@ -265,7 +267,9 @@ export class ProgramPane {
     if (!drawn) return;
     beside.took = performance.now() - begin;
     beside.svg = drawn.svg;
-    if (program === this.program) this.drawing.show(drawn.svg);
+    if (program !== this.program) return;
+    this.drawing.show(drawn.svg);
+    this.showTool(program);
   }
 
   private async look(program: Program): Promise<void> {
@@ -345,19 +349,24 @@ export class ProgramPane {
       const asked = () => ({ do: "tool", tool: radius === PROGRAM ? radius : `R${radius}`, ...(tip ? { tip: Number(tip) } : {}), ...(side ? { side } : {}) });
       own.toolTrouble = "";
       own.tooled = await program.ask<Tooled>(asked, false, (why) => {
-        if (why.reply) own.toolTrouble = why.message.replace(/--(side|tip)/g, "$1");
+        if (why.reply) own.toolTrouble = why.message.replace("give --side left or --side right", "choose the side here").replace(/--(side|tip)/g, "$1");
         return why.reply !== null;
       });
       own.toolSeq = program.view.seq;
     }
-    if (program === this.program) this.tool.show(own.tool, program.view.unit || "mm", own.tooled, own.toolTrouble);
+    if (program === this.program) this.showTool(program);
   }
 
-  private async setVariables(values: Record<string, number>): Promise<void> {
+  private showTool(program: Program): void {
+    const { tool, tooled, toolTrouble, svg } = this.own;
+    this.tool.show(tool, program.view.unit || "mm", tooled, toolTrouble, svg);
+  }
+
+  private async setVariables(values: Record<string, number>, start: string): Promise<void> {
     const program = this.program;
     if (!program) return;
-    this.own.values = values;
-    const reply = await program.ask<Varied>(() => ({ do: "variables", values }));
+    Object.assign(this.own, { values, start });
+    const reply = await program.ask<Varied>(() => ({ do: "variables", values, start }));
     if (reply && program === this.program) this.variables.show(reply);
   }
 
