@@ -99,7 +99,7 @@ def named_variables(language: MacroLanguage, lines: Iterable[str]) -> list[Named
 
 def _number_of(assigned: Assign) -> float | None:
     """The number that an assignment says by itself."""
-    value = evaluate(assigned.value, lambda name: Unknown(name))
+    value = evaluate(assigned.value, Unknown)
     return value if isinstance(value, float) else None
 
 

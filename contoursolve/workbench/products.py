@@ -88,9 +88,7 @@ def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
         raise ActionError(f"values of variables are numbers up to {MOST_VALUE:,}")
     found = named_variables(language, view.lines()) if language is not None else []
     start = read_field(action, "start", str, "").strip() or None
-    result = contoursolve.solve(
-        program.text, control=program.dialect, name=program.name, variables=values, start=start
-    )
+    result = contoursolve.solve(program.text, control=program.dialect, name=program.name, variables=values, start=start)
     return {
         **_drawn(result, None),
         "fields": [
