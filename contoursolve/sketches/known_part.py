@@ -37,7 +37,7 @@ from contoursolve.sketches.finishing import (
 from contoursolve.sketches.sketch import ContourSketch, SketchElement
 from contoursolve.sketches.sliding import Loose, loosely_drawn
 from contoursolve.sketches.terms import on_drawing
-from contoursolve.solving import ArcSegment, Point, RefusalKind, Segment, Status, scalars_of
+from contoursolve.solving import ArcSegment, Contour, Point, RefusalKind, Segment, Status, scalars_of
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
 
@@ -219,6 +219,7 @@ class _Reading:
         path = answer.profile.figure.path
         self.heads = {number: element.head for number, element in enumerate(path, 1)}
         self.loose: Loose | None = None
+        self.gap: SketchFinding | None = None
 
     def result(self, *, with_ranges: bool) -> SketchAnswer:
         answer = self.answer
@@ -238,6 +239,7 @@ class _Reading:
             answer = picked if picked is not None and picked.contour is not None else answer
         elif answer.contour is None:
             self.loose = self._loosely()
+            self.gap = self._gap() if self.sketch.closed else None
             missing, entries = self._missing(self.loose, len(several), with_ranges=with_ranges)
         return SketchAnswer(
             self.sketch,
@@ -323,7 +325,7 @@ class _Reading:
             # What follows from directions as they are is no less sure than what does so whatever they are.
             self.sure = {*known.points} - known.several | {*in_part(answer.profile).points}
         shared = {name for name in drawn if not several or _is_shared(name, several)}
-        completed, gap = self._completed(loose, drawn), self._gap()
+        completed, gap = self._completed(loose, drawn), self.gap
         for number, element in enumerate(self.sketch.elements, 1):
             for part in (self.sketch.name_of(number), *([f"corner {number}"] if element.corner else [])):
                 segment, off = completed.get(part, drawn.get(part)), self.blamed.get(part)
@@ -400,11 +402,13 @@ class _Reading:
         last = len(self.sketch.elements)
         field = last, "closed"
         errors = [each for each in self.errors if field in self._fields(each) and isinstance(each.about, RefusalKind)]
-        if not errors or self.loose is None:
+        # Where it ends is what the rest gives, if that is one place.
+        left_open = examined(replace(self.sketch, closed=False)) if errors else None
+        contours = [*_contours(left_open)] if left_open is not None else []
+        if not contours or any(dist(each.end, contours[0].end) > AGREEMENT for each in contours):
             return None
-        points, figure = self.loose.points, self.answer.profile.figure
-        start, end = points[figure.start], points[self.heads[last]]
-        gap = dist(start, end)
+        end = contours[0].end
+        gap = dist(contours[0].start, end)
         if gap <= LENGTH:
             return None
         there, amount = self._place(end), length_text(gap, self.answer.unit)
@@ -422,7 +426,7 @@ class _Reading:
 
     def _findings(self, answer: Answer) -> Iterator[SketchFinding]:
         """The findings; that a field agrees with others is not told where it also contradicts."""
-        gap = self._gap()
+        gap = self.gap
         if gap is not None:
             yield gap
         # What is not given yet is no error; what is missing tells it.
@@ -484,6 +488,14 @@ class _Reading:
 
 
 _OPEN = (Status.UNDERDETERMINED, Status.AMBIGUOUS)
+
+
+def _contours(answer: Answer) -> Iterator[Contour]:
+    """Its contour, or all that fit."""
+    if answer.contour is not None:
+        yield answer.contour
+    elif (listing := list_solutions(answer)) is not None:
+        yield from (each.contour for each in listing.solutions if each.contour is not None)
 
 
 def _amount(finding: Diagnostic) -> float | None:

@@ -4,7 +4,7 @@ import json
 import re
 from collections import Counter
 from decimal import Decimal
-from math import radians, tan
+from math import dist, radians, tan
 from pathlib import Path
 
 import pytest
@@ -288,6 +288,21 @@ def test_a_closed_contour_that_ends_elsewhere_is_told_once(x, gap, there):
     svg = contoursolve.draw_sketch(found).svg
     assert "CLSD" not in svg
     assert "some entries contradict the rest" in svg
+
+
+@pytest.mark.parametrize(
+    ("name", "count"), [("milled_chord", 1), ("milled_distances", 1), ("guessed_length", 0), ("turned_ball", 1)]
+)
+def test_the_gap_of_a_closed_contour_is_that_of_the_open_one(name, count):
+    given = sketch(name)
+    bare = replace(given, elements=tuple(replace(each, guess={}) for each in given.elements))
+    open_, found = contoursolve.solve_sketch(bare), contoursolve.solve_sketch(replace(bare, closed=True))
+    gaps = [each.off_mm for each in found.findings if (0, "closed") in each.fields]
+    paths = [each.segments for each in open_.solutions] or [open_.answer.contour.elements]
+    ends = {round(dist(each[0].start, each[-1].end), 6) for each in paths}
+    # Where the contours that fit end in several places, none of these is told.
+    assert gaps == [pytest.approx(each) for each in ends if len(ends) == 1]
+    assert len(gaps) == count
 
 
 def test_fixes_tell_no_place_that_they_leave_where_it_is():
