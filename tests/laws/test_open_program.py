@@ -15,7 +15,12 @@ from contoursolve.gcode.decoding import decode
 from contoursolve.program import open_program
 
 ROOT = Path(__file__).parents[2]
-PROGRAMS = sorted([*(ROOT / "notebooks" / "programs").glob("*.nc"), *(ROOT / "docs" / "programs").glob("*.*")])
+PROGRAMS = sorted(
+    [
+        *(ROOT / "notebooks" / "programs").glob("*.nc"),
+        *(each for each in (ROOT / "docs" / "programs").glob("*.*") if each.suffix != ".dxf"),
+    ]
+)
 CONTROLS = {"plate.nc": "nct-99m", "cover.nc": "nct-99m", "bracket.nc": "isg", "flange.mpf": "siemens-840d"}
 
 
