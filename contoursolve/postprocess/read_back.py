@@ -29,7 +29,7 @@ class ReadBack(Struct, frozen=True):
     """The text to which a finding points."""
     end: Point = (0.0, 0.0)
     reason: str = ""
-    """Why it is refused."""
+    """The reason why it is refused."""
 
 
 def read_back(

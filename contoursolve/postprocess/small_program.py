@@ -20,14 +20,14 @@ _FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 """The lines with which a program begins and ends, where that is not as ISO 6983 has it."""
 
 _ENDINGS = {"siemens-840d": ".mpf", "siemens-808d": ".mpf", "heidenhain": ".h"}
-"""How the files of programs end, where that is not `.nc`."""
+"""The ends of file names of programs, where that is not `.nc`."""
 
 _MISSING = "Add tool, speed, feed, approach and retract: they are not in it."
 _RAPID = "The next block is a rapid straight to the start of the contour. Make it a safe approach."
 
 
 def ending_of(target: Dialect) -> str:
-    """How the name of a file with a program for a control ends, with its dot."""
+    """The end of the name of a file with a program for a control, with its dot."""
     return _ENDINGS.get(target.name, ".nc")
 
 

@@ -56,7 +56,7 @@ def draw_sketch(found: SketchAnswer, *, theme: Theme = Theme.LIGHT) -> Picture |
 
 
 def _title(found: SketchAnswer) -> str:
-    """What is missing, or its state: a title has no room for a finding."""
+    """Its state, or the entry that is missing: a title has no room for a finding."""
     if found.missing or found.is_finished:
         return found.said
     is_wrong = any(each.state is PartState.CONTRADICTING for each in found.elements)

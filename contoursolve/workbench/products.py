@@ -200,7 +200,7 @@ _VERIFIED = {
     ),
     ReceiptVerdict.NOTHING_CHECKED: "Nothing could be checked: see why in the details.",
 }
-"""What a verification says, for all who ask no more."""
+"""A verification in a sentence, for all who ask no more."""
 
 
 def _suffix(view: ProgramView) -> str:

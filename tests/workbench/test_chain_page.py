@@ -226,7 +226,7 @@ def test_an_entry_that_cannot_be_read_marks_picture_and_cards_and_is_not_saved(o
 
     (folder / "shaft.toml").write_text(SHAFT, encoding="utf-8")
     page = opened()
-    page.get_by_role("button", name="shaft.toml").click()
+    page.get_by_role("button", name="shaft.toml", exact=True).click()
     expect(page.locator(".missing")).to_have_text("the contour is finished")
     card, picture, trouble = page.locator(".card"), page.locator(".chain-picture"), page.locator(".trouble")
     for wrong in ("thirty", "-99999999999", "15*2"):
@@ -303,7 +303,7 @@ def test_a_card_stays_as_high_whatever_its_state(opened, folder) -> None:
 def test_the_picture_of_a_sketch_can_be_read_on_a_phone_and_be_enlarged(opened, folder) -> None:
     (folder / "shaft.toml").write_text(SHAFT, encoding="utf-8")
     page = opened(screen="phone")
-    page.get_by_role("button", name="shaft.toml").click()
+    page.get_by_role("button", name="shaft.toml", exact=True).click()
     page.get_by_role("tab", name="Drawing").click()
     text = page.locator(".chain-picture svg text").first
     text.wait_for()

@@ -33,7 +33,7 @@ export interface DrawingPanel {
 export function drawingPanel(go: (line: number) => void, open: (line: number) => void): DrawingPanel {
   let isLit: number | null = null;
   let listed: ContourRow[] | null = null;
-  const paper = make("div", { class: "canvas" });
+  const paper = make("div", { class: "canvas", tabindex: 0, role: "group", "aria-label": "Drawing of the program" });
   const scroller = make("div", { class: "all contoursolve", tabindex: 0, role: "group", "aria-label": "Drawing of all contours; arrow keys move it" }, paper);
   const zoom = zoomBar((times) => (paper.style.width = `${100 * times}%`), scroller, "the drawing");
   const rows = make("ul", { class: "contours", "aria-label": "Contours" });

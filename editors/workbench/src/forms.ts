@@ -59,7 +59,7 @@ export function toolPanel(set: (tool: ToolState) => void, go: (line: number) => 
   const side = make("select", {}, ...SIDES.map(([value, text]) => make("option", { value, text })));
   const unit = make("span", { class: "unit" });
   const said = make("p", { role: "status" });
-  const paper = make("div", { class: "canvas contoursolve" });
+  const paper = make("div", { class: "canvas contoursolve", tabindex: 0, role: "group", "aria-label": "Drawing of the contour" });
   const list = places("Ways of the tool and what is found about them", go);
   const state = (): ToolState => ({ radius: decimal(radius.value), tip: tip.value, side: side.value });
   const use = (value: string) => {
@@ -129,7 +129,7 @@ const PAUSE = 200; // ms without a key after which values count
 export function variablesPanel(set: (values: Record<string, number>, start: string) => void, go: (line: number) => void): VariablesPanel {
   const list = make("div", { class: "variables" });
   const said = make("p", { role: "status" });
-  const paper = make("div", { class: "canvas contoursolve" });
+  const paper = make("div", { class: "canvas contoursolve", tabindex: 0, role: "group", "aria-label": "Drawing of the contour" });
   const rows = places("What it comes to", go);
   const start = make("input", { type: "text", autocomplete: "off", spellcheck: "false", placeholder: "where the program says it", title: "Words such as X60. Z2." });
   const starts = labelled("Start point, in words such as X60. Z2.", start);
