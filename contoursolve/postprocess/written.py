@@ -125,7 +125,7 @@ def _reason(target: Dialect, found: Sequence[WrittenContour], searches: Sequence
 
 
 def _why_plain(name: str, found: Sequence[WrittenContour], searches: Sequence["_Search"]) -> str:
-    """The reason why the first candidate has no words of this control alone, though some of its numbers are computed."""
+    """The reason why the first candidate has no words of this control alone, though some numbers are computed."""
     others = sum(not each.is_plain for each in found)
     if others:
         ways = "1 further way has" if others == 1 else f"{others} further ways have"
