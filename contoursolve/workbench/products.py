@@ -57,7 +57,7 @@ def _with_tool(view: ProgramView, action: Mapping[str, Any]) -> Data:
         read_field(action, "tool", str, "program"),
         tip=read_field(action, "tip", int, None),
         side=read_field(action, "side", str, None) or None,
-        outside=read_field(action, "outside", str, "roll"),
+        outside=read_field(action, "outside", str, None),
         name=program.name,
         control=program.dialect,
     )

@@ -116,6 +116,19 @@ def test_each_product_is_that_of_the_command_of_its_name(tmp_path):
         assert [*page.ask(**wrong)] == ["trouble"]
 
 
+def test_the_way_around_outside_corners_is_that_of_the_program():
+    page, drawn = Page(Desk()), {}
+    for code in ("G450", "G451"):
+        text = f"G17 G90 G71 G40 {code}\nG0 X-20 Y0\nG41 G1 X0 Y0 F500\nY30 RND=1\nX40\nY0\nX50\nG40 G0 Y-20\nM30\n"
+        page.ask("open", name=f"{code}.mpf", control="siemens-840d", text=text)
+        drawn[code] = {each: page.ask("tool", tool="R5", **of)["svg"] for each, of in WAYS.items()}
+    assert drawn["G450"]["stated"] == drawn["G450"]["roll"] != drawn["G450"]["intersect"]
+    assert drawn["G451"]["stated"] == drawn["G451"]["intersect"] != drawn["G451"]["roll"]
+
+
+WAYS = {"stated": {}, "roll": {"outside": "roll"}, "intersect": {"outside": "intersect"}}
+
+
 def test_the_variables_of_a_subprogram_have_fields_and_their_values_show_what_it_does():
     page = Page(Desk())
     page.ask("open", name="q.nc", control="fanuc-lathe", text="#5=10\nG00 X40. Z0.\nG01 Z-30. ,R#5\nX#1 ,A#2 F#5041\n")
