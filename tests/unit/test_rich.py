@@ -15,6 +15,7 @@ from examples import some_of
 import contoursolve
 from contoursolve import Status
 from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.wording import status_text
 from contoursolve.notebook import mime_bundle, records
 from contoursolve.output import html as style
 from contoursolve.solving.contour import ArcSegment
@@ -189,7 +190,7 @@ def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status, mo
         page = check(record._repr_mimebundle_(), has_picture=True)
         assert {"figure", "img", "table", "caption"} <= set(page.tags)
         shown = "".join(page.words)
-        assert status.value in shown
+        assert status_text(status) in shown
         assert all(finding.message in shown for finding in answer.diagnostics)
     if answer.diagnosis:
         check(answer.diagnosis._repr_mimebundle_())
