@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from itertools import chain, islice
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Depth, examine, may_be_suspected, may_have_odd_points
@@ -142,6 +143,13 @@ class Answers:
         return tuple(mend_behind(answer, found, window))
 
 
+class Learned(Struct, frozen=True):
+    """Answers that one step adds to what is known of a program that runs, and the contours that were wrong there."""
+
+    known: tuple[tuple[object, Answer], ...]
+    wrong: tuple[tuple[str, int], ...]
+
+
 class AnswersInPasses(Answers):
     """The same of a program that runs: where a contour comes to the same again, its answer is that of before; and in a
     loop, each pass may be wrong, of which the first ones are explained."""
@@ -154,6 +162,7 @@ class AnswersInPasses(Answers):
         """By what is known before a contour, its blocks and those behind it."""
         self._wrong = Counter[tuple[str, int]]()
         """How often the contour at a line of a file was wrong."""
+        self._begun, self._is_alone, self._wrong_here = 0, True, list[tuple[str, int]]()
 
     def solve(self, found: ParsedContour, pending: Pending) -> Answer:
         known = None if found.directives else self._known.get(_key_of_pass(found, pending))
@@ -163,9 +172,33 @@ class AnswersInPasses(Answers):
         if answer.claim.directives:
             return self._explain_pass(answer, pending)
         key = _key_of_pass(answer.claim, pending)
-        if key not in self._known:
+        if key in self._known:
+            self._is_alone = False
+        else:
             self._known[key] = self._explain_pass(answer, pending)
         return self._known[key]
+
+    def begin(self) -> None:
+        """Begin a step of which it is asked what it has `learned`."""
+        self._begun, self._is_alone, self._wrong_here = len(self._known), True, []
+
+    def learned(self) -> Learned | None:
+        """What the step has added; None where its answers rest on those of other steps."""
+        known = islice(self._known.items(), self._begun, None)
+        return Learned(tuple(known), tuple(self._wrong_here)) if self._is_alone else None
+
+    def recall(self, learned: Learned) -> bool:
+        """Take in what a step of an earlier run has added; False where this run would answer otherwise."""
+        if not (learned.known or learned.wrong):
+            return True
+        wrong = self._wrong + Counter(learned.wrong)
+        if any(wrong[each] > MOST_EXPLAINED for each in learned.wrong):
+            return False
+        if any(key in self._known for key, _ in learned.known):
+            return False
+        self._known.update(learned.known)
+        self._wrong = wrong
+        return True
 
     def _explain_pass(self, answer: Answer, pending: Pending) -> Answer:
         if _is_wrong(answer) and self._is_late(answer.claim.blocks[0]):
@@ -177,6 +210,8 @@ class AnswersInPasses(Answers):
     def _is_late(self, first: Block) -> bool:
         """Whether enough results of a contour, of which this is the first block, are explained; it is wrong again."""
         self._wrong[first.file, first.line] += 1
+        self._wrong_here.append((first.file, first.line))
+        self._is_alone = self._is_alone and self._wrong[first.file, first.line] <= MOST_EXPLAINED
         return self._wrong[first.file, first.line] > MOST_EXPLAINED
 
 

@@ -23,7 +23,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer, Context, Policy, rank
 from contoursolve.diagnostics import Diagnostic, Fix, LineChange, OpenNumber, Span, choice_of
 from contoursolve.execution import needs_running, surroundings_of
-from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse, parse_block, split_lines
+from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse_block, split_lines
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.agreeing_controls import choose_alike
 from contoursolve.program.examination import Cursor, Examination
@@ -41,6 +41,7 @@ from contoursolve.program.recognise import (
     shown_of_machine,
 )
 from contoursolve.program.request import Request
+from contoursolve.program.running import KeptSteps
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.told_outside import Outside
 from contoursolve.reading import Dialect, ReadIssue
@@ -192,7 +193,9 @@ class OpenProgram:
         self._diagnostics: tuple[Diagnostic, ...] | None = None
         self._examination: Examination | None = None
         self._unread: Result | None = None
-        """What is found where no control is known."""
+        """What is found where no control is known, or in a program that runs."""
+        self._kept = KeptSteps()
+        """What is kept of it for the next run."""
         self._choose()
         self._begin()
 
@@ -378,15 +381,14 @@ class OpenProgram:
     def _begin(self) -> None:
         """Make everything stale."""
         self._diagnostics, self._walk, self._parts, self._moves, self._examination = None, None, [], [], None
-        if self.dialect is not None:
-            self._lines.spell(self.dialect.modes.syntax)
+        self._lines.spell(self.syntax)
         # A program that calls or computes is examined as a whole, or that names words for all of it.
         if (
             self.dialect is not None
             and not needs_running(self._lines.texts, self.dialect.modes.language)
             and not any(map(is_named_for_all, (self._lines[at] for at in self._marked_lines())))
         ):
-            asked = replace(self._asked, dialect=self.dialect)
+            asked, self._kept = replace(self._asked, dialect=self.dialect), KeptSteps()
             self._examination = Examination(asked, self.dialect, goes_on=True)
             known = self._examination.begin
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
@@ -539,8 +541,13 @@ class OpenProgram:
         """All that is known of a program that is not examined in parts."""
         if self._unread is None:
             asked = replace(self._asked, dialect=self.dialect, around=surroundings_of(self.name))
-            self._unread = run(parse(self.text, self.name), asked)
+            self._unread = run(self._program(), asked, kept=self._kept)
         return self._unread
+
+    def _program(self) -> Program:
+        """The program with its blocks as they are."""
+        blocks = tuple(self._lines[: len(self._lines) - (self._lines.texts[-1] == "")])
+        return Program(self.name, self.text, blocks, self._lines.syntax)
 
     def result(self) -> Result:
         """The program with all that is found in it, once `check` has returned True."""
@@ -549,8 +556,7 @@ class OpenProgram:
         from contoursolve.program.batch import Batch  # noqa: PLC0415 - an editor asks for findings alone
 
         asked, now = self._examination.asked, len(self._moves)
-        blocks = tuple(self._lines[: len(self._lines) - (self._lines.texts[-1] == "")])
-        program = Program(self.name, self.text, blocks, self.syntax)
+        program = self._program()
         parts = [part for part in self._parts if part.answer is not None]
         if sum(part.answer_age != now for part in parts) > _MOST_RENEWED:
             together = Batch(self.dialect, asked.policy, is_proven=True)

@@ -19,7 +19,7 @@ from contoursolve.program.named_words import has_named, with_named
 from contoursolve.program.no_contour import conclusions, look_without_control, nothing_to_solve
 from contoursolve.program.recognise import begins_for_another
 from contoursolve.program.request import Request
-from contoursolve.program.running import lines_alone, steps_as_run
+from contoursolve.program.running import KeptSteps, lines_alone, steps_as_run
 from contoursolve.program.solve_queue import Step, Together
 from contoursolve.program.told_outside import Outside
 from contoursolve.reading import Dialect, ReadIssue, contours_of, state_facts
@@ -122,9 +122,10 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
 # Results ---------------------------------------------------------------------------------------------------------
 
 
-def run(program: Program, asked: Request, together: Together | None = None) -> Result:
-    """Examine every block of a program and solve every contour, one by one or `together`. Raises FactPlaceError."""
-    return Run(program, asked, together).collect()
+def run(program: Program, asked: Request, together: Together | None = None, kept: KeptSteps | None = None) -> Result:
+    """Examine every block of a program and solve every contour, one by one or `together`; of one that runs, what is not
+    `kept` of an earlier run. Raises FactPlaceError."""
+    return Run(program, asked, together, kept).collect()
 
 
 def frame_of(program: Program, asked: Request, facts: tuple[Directive, ...] = ()) -> Result:
@@ -148,7 +149,9 @@ class Run:
     """The same as a stream: contours, and findings about other blocks, as they are found. `frame` is the result without
     them. Raises FactPlaceError."""
 
-    def __init__(self, program: Program, asked: Request, together: Together | None = None) -> None:
+    def __init__(
+        self, program: Program, asked: Request, together: Together | None = None, kept: KeptSteps | None = None
+    ) -> None:
         dialect = asked.dialect
         if dialect is not None:
             program = spelled(program, dialect.modes.syntax)
@@ -163,7 +166,7 @@ class Run:
         """The contours of other files that are called, when all is examined."""
         self.profiles: list[CycleProfile] = []
         """The profiles of cycles that ran, when all is examined."""
-        self.asked, self._together = asked, together
+        self.asked, self._together, self._kept = asked, together, kept
         self._machine = machine_for(program, dialect, asked.around) if dialect is not None else None
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
@@ -198,7 +201,7 @@ class Run:
             is_run=machine is not None,
         )
         if machine is not None:
-            return steps_as_run(examination, machine, self.profiles, self.called)
+            return steps_as_run(examination, machine, self.profiles, self.called, self._kept)
         return examination.steps(blocks)
 
     @property

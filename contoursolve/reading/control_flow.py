@@ -205,22 +205,25 @@ class _Moving:
 
 def _behind(way: ControlFlowPath, state: State, line: int) -> ControlFlowPath:
     """A way behind what ends on a line."""
-    before, now = _values(way.state), _values(state)
-    changed = {mode: line for mode, value in before.items() if value != now[mode]} if before != now else {}
-    lines = {**way.lines, **changed} if changed else way.lines
-    return ControlFlowPath(state, (), way.entered, lines)
+    before, now = _in_force(way.state), _in_force(state)
+    if before == now:
+        return ControlFlowPath(state, (), way.entered, way.lines)
+    changed = (mode for mode, old, new in zip(_MODES, before, now, strict=True) if old != new)
+    return ControlFlowPath(state, (), way.entered, {**way.lines, **dict.fromkeys(changed, line)})
+
+
+_MODES = (Mode.MOTION, Mode.PLANE, Mode.UNIT, Mode.INCREMENTS, Mode.COMPENSATION, Mode.DIAMETER)
+
+
+def _in_force(state: State) -> tuple[Any, ...]:
+    """The values of `_MODES`."""
+    plane = (state.plane.code, state.plane.axes)
+    return state.motion, plane, state.unit, state.is_incremental, state.compensation, state.diameter
 
 
 def _values(state: State) -> dict[Mode, Any]:
     """The modes of a state."""
-    return {
-        Mode.MOTION: state.motion,
-        Mode.PLANE: (state.plane.code, state.plane.axes),
-        Mode.UNIT: state.unit,
-        Mode.INCREMENTS: state.is_incremental,
-        Mode.COMPENSATION: state.compensation,
-        Mode.DIAMETER: state.diameter,
-    }
+    return dict(zip(_MODES, _in_force(state), strict=True))
 
 
 # Where ways meet -------------------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+import small_interpreter
 from editor import random_edit
 from examples import some_of
 
@@ -12,7 +13,7 @@ import contoursolve
 from contoursolve import OpenProgram
 from contoursolve.gcode import lexer, parse_block
 from contoursolve.gcode.decoding import decode
-from contoursolve.program import open_program
+from contoursolve.program import contour_answers, open_program
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = sorted(
@@ -74,10 +75,8 @@ def compare(program: OpenProgram, text: str, control: str | None) -> None:
             assert lines == fresh.lines_of(finding)
 
 
-def edit_at_random(path: Path, seed: int, edits: int, *, is_named: bool) -> None:
+def edit_at_random(text: str, name: str, control: str | None, seed: int, edits: int) -> None:
     draw = random.Random(seed)
-    text = decode(path.read_bytes(), path.name)
-    control = CONTROLS.get(path.name, "yasnac-lx3") if is_named else None
     program = OpenProgram(text, control=control)
     for number in range(edits):
         begin, end, new = random_edit(contoursolve.gcode.split_lines(text) or [""], draw)
@@ -91,7 +90,7 @@ def edit_at_random(path: Path, seed: int, edits: int, *, is_named: bool) -> None
             try:
                 compare(program, text, control)
             except AssertionError as error:
-                raise AssertionError(f"{path.name}, seed {seed}, edit {number}: {begin} {end} {new!r}") from error
+                raise AssertionError(f"{name}, seed {seed}, edit {number}: {begin} {end} {new!r}") from error
         else:
             program.check(draw.randrange(1, 5))
 
@@ -148,13 +147,41 @@ def test_an_edit_reads_what_depends_on_it_alone(line: int, monkeypatch: pytest.M
     assert 0 < counts[0] == counts[1] < 400
 
 
+@some_of("contours", [5, 40], only=[5])
+def test_an_edit_of_a_program_that_runs_solves_what_depends_on_it_alone(
+    contours: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    one = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. P#100\nG01 Z-80.\nM98 P7\n"
+    program = OpenProgram(f"O1\n#100=5.\n{one * contours}M30\nO7\nG00 X200. Z5.\nM99\n", control="yasnac-lx3")
+    assert program.check()
+    assert program.diagnostics == ()
+    solved = list[object]()
+    monkeypatch.setattr(
+        contour_answers, "examine", lambda *given: solved.append(given) or contoursolve.diagnosis.examine(*given)
+    )
+    for line, column, text, count in ((8, 20, "31", 1), (3, 6, "50", 1), (2, 6, "6", contours)):
+        solved.clear()
+        program.edit((line, column), (line, column + len(text)), text)
+        assert program.check()
+        assert program.diagnostics == ()
+        assert len(solved) == count
+        compare(program, program.text, "yasnac-lx3")
+
+
 @some_of("path", PROGRAMS, only=PROGRAMS[::3], ids=lambda path: path.name)
 def test_random_edits(path: Path) -> None:
-    edit_at_random(path, 1, 3, is_named=path.name in CONTROLS)
+    edit_at_random(decode(path.read_bytes(), path.name), path.name, CONTROLS.get(path.name), 1, 3)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.name)
 @pytest.mark.parametrize("seed", range(2))
 def test_many_random_edits(path: Path, seed: int) -> None:
-    edit_at_random(path, 100 + seed, 8, is_named=bool(seed % 2))
+    control = CONTROLS.get(path.name, "yasnac-lx3") if seed % 2 else None
+    edit_at_random(decode(path.read_bytes(), path.name), path.name, control, 100 + seed, 8)
+
+
+@some_of("seed", range(40), only=range(2))
+def test_random_edits_of_programs_that_run(seed: int) -> None:
+    control = sorted(small_interpreter.CONTROLS)[seed % len(small_interpreter.CONTROLS)]
+    edit_at_random(small_interpreter.program(control, seed).text, control, control, seed, 4)
