@@ -1,9 +1,8 @@
 """Lines and arcs of a DXF drawing, and the chain that they make, ordered by their ends."""
 
-from cmath import exp
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from math import atan2, dist, floor, hypot, radians, tau
+from math import dist, floor, hypot
 from typing import Any
 
 from msgspec import Struct
@@ -11,7 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics import UserError
 from contoursolve.geometry import Turn
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, extremes, middle
 
 JOINED = 0.001
 """mm. Ends so near are the same place: the least increment of controls. Drawings of CAD are far better."""
@@ -57,23 +56,15 @@ class DrawnCurve(Struct, frozen=True):
     layer: str
     height: float = 0.0
 
+    @property
+    def ends(self) -> tuple[Point, Point]:
+        """Its begin and its end."""
+        return self.segment.start, self.segment.end
+
     def points(self) -> list[Point]:
-        """Its begin, its middle, its end, and where an arc goes farthest along the axes."""
-        segment = self.segment
-        if isinstance(segment, LineSegment):
-            middle = (segment.start[0] + segment.end[0]) / 2, (segment.start[1] + segment.end[1]) / 2
-            return [segment.start, middle, segment.end]
-        begin = atan2(segment.start[1] - segment.center[1], segment.start[0] - segment.center[0])
-        swept = [((quarter * tau / 4 - begin) * segment.turn.sign) % tau * 360 / tau for quarter in range(4)]
-        far = [each for each in swept if each < segment.sweep]
-        return [segment.start, *(_on(segment, each) for each in (segment.sweep / 2, *far)), segment.end]
-
-
-def _on(arc: ArcSegment, swept: float) -> Point:
-    """The place on an arc behind so many degrees."""
-    spoke = complex(arc.start[0] - arc.center[0], arc.start[1] - arc.center[1])
-    at = complex(*arc.center) + spoke * exp(1j * arc.turn.sign * radians(swept))
-    return at.real, at.imag
+        """Its begin, its middle, where an arc goes farthest along the axes, and its end."""
+        begin, *far = extremes(self.segment, 0, 1)
+        return [begin, middle(self.segment)[0], *far]
 
 
 def turned_round(segment: Segment) -> Segment:
@@ -174,107 +165,89 @@ def _ends(entity: Any, kind: str) -> list[Any]:
     return [entity.start_point, entity.end_point] if kind in ("ELLIPSE", "ARC") else []
 
 
-class Places:
-    """Places that count as the same where they are nearer than a tolerance: each is known by its number."""
+def snapping(near: float) -> Callable[[Point], Point]:
+    """A function that gives the first place that it met so near to a place, or else that place."""
+    cells: defaultdict[tuple[int, int], list[Point]] = defaultdict(list)
 
-    def __init__(self, near: float) -> None:
-        self.near, self.at = near, list[Point]()
-        self._cells: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
+    def snap(at: Point) -> Point:
+        first, second = floor(at[0] / near), floor(at[1] / near)
+        around = ((first + a, second + b) for a in (-1, 0, 1) for b in (-1, 0, 1))
+        known = next((each for cell in around for each in cells.get(cell, ()) if dist(each, at) <= near), None)
+        if known is None:
+            cells[first, second].append(at)
+        return known or at
 
-    def number(self, at: Point) -> int:
-        """The number of a place."""
-        first, second = floor(at[0] / self.near), floor(at[1] / self.near)
-        for cell in ((first + a, second + b) for a in (-1, 0, 1) for b in (-1, 0, 1)):
-            for known in self._cells.get(cell, ()):
-                if dist(self.at[known], at) <= self.near:
-                    return known
-        self._cells[first, second].append(len(self.at))
-        self.at.append(at)
-        return len(self.at) - 1
-
-
-_Key = tuple[frozenset[int], int]
-"""A curve: the numbers of the places of its ends, and of its middle."""
+    return snap
 
 
 class Net:
-    """Lines and arcs by the places of their ends; what is drawn twice or has no length is left out, and told."""
+    """Lines and arcs that meet where their ends are near; what is drawn twice or has no length is left out, and
+    told."""
 
     def __init__(self, curves: Iterable[DrawnCurve], near: float) -> None:
-        self.places, self.curves, middles = Places(near), dict[_Key, DrawnCurve](), Places(near)
+        from ezdxf.edgeminer import Deposit, make_edge  # noqa: PLC0415 - an extra
+
+        snap, snap_middle, off = snapping(near), snapping(near), 0.0
+        found = dict[tuple[frozenset[Point], Point], DrawnCurve]()
         twice, empty = list[str](), list[str]()
         # Arcs first: where ends do not quite meet, an arc keeps its own, and a line ends there.
         for curve in sorted(curves, key=lambda each: isinstance(each.segment, LineSegment)):
-            begin, middle, *_, end = curve.points()
-            key = frozenset(map(self.places.number, (begin, end))), middles.number(middle)
-            if len(key[0]) == 1 and dist(begin, middle) <= near:
+            begin, halfway, *_, end = curve.points()
+            start, head = snap(begin), snap(end)
+            key = frozenset((start, head)), snap_middle(halfway)
+            if start == head and dist(begin, halfway) <= near:
                 empty.append(curve.segment.name)
-            elif key in self.curves:
+            elif key in found:
                 twice.append(curve.segment.name)
             else:
-                self.curves[key] = curve
-        ends = [end for curve in self.curves.values() for end in (curve.segment.start, curve.segment.end)]
-        off = max((dist(end, self.places.at[self.places.number(end)]) for end in ends), default=0.0)
+                off = max(off, dist(begin, start), dist(end, head))
+                found[key] = replace(curve, segment=replace(curve.segment, start=start, end=head))
+        self.curves = [*found.values()]
+        self.edges = [make_edge(*each.ends, payload=each) for each in self.curves]
+        open_ = [each for each in self.edges if each.start != each.end]
+        self.deposit = Deposit(open_, gap_tol=near) if open_ else None
         self.notes = [f"ends are joined that lie up to {off:.3g} apart"] if off > _FLAT else []
         self.notes += [f"drawn twice, taken once: {several(twice)}"] if twice else []
         self.notes += [f"left out, without length: {several(empty)}"] if empty else []
 
-    def meeting(self) -> dict[int, list[_Key]]:
-        """The curves at each place; a full circle is at none."""
-        found: defaultdict[int, list[_Key]] = defaultdict(list)
-        for key in self.curves:
-            for end in key[0] if len(key[0]) > 1 else ():
-                found[end].append(key)
-        return found
+    def meeting(self, at: Point) -> list[DrawnCurve]:
+        """The curves that end at a place; a full circle does nowhere."""
+        return [each.payload for each in self.deposit.edges_linked_to(at)] if self.deposit else []
 
     def chains(self) -> list[DxfChain]:
         """All chains, the largest first. Raises DxfError where three ends meet."""
-        meeting = self.meeting()
-        for place, keys in meeting.items():
-            if len(keys) > 2:  # noqa: PLR2004 - one that comes and one that goes
-                names = several([self.curves[key].segment.name for key in keys])
+        from ezdxf.edgeminer import find_all_simple_chains  # noqa: PLC0415 - an extra
+
+        for at in (end for each in self.curves for end in each.ends):
+            names = [each.segment.name for each in self.meeting(at)]
+            if len(names) > 2:  # noqa: PLR2004 - one that comes and one that goes
                 raise DxfError(
-                    f"{len(keys)} lines and arcs meet at {told(self.places.at[place])}: {names}; a chain goes on one "
-                    "way only: choose the layer of the contour, or delete what does not belong to it"
+                    f"{len(names)} lines and arcs meet at {told(at)}: {several(names)}; a chain goes on one way only: "
+                    "choose the layer of the contour, or delete what does not belong to it"
                 )
-        rest, found = dict.fromkeys(self.curves), list[DxfChain]()
-        # From open ends first, so that what is left are loops.
-        begins = [(keys[0], place) for place, keys in meeting.items() if len(keys) == 1]
-        begins += [(key, self._begin(key)) for key in self.curves]
-        for first, begin in begins:
-            chain, here, key = list[tuple[_Key, bool]](), begin, first if first in rest else None
-            while key is not None:
-                del rest[key]
-                chain.append((key, self._begin(key) == here))
-                here = next(iter(key[0] - {here}), here)
-                key = next((each for each in meeting.get(here, ()) if each in rest), None)
-            if chain:
-                found.append(self._chain(chain, is_closed=here == begin))
-        return sorted(found, key=lambda each: -hypot(*each.size))
+        found: list[Sequence[Any]] = [[each] for each in self.edges if each.start == each.end]
+        found += find_all_simple_chains(self.deposit) if self.deposit else []
+        chains = [_chain(edges) for _, edges in sorted(map(self._ordered, found))]
+        return sorted(chains, key=lambda each: -hypot(*each.size))
 
-    def _begin(self, key: _Key) -> int:
-        return self.places.number(self.curves[key].segment.start)
+    def _ordered(self, edges: Sequence[Any]) -> tuple[int, list[Any]]:
+        """A chain in the direction of the first line that the drawing has of it, and begun there if it is closed: arcs
+        of DXF have no direction; and the place of that line in the drawing."""
+        rank = {each.id: (isinstance(each.payload.segment, ArcSegment), n) for n, each in enumerate(self.edges)}
+        first = min(edges, key=lambda each: rank[each.id])
+        ordered = [each.reversed() for each in reversed(edges)] if first.is_reverse else [*edges]
+        if edges[0].start == edges[-1].end:
+            place = ordered.index(first)
+            ordered = ordered[place:] + ordered[:place]
+        return min(rank[each.id][1] for each in edges), ordered
 
-    def _chain(self, keys: list[tuple[_Key, bool]], *, is_closed: bool) -> DxfChain:
-        """The chain of curves, in the direction of the first line that the drawing has of it, and begun there if it is
-        closed: arcs of DXF have no direction."""
-        order = {key: number for number, key in enumerate(self.curves)}
-        first = min(keys, key=lambda each: (isinstance(self.curves[each[0]].segment, ArcSegment), order[each[0]]))
-        if not first[1]:
-            keys = [(key, not is_on) for key, is_on in reversed(keys)]
-            first = first[0], True
-        if is_closed:
-            keys = keys[keys.index(first) :] + keys[: keys.index(first)]
-        elements = []
-        for key, is_on in keys:
-            segment = self.curves[key].segment
-            start, end = (self.places.at[self.places.number(at)] for at in (segment.start, segment.end))
-            segment = replace(segment, start=start, end=end)
-            elements.append(segment if is_on else turned_round(segment))
-        points = [at for key, _ in keys for at in self.curves[key].points()]
-        width, height = (max(at[axis] for at in points) - min(at[axis] for at in points) for axis in (0, 1))
-        layers = tuple(dict.fromkeys(self.curves[key].layer for key, _ in keys))
-        return DxfChain(tuple(elements), layers, is_closed, (width, height))
+
+def _chain(edges: Sequence[Any]) -> DxfChain:
+    segments = (turned_round(each.payload.segment) if each.is_reverse else each.payload.segment for each in edges)
+    points = [at for each in edges for at in each.payload.points()]
+    width, height = (max(at[axis] for at in points) - min(at[axis] for at in points) for axis in (0, 1))
+    layers = tuple(dict.fromkeys(each.payload.layer for each in edges))
+    return DxfChain(tuple(segments), layers, edges[0].start == edges[-1].end, (width, height))
 
 
 def gaps(chains: Sequence[DxfChain], per_mm: float) -> list[str]:

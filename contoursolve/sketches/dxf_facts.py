@@ -2,13 +2,15 @@
 many facts those are chosen that do not follow from others."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from cmath import phase, rect
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
-from math import atan2, degrees, dist, hypot, nan
+from math import degrees, dist, hypot, nan, radians
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.sketches.dxf_chain import DxfChain
 from contoursolve.sketches.sketch import SketchElement, Value
@@ -20,9 +22,8 @@ _IS_OF_X = 64
 """Flag of an ordinate dimension that gives X."""
 _DIGITS, _ROUND = 6, 4
 """Digits behind the point: of a number that is read from a coordinate, and of one that a drawing may give."""
-_SMOOTH = 1e-5
-"""1 (sine of an angle). Neighbours whose directions differ by less go on smoothly, and lines so near to an axis run
-along it."""
+_SMOOTH = degrees(1e-5)
+"""Degrees. Neighbours whose directions differ by less go on smoothly, and lines so near to an axis run along it."""
 _RANKS = 0.05, 1e-4
 """1 (share of a gradient). What is left of it besides those before it: less follows from them, or nearly so, and is
 taken only where nothing else is left to take."""
@@ -30,7 +31,6 @@ _STEP = 1e-7
 """1 (share of the chain's size). How far a place is moved to see what depends on it."""
 
 Places = np.ndarray[Any, np.dtype[np.float64]]
-Measure = Callable[[Places], float]
 
 
 def number(value: float) -> Decimal:
@@ -45,17 +45,21 @@ def number(value: float) -> Decimal:
 
 
 class DrawnFact(Struct, frozen=True):
-    """A field of an element, by the element's place, with its value (of `tangent` and `facts` no number); what it says
-    of the places, as a function of them; the dimension that gives it, empty where none does. `further` stands beside
-    it."""
+    """A field of an element, by the element's place, with its number; the end, or the element, from which it counts;
+    and the dimension that gives it, empty where none does."""
 
     element: int
     field: str
-    value: Decimal
-    measure: Measure
+    value: Decimal = Decimal(0)
+    origin: int | None = None
     given: str = ""
-    further: tuple[tuple[str, Decimal], ...] = ()
-    text: str = ""
+
+    def words(self) -> dict[str, Value]:
+        """The fields that state it."""
+        if self.field in ("tangent", "facts"):
+            return {}
+        counts = {f"R{self.field[1:]}": Decimal(self.origin)} if self.origin not in (None, self.element) else {}
+        return {self.field: self.value, **counts}
 
 
 class Chained:
@@ -71,110 +75,96 @@ class Chained:
         self.arcs = {place: each for place, each in enumerate(self.elements) if isinstance(each, ArcSegment)}
         self.centers = {place: len(points) + row for row, place in enumerate(self.arcs)}
         self.at: Places = np.array([*points, *(each.center for each in self.arcs.values())])
-        # Places that a line along the other axis joins have the same coordinate.
-        self.same = [self._classes(axis) for axis in (0, 1)]
-
-    def _classes(self, axis: int) -> list[set[int]]:
-        groups = [{node} for node in range(len(self.nodes))]
-        for place, each in enumerate(self.elements):
-            if isinstance(each, LineSegment) and abs(each.start[axis] - each.end[axis]) <= self.near / 10:
-                both = groups[place] | groups[place + 1]
-                for node in both:
-                    groups[node] = both
-        return groups
 
     def place(self, node: int) -> dict[str, Decimal]:
         """The coordinates of an end, as words say them."""
-        at = self.at[self.nodes[node]]
-        return {name: number(float(at[axis]) * self.factor(axis)) for axis, name in enumerate(self.axes)}
+        return {name: self.fact(node - 1, name).value for name in self.axes}
 
-    def factor(self, axis: int) -> int:
-        """The times that a word counts a length along an axis: twice where it is a diameter."""
-        return 2 if self.is_turned and axis == 1 else 1
+    def fact(self, place: int, field: str, origin: int | None = None) -> DrawnFact:
+        """A field of an element with the number that it has in the drawing."""
+        value = self.arcs[place].radius if field == "R" else self.measure(self.at, place, field, origin)
+        return DrawnFact(place, field, number(value), origin)
 
-    def nodes_at(self, at: Point) -> set[int]:
-        """The ends that lie at a place of the drawing."""
+    def measure(self, at: Places, place: int, field: str, origin: int | None = None) -> float:
+        """The number of a field at any places of the chain: mm, of X of a turned part a diameter, or degrees."""
+        begin, end = at[self.nodes[place]], at[self.nodes[place + 1]]
+        kind, axis = (field[:-1], self.axes.index(field[-1])) if field[-1] in self.axes else (field, 0)
+        factor = 2 if self.is_turned and axis == 1 else 1
+        match kind:
+            case "":
+                return float(end[axis]) * factor
+            case "I":
+                return float(end[axis] - at[self.nodes[origin or 0], axis]) * factor
+            case "CC":
+                return float(at[self.centers[place], axis]) * factor
+            case "R":
+                return dist(begin, at[self.centers[place]])
+            case "off":  # of an arc: by how much both radii differ
+                return dist(begin, at[self.centers[place]]) - dist(end, at[self.centers[place]])
+            case "LEN":
+                return dist(begin, end)
+            case "AN":
+                return degrees(phase(self._run(at, place))) % 360
+        # The angle by which it turns from another element: `tangent`, or of a statement in `facts`.
+        return degrees(phase(self._run(at, place) * self._run(at, origin or 0, is_end=True).conjugate()))
+
+    def _run(self, at: Places, place: int, *, is_end: bool = False) -> complex:
+        """The direction of travel where an element begins or ends."""
+        begin, end = (complex(*at[self.nodes[place + on]]) for on in (0, 1))
+        if place not in self.arcs:
+            return end - begin
+        return ((end if is_end else begin) - complex(*at[self.centers[place]])) * 1j * self.arcs[place].turn.sign
+
+    def ends_at(self, at: Point) -> set[int]:
+        """The ends that lie at a place of the drawing; below the axis of a turned part too."""
+        at = (at[0], abs(at[1])) if self.is_turned else at
         return {node for node, row in enumerate(self.nodes) if dist(self.at[row], at) <= self.near}
 
-    def difference(self, axis: int, second: int, first: int | None = None) -> Measure:
-        """A coordinate of an end, or how far it lies beyond that of another."""
-        rows = self.nodes[second], None if first is None else self.nodes[first]
-        return lambda at: float(at[rows[0], axis] - (0 if rows[1] is None else at[rows[1], axis]))
+    def level_with(self, axis: int, at: Point) -> list[int]:
+        """These ends, and all that lines along the other axis show to have the same coordinate."""
+        found, grown = set[int](), self.ends_at(at)
+        level = [place for place, each in enumerate(self.elements) if self.is_along(each, 1 - axis)]
+        while found != grown:
+            found = {*grown}
+            grown |= {place + on for place in level for on in (0, 1) if {place, place + 1} & found}
+        return sorted(found)
 
-    def center(self, place: int, axis: int) -> Measure:
-        """A coordinate of the centre of an arc."""
-        row = self.centers[place]
-        return lambda at: float(at[row, axis])
+    def is_along(self, element: LineSegment | ArcSegment, axis: int) -> bool:
+        """Whether an element is a line along an axis."""
+        off = abs(element.start[1 - axis] - element.end[1 - axis])
+        return isinstance(element, LineSegment) and off <= self.near / 10
 
-    def run(self, at: Places, place: int, *, is_end: bool) -> Any:
-        """The direction of travel where an element begins or ends."""
-        begin, end = at[self.nodes[place]], at[self.nodes[place + 1]]
-        if place not in self.arcs:
-            run = end - begin
-        else:
-            spoke = (end if is_end else begin) - at[self.centers[place]]
-            run = np.array([-spoke[1], spoke[0]]) * self.arcs[place].turn.sign
-        return run / hypot(*run)
+    def lines_on(self, begin: Point, end: Point) -> list[int]:
+        """The lines of the chain that lie on the line through two places."""
+        along = complex(*end) - complex(*begin)
 
-    def bend(self, place: int) -> Measure:
-        """The sine by which the direction changes from the element before; of one that turns back it is 1."""
+        def off(at: Point) -> float:
+            return abs(((complex(*at) - complex(*begin)) * along.conjugate()).imag) / abs(along)
 
-        def measure(at: Places) -> float:
-            before, behind = self.run(at, place - 1, is_end=True), self.run(at, place, is_end=False)
-            return float(before[0] * behind[1] - before[1] * behind[0]) if before @ behind > 0 else 1.0
-
-        return measure
-
-    def angle(self, place: int, before: int | None = None) -> Measure:
-        """The direction of a line, or by how much it turns from that of a line before it; radians."""
-
-        def measure(at: Places) -> float:
-            along, across = self.run(at, place, is_end=False)
-            first, second = (1.0, 0.0) if before is None else self.run(at, before, is_end=False)
-            return float(atan2(first * across - second * along, first * along + second * across))
-
-        return measure
-
-    def length(self, place: int) -> Measure:
-        """The length of a line, or the chord of an arc."""
-        return lambda at: float(dist(at[self.nodes[place]], at[self.nodes[place + 1]]))
-
-    def radius(self, place: int, *, is_end: bool = False) -> Measure:
-        """The radius of an arc, at its begin or its end."""
-        row, center = self.nodes[place + is_end], self.centers[place]
-        return lambda at: float(dist(at[row], at[center]))
-
-    def roundness(self, place: int) -> Measure:
-        """By how much both radii of an arc differ."""
-        one, other = self.radius(place), self.radius(place, is_end=True)
-        return lambda at: one(at) - other(at)
+        return [
+            place
+            for place, each in enumerate(self.elements)
+            if place not in self.arcs and abs(along) > self.near and max(off(each.start), off(each.end)) <= self.near
+        ]
 
 
 def relations(chained: Chained) -> Iterator[DrawnFact]:
     """Facts that every reader of a drawing sees without a number: lines along the axes, and smooth joints."""
-    for place, element in enumerate(chained.elements):
-        if isinstance(element, LineSegment):
-            for axis in (0, 1):
-                if abs(element.end[axis] - element.start[axis]) <= chained.near / 10:
-                    value = Decimal(round(element.angle) % 360)
-                    yield DrawnFact(place, "AN", value, chained.difference(axis, place + 1, place))
+    for place, each in enumerate(chained.elements):
+        if isinstance(each, LineSegment) and (chained.is_along(each, 0) or chained.is_along(each, 1)):
+            yield DrawnFact(place, "AN", Decimal(round(each.angle) % 360))
+        smooth = DrawnFact(place, "tangent", Decimal(1), place - 1)
         is_round = place in chained.arcs or place - 1 in chained.arcs
-        if place and is_round and abs(chained.bend(place)(chained.at)) <= _SMOOTH:
-            yield DrawnFact(place, "tangent", Decimal(1), chained.bend(place))
+        if place and is_round and abs(chained.measure(chained.at, place, "tangent", place - 1)) <= _SMOOTH:
+            yield smooth
 
 
 def coordinates(chained: Chained) -> Iterator[DrawnFact]:
     """The coordinates of ends, then radii and centres of arcs, as the drawing has them."""
-    for place in range(len(chained.elements)):
-        for axis, name in enumerate(chained.axes if chained.nodes[place + 1] else ()):
-            measure = chained.difference(axis, place + 1)
-            yield DrawnFact(place, name, number(measure(chained.at) * chained.factor(axis)), measure)
-    for place, arc in chained.arcs.items():
-        yield DrawnFact(place, "R", number(arc.radius), chained.radius(place))
-        for axis, name in enumerate(chained.axes):
-            yield DrawnFact(
-                place, f"CC{name}", number(arc.center[axis] * chained.factor(axis)), chained.center(place, axis)
-            )
+    places = [place for place, node in enumerate(chained.nodes[1:]) if node]
+    yield from (chained.fact(place, name) for place in places for name in chained.axes)
+    fields = ("R", *(f"CC{name}" for name in chained.axes))
+    yield from (chained.fact(place, name) for place in chained.arcs for name in fields)
 
 
 def dimensions(
@@ -185,172 +175,104 @@ def dimensions(
     found, notes = list[DrawnFact](), list[str]()
     for entity in entities:
         name = f"{entity.dxftype()} {entity.dxf.handle or 'of a block'}"
-        ways = list(_Dimension(chained, entity, name, place).ways())
-        trouble = (
-            _doubt(entity, ways[0].given) if ways else "its points are no points of the chain, or no field says it"
-        )
+        is_plain = entity.dxftype() == "DIMENSION"
+        measured, ways = _read(chained, entity, place) if is_plain else (nan, [])
+        trouble = _doubt(entity, measured) if ways else "its points are no points of the chain, or no field says it"
         notes += [f"{name} is left out: {trouble}"] if trouble else []
-        found += [] if trouble else ways
+        found += [] if trouble else [replace(each, given=f"{name}: {number(measured)}") for each in ways]
     return found, notes
 
 
 _NUMBER = re.compile(r"\d++(?:[.,]\d++)?")
 
 
-def _doubt(entity: Any, given: str) -> str:
+def _doubt(entity: Any, measured: float) -> str:
     """The reason not to take a dimension: it shows another number than it measures; empty where it does not."""
-    text, measured = entity.dxf.text, float(given.rpartition(" ")[2])
+    text, told = entity.dxf.text, float(number(measured))
     factor = abs(entity.override().get("dimlfac", 1.0) or 1.0)
     if factor != 1 and entity.dimtype not in (_ANGULAR, _BY_POINTS):
         return f"it is shown {factor:g} times as large as it is drawn"
     shown = [each.replace(",", ".") for each in _NUMBER.findall(text)]
     # A radius may be shown as the diameter that it is of the part.
-    off = [
-        abs(float(each) - measured * times) <= 0.5 * 10.0 ** -len(each.partition(".")[2])
+    off = (
+        abs(float(each) - told * times) <= 0.5 * 10.0 ** -len(each.partition(".")[2])
         for each in shown
         for times in (1, 2)
-    ]
+    )
     if shown and "<>" not in text and not any(off):
-        return f"it shows {text!r}, and measures {measured:g}"
-    return "" if round(measured, _ROUND) == measured else f"it measures {measured:.{_DIGITS}f}, which no drawing gives"
+        return f"it shows {text!r}, and measures {told:g}"
+    return "" if round(told, _ROUND) == told else f"it measures {told:.{_DIGITS}f}, which no drawing gives"
 
 
-class _Dimension(Struct, frozen=True):
-    """A dimension of the drawing, and the ways to say it."""
+def _read(chained: Chained, entity: Any, place: Callable[[Any], Point]) -> tuple[float, list[DrawnFact]]:
+    """A dimension: what it measures, mm or degrees, and all ways to say it."""
+    kind, near = entity.dimtype, chained.near
+    corner, first, second, last = (
+        place(entity.dxf.get(name, (nan, nan))) for name in ("defpoint", "defpoint2", "defpoint3", "defpoint4")
+    )
+    if kind in (_STRAIGHT, _SLOPED):
+        run = complex(*second) - complex(*first)
+        angle = radians(entity.dxf.angle) if kind == _STRAIGHT else phase(run)
+        axes = (each for each in (0, 1) if _is_parallel(degrees(angle), 90 * each, 180))
+        ways = [fact for axis in axes for fact in _along(chained, axis, first, second)]
+        ends = chained.ends_at(first), chained.ends_at(second)
+        if _is_parallel(degrees(phase(run)), degrees(angle), 180):
+            pairs = ({place, place + 1} for place in range(len(chained.elements)))
+            ways += [
+                chained.fact(place, "LEN")
+                for place, pair in enumerate(pairs)
+                if any({one, other} == pair for one in ends[0] for other in ends[1])
+            ]
+        return abs((run * rect(1, -angle)).real), ways
+    if kind in (_RADIUS, _DIAMETER):
+        center = corner if kind == _RADIUS else ((corner[0] + last[0]) / 2, (corner[1] + last[1]) / 2)
+        over = (center[0], abs(center[1])) if chained.is_turned else center
+        arcs = chained.arcs.items()
+        same = (n for n, arc in arcs if dist(arc.center, over) <= near >= abs(arc.radius - dist(center, last)))
+        return dist(corner, last), [chained.fact(each, "R") for each in same]
+    if kind in (_ANGULAR, _BY_POINTS):
+        sides = ((last, first), (last, second)) if kind == _BY_POINTS else ((first, second), (last, corner))
+        return _between(chained, *sides)
+    axis = 0 if entity.dxf.dimtype & _IS_OF_X else 1
+    is_from_zero = kind == _ORDINATE and hypot(*corner) <= near
+    ends = chained.ends_at(first) if is_from_zero else set[int]()
+    return abs(first[axis]), [chained.fact(node - 1, chained.axes[axis]) for node in sorted(ends) if node]
 
-    chained: Chained
-    entity: Any
-    name: str
-    place: Callable[[Any], Point]
 
-    def at(self, name: str) -> Point:
-        """A point of it on the drawing; below the axis of a turned part too."""
-        return self.place(self.entity.dxf.get(name, (nan, nan)))
+def _is_parallel(angle: float, other: float, period: float) -> bool:
+    """Whether two directions are the same but for whole periods, degrees."""
+    return abs((angle - other + period / 2) % period - period / 2) <= _SMOOTH
 
-    def over(self, at: Point) -> Point:
-        """That point on the side of the profile."""
-        return (at[0], abs(at[1])) if self.chained.is_turned else at
 
-    def fact(self, place: int, field: str, value: Decimal, measure: Measure, real: float, **more: Any) -> DrawnFact:
-        """A fact that this dimension gives: `real` is what it measures."""
-        return DrawnFact(place, field, value, measure, f"{self.name}: {number(real)}", **more)
-
-    def ways(self) -> Iterator[DrawnFact]:
-        """All ways."""
-        kind, dxf = self.entity.dimtype, self.entity.dxf
-        if self.entity.dxftype() != "DIMENSION":
+def _along(chained: Chained, axis: int, first: Point, second: Point) -> Iterator[DrawnFact]:
+    """A distance along an axis: from the start, from the end before, from an earlier end; across the axis of a turned
+    part it is the diameter, from the axis the radius."""
+    name = chained.axes[axis]
+    one, other = (chained.level_with(axis, at) for at in (first, second))
+    if chained.is_turned and axis == 1:
+        low, high = sorted((first, second), key=lambda at: abs(at[1]))
+        if abs(low[1]) <= chained.near or abs(low[1] + high[1]) <= chained.near:
+            yield from (chained.fact(node - 1, name) for node in chained.level_with(axis, high) if node)
             return
-        if kind in (_STRAIGHT, _SLOPED):
-            first, second = self.at("defpoint2"), self.at("defpoint3")
-            run = second[0] - first[0], second[1] - first[1]
-            angle = dxf.angle if kind == _STRAIGHT else degrees(atan2(run[1], run[0]))
-            for axis in (0, 1):
-                if abs((angle - 90 * axis + 90) % 180 - 90) <= degrees(_SMOOTH):
-                    yield from self._along(axis, first, second)
-            yield from self._sloped(first, second, angle)
-        elif kind in (_RADIUS, _DIAMETER):
-            at, end = self.at("defpoint"), self.at("defpoint4")
-            center = at if kind == _RADIUS else ((at[0] + end[0]) / 2, (at[1] + end[1]) / 2)
-            radius = dist(center, end)
-            for place, arc in self.chained.arcs.items():
-                if dist(arc.center, self.over(center)) <= self.chained.near >= abs(arc.radius - radius):
-                    real = arc.radius * (1 if kind == _RADIUS else 2)
-                    yield self.fact(
-                        place, "R", number(real) / (2 if kind == _DIAMETER else 1), self.chained.radius(place), real
-                    )
-        elif kind in (_ANGULAR, _BY_POINTS):
-            corner = self.at("defpoint4")
-            ends = (self.at("defpoint2"), self.at("defpoint3")), (corner, self.at("defpoint"))
-            if kind == _BY_POINTS:
-                ends = (corner, self.at("defpoint2")), (corner, self.at("defpoint3"))
-            yield from self._angles(*ends)
-        elif kind == _ORDINATE and hypot(*self.at("defpoint")) <= self.chained.near:
-            axis = 0 if dxf.dimtype & _IS_OF_X else 1
-            at = self.over(self.at("defpoint2"))
-            for node in sorted(self.chained.nodes_at(at)):
-                yield from self._absolute(axis, node, abs(at[axis]))
-
-    def _absolute(self, axis: int, node: int, real: float) -> Iterator[DrawnFact]:
-        """A coordinate of an end."""
-        chained, factor = self.chained, self.chained.factor(axis)
-        value = number(float(chained.at[chained.nodes[node], axis]) * factor)
-        if node:
-            yield self.fact(node - 1, chained.axes[axis], value, chained.difference(axis, node), real)
-
-    def _along(self, axis: int, first: Point, second: Point) -> Iterator[DrawnFact]:
-        """A distance along an axis: from the start, from the end before, from an earlier end; across the axis of a
-        turned part it is the diameter, from the axis the radius."""
-        chained, real = self.chained, abs(second[axis] - first[axis])
-        if chained.is_turned and axis == 1:
-            low, high = sorted((first, second), key=lambda at: abs(at[1]))
-            if abs(low[1]) <= self.chained.near or abs(low[1] + high[1]) <= self.chained.near:
-                for node in self._same(axis, chained.nodes_at(self.over(high))):
-                    yield from self._absolute(axis, node, real)
-                return
-            if low[1] * high[1] < 0:
-                return
-        ends = [chained.nodes_at(self.over(at)) for at in (first, second)]
-        if not all(ends):
+        if low[1] * high[1] < 0:
             return
-        one, other = (self._same(axis, each) for each in ends)
-        for these, those in ((one, other), (other, one)):
-            if 0 in these:
-                yield from (fact for node in those for fact in self._absolute(axis, node, real))
-        pairs = sorted({tuple(sorted((a, b))) for a in one for b in other}, key=lambda pair: (pair[1] - pair[0], pair))
-        for early, late in pairs:
-            measure = chained.difference(axis, late, early)
-            value = number(measure(chained.at) * chained.factor(axis))
-            further = () if late == early + 1 else ((f"R{chained.axes[axis]}", Decimal(early)),)
-            if early or late == 1:
-                yield self.fact(late - 1, f"I{chained.axes[axis]}", value, measure, real, further=further)
+    for these, those in ((one, other), (other, one)):
+        yield from (chained.fact(node - 1, name) for node in those if 0 in these and node)
+    pairs = {(min(a, b), max(a, b)) for a in one for b in other}
+    for early, late in sorted(pairs, key=lambda pair: (pair[1] - pair[0], pair)):
+        if early or late == 1:
+            yield chained.fact(late - 1, f"I{name}", early)
 
-    def _same(self, axis: int, nodes: Iterable[int]) -> list[int]:
-        """All ends with the same coordinate as these, as lines along the other axis show."""
-        return sorted({each for node in nodes for each in self.chained.same[axis][node]})
 
-    def _sloped(self, first: Point, second: Point, angle: float) -> Iterator[DrawnFact]:
-        """A distance between the ends of one element."""
-        chained = self.chained
-        one, other = (chained.nodes_at(self.over(at)) for at in (first, second))
-        run = degrees(atan2(second[1] - first[1], second[0] - first[0]))
-        if abs((run - angle + 90) % 180 - 90) > degrees(_SMOOTH):
-            return
-        for place in range(len(chained.elements)):
-            if (place in one and place + 1 in other) or (place in other and place + 1 in one):
-                real = chained.length(place)(chained.at)
-                yield self.fact(place, "LEN", number(real), chained.length(place), real)
-
-    def _angles(self, *sides: tuple[Point, Point]) -> Iterator[DrawnFact]:
-        """The angle between two lines of the chain, or between one and an axis."""
-        chained = self.chained
-        runs = [degrees(atan2(end[1] - begin[1], end[0] - begin[0])) for begin, end in sides]
-        lines = [self._lines_on(*map(self.over, side)) for side in sides]
-        between = abs((runs[1] - runs[0] + 180) % 360 - 180)
-        for these, those, run in ((lines[0], lines[1], runs[1]), (lines[1], lines[0], runs[0])):
-            is_axis = abs((run + 45) % 90 - 45) <= degrees(_SMOOTH)
-            for place in these if is_axis else ():
-                measure = chained.angle(place)
-                yield self.fact(place, "AN", number(degrees(measure(chained.at)) % 360), measure, between)
-            for place, before in ((a, b) for a in these for b in those if a > b):
-                measure = chained.angle(place, before)
-                turn = number(degrees(measure(chained.at)))
-                text = f"angle from line {before + 1} to line {place + 1} = {turn}"
-                yield self.fact(place, "facts", turn, measure, between, text=text)
-
-    def _lines_on(self, begin: Point, end: Point) -> list[int]:
-        """The lines of the chain that lie on the line through two places."""
-        length = dist(begin, end)
-
-        def off(at: Point) -> float:
-            return abs((end[0] - begin[0]) * (at[1] - begin[1]) - (end[1] - begin[1]) * (at[0] - begin[0])) / length
-
-        return [
-            place
-            for place, each in enumerate(self.chained.elements)
-            if length > self.chained.near
-            and isinstance(each, LineSegment)
-            and max(off(each.start), off(each.end)) <= self.chained.near
-        ]
+def _between(chained: Chained, *sides: tuple[Point, Point]) -> tuple[float, list[DrawnFact]]:
+    """The angle between two lines of the chain, or between one and an axis."""
+    runs = [degrees(phase(complex(*end) - complex(*begin))) for begin, end in sides]
+    over = ([(at[0], abs(at[1])) if chained.is_turned else at for at in side] for side in sides)
+    (one, other), found = [chained.lines_on(*side) for side in over], list[DrawnFact]()
+    for these, those, run in ((one, other, runs[1]), (other, one, runs[0])):
+        found += [chained.fact(place, "AN") for place in these if _is_parallel(run, 0, 90)]
+        found += [chained.fact(place, "facts", before) for place in these for before in those if place > before]
+    return abs((runs[1] - runs[0] + 180) % 360 - 180), found
 
 
 def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[DrawnFact], bool]:
@@ -360,8 +282,10 @@ def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[Dr
     step = _STEP * float(np.ptp(chained.at))
     moves = np.eye(chained.at.size).reshape(-1, *chained.at.shape) * step
 
-    def is_new(measure: Measure, least: float) -> bool:
-        gradient = np.array([measure(chained.at + move) - measure(chained.at - move) for move in moves]) / (2 * step)
+    def is_new(fact: DrawnFact, least: float) -> bool:
+        ends = ([chained.measure(chained.at + way, *_of(fact)) for way in (move, -move)] for move in moves)
+        # Of an angle, half a turn is the same on both sides.
+        gradient = np.array([(one - other + 180) % 360 - 180 for one, other in ends])
         rest = gradient / (float(np.linalg.norm(gradient)) or 1.0)
         for each in (*basis, *basis):
             rest = rest - (rest @ each) * each
@@ -370,16 +294,20 @@ def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[Dr
             basis.append(rest / left)
         return left > least
 
-    for measure in (chained.difference(0, 0), chained.difference(1, 0), *map(chained.roundness, chained.arcs)):
-        is_new(measure, _RANKS[-1])
+    for given in (*(DrawnFact(-1, name) for name in chained.axes), *(DrawnFact(place, "off") for place in chained.arcs)):
+        is_new(given, _RANKS[-1])
     for least, fact in ((each, fact) for each in _RANKS for group in groups for fact in group):
         name = fact.field.removeprefix("I")
         rivals = {name, f"I{name}"} if name in chained.axes else {fact.field} - {"facts"}
         is_free = not any((fact.element, each) in taken for each in rivals)
-        if len(basis) < chained.at.size and is_free and is_new(fact.measure, least):
+        if len(basis) < chained.at.size and is_free and is_new(fact, least):
             chosen.append(fact)
             taken.add((fact.element, fact.field))
     return chosen, len(basis) == chained.at.size
+
+
+def _of(fact: DrawnFact) -> tuple[int, str, int | None]:
+    return fact.element, fact.field, fact.origin
 
 
 def elements_of(chained: Chained, facts: Sequence[DrawnFact], *, has_guess: bool) -> tuple[SketchElement, ...]:
@@ -387,17 +315,19 @@ def elements_of(chained: Chained, facts: Sequence[DrawnFact], *, has_guess: bool
     found = []
     for place, element in enumerate(chained.elements):
         own = [fact for fact in facts if fact.element == place]
-        words: dict[str, Value] = {}
-        for fact in own:
-            words |= {} if fact.field in ("tangent", "facts") else {fact.field: fact.value, **dict(fact.further)}
+        arc = chained.arcs.get(place)
         found.append(
             SketchElement(
-                "arc" if isinstance(element, ArcSegment) else "line",
-                words,
-                element.turn.value if isinstance(element, ArcSegment) else None,
+                "arc" if arc else "line",
+                {name: value for fact in own for name, value in fact.words().items()},
+                arc.turn.value if arc else None,
                 any(fact.field == "tangent" for fact in own),
                 guess=chained.place(place + 1) if has_guess else {},
-                facts=tuple(fact.text for fact in own if fact.text),
+                facts=tuple(
+                    f"angle from line {(fact.origin or 0) + 1} to line {place + 1} = {fact.value}"
+                    for fact in own
+                    if fact.field == "facts"
+                ),
             )
         )
     return tuple(found)

@@ -32,7 +32,6 @@ from contoursolve.sketches.dxf_facts import (
     dimensions,
     elements_of,
     independent,
-    number,
     relations,
 )
 from contoursolve.sketches.known_part import solve_sketch
@@ -330,10 +329,7 @@ def _numbers(
 
 def _measured(chained: Chained, known: Sequence[DrawnFact]) -> Iterator[dict[str, Value]]:
     """All that the drawing tells of each element, as fields."""
-    for place, element in enumerate(chained.elements):
-        found: dict[str, Value] = {fact.field: fact.value for fact in known if fact.element == place}
-        for axis, name in enumerate(chained.axes):
-            found[f"I{name}"] = number((element.end[axis] - element.start[axis]) * chained.factor(axis))
-        if isinstance(element, LineSegment):
-            found |= {"AN": number(element.angle % 360), "LEN": number(element.length)}
-        yield found
+    for place in range(len(chained.elements)):
+        own = [fact for fact in known if fact.element == place]
+        further = [*(f"I{name}" for name in chained.axes), *(() if place in chained.arcs else ("AN", "LEN"))]
+        yield {fact.field: fact.value for fact in (*own, *(chained.fact(place, name, place) for name in further))}

@@ -50,21 +50,23 @@ def one_side(curves: Sequence[DrawnCurve], near: float) -> tuple[list[DrawnCurve
             raise DxfError("the profile lies on both sides of the axis, and is not the same on both; say where it is")
         curves = [replace(each, segment=part) for each in curves for part in _above(each.segment, near)]
     net = Net(curves, near)
-    meeting = net.meeting()
-    edges = [
-        curve
-        for key, curve in net.curves.items()
-        if isinstance(curve.segment, LineSegment)
-        and abs(curve.segment.start[0] - curve.segment.end[0]) <= near
-        and min(abs(at[1]) for at in curve.points()) <= near
-        and max(len(meeting[place]) for place in key[0]) > 2  # noqa: PLR2004 - the contour passes there
-    ]
+    edges = [each for each in curves if _is_edge(each, near) and max(map(len, map(net.meeting, each.ends))) > _ON]
     for left, what in ((on_axis, "on the axis"), (edges, "from the contour to the axis, an edge that is seen")):
-        notes += [f"left out: {each.segment.name}, {what}" for each in left]
+        notes += dict.fromkeys(f"left out: {each.segment.name}, {what}" for each in left)
     left_over = [each for each in curves if each not in edges]
     if not left_over:
         raise DxfError("all lines of the profile lie on the axis; say where it is (zero)")
     return left_over, notes
+
+
+_ON = 2
+"""Lines and arcs that meet where a contour goes on; of more, one is none of it."""
+
+
+def _is_edge(curve: DrawnCurve, near: float) -> bool:
+    """Whether it is a line straight to the axis."""
+    (first, low), (second, high) = curve.ends
+    return isinstance(curve.segment, LineSegment) and abs(first - second) <= near >= min(abs(low), abs(high))
 
 
 def _reach(curves: Sequence[DrawnCurve]) -> tuple[float, float]:
@@ -84,7 +86,7 @@ def _mirrored(segment: Segment, axis: float = 0.0) -> Segment:
 
 
 def _is_symmetrical(curves: Sequence[DrawnCurve], axis: float, near: float) -> bool:
-    once = Net(curves, near).curves.values()
+    once = Net(curves, near).curves
     both = Net([*once, *(replace(each, segment=_mirrored(each.segment, axis)) for each in once)], near)
     return len(both.curves) == len(once)
 
