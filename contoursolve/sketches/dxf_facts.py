@@ -3,7 +3,7 @@ many facts those are chosen that do not follow from others."""
 
 import re
 from cmath import phase, rect
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from math import degrees, dist, hypot, nan, radians
 from typing import Any
@@ -82,11 +82,12 @@ class Chained:
 
     def fact(self, place: int, field: str, origin: int | None = None) -> DrawnFact:
         """A field of an element with the number that it has in the drawing."""
-        value = self.arcs[place].radius if field == "R" else self.measure(self.at, place, field, origin)
-        return DrawnFact(place, field, number(value), origin)
+        bare = DrawnFact(place, field, origin=origin)
+        return replace(bare, value=number(self.arcs[place].radius if field == "R" else self.measure(self.at, bare)))
 
-    def measure(self, at: Places, place: int, field: str, origin: int | None = None) -> float:
+    def measure(self, at: Places, fact: DrawnFact) -> float:
         """The number of a field at any places of the chain: mm, of X of a turned part a diameter, or degrees."""
+        place, field, origin = fact.element, fact.field, fact.origin or 0
         begin, end = at[self.nodes[place]], at[self.nodes[place + 1]]
         kind, axis = (field[:-1], self.axes.index(field[-1])) if field[-1] in self.axes else (field, 0)
         factor = 2 if self.is_turned and axis == 1 else 1
@@ -106,7 +107,7 @@ class Chained:
             case "AN":
                 return degrees(phase(self._run(at, place))) % 360
         # The angle by which it turns from another element: `tangent`, or of a statement in `facts`.
-        return degrees(phase(self._run(at, place) * self._run(at, origin or 0, is_end=True).conjugate()))
+        return degrees(phase(self._run(at, place) * self._run(at, origin, is_end=True).conjugate()))
 
     def _run(self, at: Places, place: int, *, is_end: bool = False) -> complex:
         """The direction of travel where an element begins or ends."""
@@ -115,10 +116,13 @@ class Chained:
             return end - begin
         return ((end if is_end else begin) - complex(*at[self.centers[place]])) * 1j * self.arcs[place].turn.sign
 
+    def over(self, at: Point) -> Point:
+        """A place of the drawing on the side of the profile: a turned part has two."""
+        return (at[0], abs(at[1])) if self.is_turned else at
+
     def ends_at(self, at: Point) -> set[int]:
-        """The ends that lie at a place of the drawing; below the axis of a turned part too."""
-        at = (at[0], abs(at[1])) if self.is_turned else at
-        return {node for node, row in enumerate(self.nodes) if dist(self.at[row], at) <= self.near}
+        """The ends that lie at a place of the drawing."""
+        return {node for node, row in enumerate(self.nodes) if dist(self.at[row], self.over(at)) <= self.near}
 
     def level_with(self, axis: int, at: Point) -> list[int]:
         """These ends, and all that lines along the other axis show to have the same coordinate."""
@@ -155,7 +159,7 @@ def relations(chained: Chained) -> Iterator[DrawnFact]:
             yield DrawnFact(place, "AN", Decimal(round(each.angle) % 360))
         smooth = DrawnFact(place, "tangent", Decimal(1), place - 1)
         is_round = place in chained.arcs or place - 1 in chained.arcs
-        if place and is_round and abs(chained.measure(chained.at, place, "tangent", place - 1)) <= _SMOOTH:
+        if place and is_round and abs(chained.measure(chained.at, smooth)) <= _SMOOTH:
             yield smooth
 
 
@@ -212,30 +216,30 @@ def _read(chained: Chained, entity: Any, place: Callable[[Any], Point]) -> tuple
     )
     if kind in (_STRAIGHT, _SLOPED):
         run = complex(*second) - complex(*first)
-        angle = radians(entity.dxf.angle) if kind == _STRAIGHT else phase(run)
-        axes = (each for each in (0, 1) if _is_parallel(degrees(angle), 90 * each, 180))
-        ways = [fact for axis in axes for fact in _along(chained, axis, first, second)]
-        ends = chained.ends_at(first), chained.ends_at(second)
-        if _is_parallel(degrees(phase(run)), degrees(angle), 180):
-            pairs = ({place, place + 1} for place in range(len(chained.elements)))
-            ways += [
-                chained.fact(place, "LEN")
-                for place, pair in enumerate(pairs)
-                if any({one, other} == pair for one in ends[0] for other in ends[1])
-            ]
-        return abs((run * rect(1, -angle)).real), ways
+        angle = entity.dxf.angle if kind == _STRAIGHT else degrees(phase(run))
+        ways = [
+            fact
+            for axis in (0, 1)
+            if _is_parallel(angle, 90 * axis, 180)
+            for fact in _along(chained, axis, first, second)
+        ]
+        if _is_parallel(degrees(phase(run)), angle, 180):
+            one, other = chained.ends_at(first), chained.ends_at(second)
+            ways += [chained.fact(min(a, b), "LEN") for a in one for b in other if abs(a - b) == 1]
+        return abs((run * rect(1, -radians(angle))).real), ways
     if kind in (_RADIUS, _DIAMETER):
         center = corner if kind == _RADIUS else ((corner[0] + last[0]) / 2, (corner[1] + last[1]) / 2)
-        over = (center[0], abs(center[1])) if chained.is_turned else center
-        arcs = chained.arcs.items()
-        same = (n for n, arc in arcs if dist(arc.center, over) <= near >= abs(arc.radius - dist(center, last)))
+        same = (
+            place
+            for place, arc in chained.arcs.items()
+            if dist(arc.center, chained.over(center)) <= near >= abs(arc.radius - dist(center, last))
+        )
         return dist(corner, last), [chained.fact(each, "R") for each in same]
     if kind in (_ANGULAR, _BY_POINTS):
         sides = ((last, first), (last, second)) if kind == _BY_POINTS else ((first, second), (last, corner))
         return _between(chained, *sides)
     axis = 0 if entity.dxf.dimtype & _IS_OF_X else 1
-    is_from_zero = kind == _ORDINATE and hypot(*corner) <= near
-    ends = chained.ends_at(first) if is_from_zero else set[int]()
+    ends = chained.ends_at(first) if kind == _ORDINATE and hypot(*corner) <= near else set[int]()
     return abs(first[axis]), [chained.fact(node - 1, chained.axes[axis]) for node in sorted(ends) if node]
 
 
@@ -267,8 +271,7 @@ def _along(chained: Chained, axis: int, first: Point, second: Point) -> Iterator
 def _between(chained: Chained, *sides: tuple[Point, Point]) -> tuple[float, list[DrawnFact]]:
     """The angle between two lines of the chain, or between one and an axis."""
     runs = [degrees(phase(complex(*end) - complex(*begin))) for begin, end in sides]
-    over = ([(at[0], abs(at[1])) if chained.is_turned else at for at in side] for side in sides)
-    (one, other), found = [chained.lines_on(*side) for side in over], list[DrawnFact]()
+    (one, other), found = [chained.lines_on(*map(chained.over, side)) for side in sides], list[DrawnFact]()
     for these, those, run in ((one, other, runs[1]), (other, one, runs[0])):
         found += [chained.fact(place, "AN") for place in these if _is_parallel(run, 0, 90)]
         found += [chained.fact(place, "facts", before) for place in these for before in those if place > before]
@@ -283,7 +286,7 @@ def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[Dr
     moves = np.eye(chained.at.size).reshape(-1, *chained.at.shape) * step
 
     def is_new(fact: DrawnFact, least: float) -> bool:
-        ends = ([chained.measure(chained.at + way, *_of(fact)) for way in (move, -move)] for move in moves)
+        ends = ([chained.measure(chained.at + way, fact) for way in (move, -move)] for move in moves)
         # Of an angle, half a turn is the same on both sides.
         gradient = np.array([(one - other + 180) % 360 - 180 for one, other in ends])
         rest = gradient / (float(np.linalg.norm(gradient)) or 1.0)
@@ -294,8 +297,9 @@ def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[Dr
             basis.append(rest / left)
         return left > least
 
-    for given in (*(DrawnFact(-1, name) for name in chained.axes), *(DrawnFact(place, "off") for place in chained.arcs)):
-        is_new(given, _RANKS[-1])
+    stated = [DrawnFact(-1, name) for name in chained.axes] + [DrawnFact(place, "off") for place in chained.arcs]
+    for each in stated:
+        is_new(each, _RANKS[-1])
     for least, fact in ((each, fact) for each in _RANKS for group in groups for fact in group):
         name = fact.field.removeprefix("I")
         rivals = {name, f"I{name}"} if name in chained.axes else {fact.field} - {"facts"}
@@ -306,14 +310,10 @@ def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[Dr
     return chosen, len(basis) == chained.at.size
 
 
-def _of(fact: DrawnFact) -> tuple[int, str, int | None]:
-    return fact.element, fact.field, fact.origin
-
-
 def elements_of(chained: Chained, facts: Sequence[DrawnFact], *, has_guess: bool) -> tuple[SketchElement, ...]:
     """The elements of the sketch with their fields; `has_guess` says where each ends about, to choose a solution."""
     found = []
-    for place, element in enumerate(chained.elements):
+    for place in range(len(chained.elements)):
         own = [fact for fact in facts if fact.element == place]
         arc = chained.arcs.get(place)
         found.append(

@@ -37,7 +37,7 @@ from contoursolve.sketches.dxf_facts import (
 from contoursolve.sketches.known_part import solve_sketch
 from contoursolve.sketches.sketch import ContourSketch, Value
 from contoursolve.sketches.turned_profile import axis_of, one_side
-from contoursolve.solving import ArcSegment, LineSegment, Point
+from contoursolve.solving import ArcSegment, Point
 from contoursolve.tolerance import LARGEST
 
 _Unit = Literal["mm", "inch"]
