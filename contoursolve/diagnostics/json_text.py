@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from decimal import Decimal
 from enum import Enum
 from math import isfinite
 from typing import Any
@@ -27,11 +28,14 @@ def members(record: object, names: str) -> dict[str, Any]:
 
 
 def plain(value: Any) -> Any:
-    """A value as JSON holds it: enums by their values, records with all their fields, null for what is not finite."""
+    """A value as JSON holds it: enums by their values, records with all their fields, null for what is not finite, and
+    decimal numbers as texts with the digits that they have."""
     if isinstance(value, Enum):
         return value.value
     if isinstance(value, float):
         return value if isfinite(value) else None
+    if isinstance(value, Decimal):
+        return f"{value:f}"
     if isinstance(value, list | tuple):
         return [plain(each) for each in value]
     if isinstance(value, Mapping):

@@ -15,18 +15,39 @@ from contoursolve.controls import DRAWINGS, words_of_drawing
 from contoursolve.sketches.sketch import ASKED, VERSION, ContourSketch, SketchCorner, SketchElement, SketchError
 from contoursolve.tolerance import LARGEST
 
+_AXES = sorted({axis for each in DRAWINGS.values() for axis in each.plane.axes})
+_NUMBER_SCHEMA = {"type": ["number", "string"]}
+
 
 class _Kind(Enum):
-    """Kinds of values in a sketch: what is meant, for a reader."""
+    """Kinds of values in a sketch: what is meant, for a reader, and the schema."""
 
-    VERSION = f"{VERSION}, the version of the file"
-    CHOICE = "one of its names"
-    FLAG = "true or false"
-    PLACE = "a number for each axis, such as {{ {0} = 10, {1} = 20 }}"
-    CORNER = "a rounding or a chamfer, such as {{ rounding = 2 }}"
-    VALUE = 'a number, or "?"'
-    FACTS = 'a list of statements, such as ["length of line 2 = 30"]'
-    ELEMENTS = "a list of lines and arcs"
+    VERSION = f"{VERSION}, the version of the file", {"const": VERSION}
+    CHOICE = "one of its names", dict[str, Any]()
+    FLAG = "true or false", {"type": "boolean"}
+    PLACE = (
+        "a number for each axis, such as {{ {0} = 10, {1} = 20 }}",
+        {"type": "object", "properties": dict.fromkeys(_AXES, _NUMBER_SCHEMA), "additionalProperties": False},
+    )
+    CORNER = (
+        "a rounding or a chamfer, such as {{ rounding = 2 }}",
+        {
+            "type": "object",
+            "properties": dict.fromkeys(("rounding", "chamfer"), _NUMBER_SCHEMA),
+            "minProperties": 1,
+            "maxProperties": 1,
+            "additionalProperties": False,
+        },
+    )
+    VALUE = 'a number, or "?"', _NUMBER_SCHEMA
+    FACTS = (
+        'a list of statements, such as ["length of line 2 = 30"]',
+        {"type": "array", "items": {"type": "string"}},
+    )
+    ELEMENTS = "a list of lines and arcs", {"type": "array", "items": {"$ref": "#/$defs/element"}}
+
+    def __init__(self, meant: str, schema: Mapping[str, Any]) -> None:
+        self.meant, self.schema = meant, schema
 
 
 class _Field(Struct, frozen=True):
@@ -36,6 +57,14 @@ class _Field(Struct, frozen=True):
     meaning: str
     names: tuple[str, ...] = ()
     is_needed: bool = False
+
+    def schema(self) -> dict[str, Any]:
+        """The schema of its value."""
+        return {"description": self.meaning, **({"enum": [*self.names]} if self.names else self.kind.schema)}
+
+    def example(self) -> str:
+        """A value of it, or its choices."""
+        return " or ".join(f'"{name}"' for name in self.names) or self.kind.meant.partition(",")[0]
 
 
 _CHAIN: Mapping[str, _Field] = {
@@ -56,14 +85,14 @@ _ELEMENT: Mapping[str, _Field] = {
     "guess": _Field(_Kind.PLACE, "about where it ends: chooses among solutions, never counts as a dimension"),
     "facts": _Field(_Kind.FACTS, "statements about it"),
 }
-_CORNERS = ("rounding", "chamfer")
 _KINDS = {"line": "arcs", "arc": "lines"}
 """The kinds of elements, each with what those are of which another field is."""
 
 
-def _word_fields(part: str, kind: str | None = None) -> Mapping[str, _Field]:
-    """The words of lines or arcs, or of both, of a part."""
-    return {name: _Field(_Kind.VALUE, meaning) for name, meaning in words_of_drawing(part, kind).items()}
+def _fields_of(part: str, kind: str | None = None) -> dict[str, _Field]:
+    """The fields of lines or arcs, or of both, of a part."""
+    own = {name: each for name, each in _ELEMENT.items() if name != "turn" or kind != "line"}
+    return own | {name: _Field(_Kind.VALUE, meaning) for name, meaning in words_of_drawing(part, kind).items()}
 
 
 def read_sketch(text: str) -> ContourSketch:
@@ -122,18 +151,12 @@ def sketch_of(table: object) -> ContourSketch:
 def _element(number: int, table: object, part: str, axes: tuple[str, str]) -> SketchElement:
     if not isinstance(table, Mapping):
         raise SketchError(f"element {number}: {_shown(table)} is no table; write kind = and what the drawing gives")
-    kind = table.get("kind")
-    words = _word_fields(part, kind if kind in _KINDS else None)
-    fields = {name: each for name, each in _ELEMENT.items() if name != "turn" or kind != "line"}
-    reader = _Reader(f"element {number}", axes)
-    for name in table:
-        if kind in _KINDS and name not in (*fields, *words) and name in ("turn", *_word_fields(part)):
-            raise reader.refusal(name, f"is a field of {_KINDS[kind]}; leave it out, or change kind")
-    own = reader.table(table, {**fields, **words})
-    return SketchElement(
-        words={name: own.pop(name) for name in tuple(own) if name in words},
-        **own,
-    )
+    kind = next((each for each in _KINDS if each == table.get("kind")), None)
+    reader, fields = _Reader(f"element {number}: ", axes), _fields_of(part, kind)
+    for name in (each for each in _fields_of(part) if each not in fields and each in table):
+        raise reader.refusal(name, f"is a field of {_KINDS[str(kind)]}; leave it out, or change kind")
+    own = reader.table(table, fields)
+    return SketchElement(words={name: own.pop(name) for name in tuple(own) if name not in _ELEMENT}, **own)
 
 
 class _Reader(Struct, frozen=True):
@@ -149,77 +172,64 @@ class _Reader(Struct, frozen=True):
                 raise self.refusal(str(name)[:40], "is no field here" + _meant(str(name), fields))
         for name, field in fields.items():
             if field.is_needed and name not in table:
-                raise self.refusal(name, f"is missing; write {name} = {_example(field)}")
+                raise self.refusal(name, f"is missing; write {name} = {field.example()}")
         return {name: self.value(name, fields[name], value) for name, value in table.items() if value is not None}
 
     def value(self, name: str, field: _Field, value: object) -> Any:
         """The value of a field."""
         match field.kind, value:
-            case _Kind.VERSION, bool():
-                pass
-            case _Kind.VERSION, int() if value == VERSION:
+            case (_Kind.FLAG, bool()) | (_Kind.ELEMENTS, list() | tuple()):
                 return value
-            case _Kind.VERSION, int():
-                raise self.refusal(
-                    name, f"is {value}, and this contoursolve reads version {VERSION}; install a newer one"
-                )
-            case _Kind.CHOICE, str() if value in field.names:
+            case _Kind.VERSION, int() if not isinstance(value, bool):
+                if value != VERSION:
+                    told = f"is {value}, and this contoursolve reads version {VERSION}; install a newer one"
+                    raise self.refusal(name, told)
                 return value
             case _Kind.CHOICE, _:
-                raise self.refusal(name, f"is {_shown(value)}; write {_example(field)}")
-            case _Kind.FLAG, bool():
+                if value not in field.names:
+                    raise self.refusal(name, f"is {_shown(value)}; write {field.example()}")
                 return value
             case _Kind.PLACE, Mapping():
                 return self._place(name, value)
-            case _Kind.CORNER, Mapping() if len(value) == 1 and next(iter(value)) in _CORNERS:
+            case _Kind.CORNER, Mapping() if len(value) == 1 and value.keys() <= field.kind.schema["properties"].keys():
                 ((shape, size),) = value.items()
-                return SketchCorner(shape, self._value(f"{name}.{shape}", size))
+                return SketchCorner(shape, self._number(f"{name}.{shape}", size))
             case _Kind.VALUE, _:
-                return self._value(name, value)
+                return self._number(name, value)
             case _Kind.FACTS, list() | tuple() if all(_is_line(each) for each in value):
                 return tuple(value)
-            case _Kind.ELEMENTS, list() | tuple():
-                return value
-        raise self.refusal(name, f"is {_shown(value)}; write {field.kind.value.format(*self.axes)}")
+        raise self.refusal(name, f"is {_shown(value)}; write {field.kind.meant.format(*self.axes)}")
 
     def _place(self, name: str, table: Mapping[str, object]) -> Mapping[str, Decimal]:
         for axis in table:
             if axis not in self.axes:
-                raise self.refusal(
-                    f"{name}.{str(axis)[:40]}", f"is no axis of this part; its axes are {' and '.join(self.axes)}"
-                )
-        found = {axis: self._value(f"{name}.{axis}", table[axis]) for axis in self.axes if axis in table}
-        asked = next((axis for axis, value in found.items() if value == ASKED), None)
-        if asked is not None:
-            raise self.refusal(f"{name}.{asked}", 'is "?", and a number must stand there')
-        return {axis: Decimal(value) for axis, value in found.items()}
+                told = f"is no axis of this part; its axes are {' and '.join(self.axes)}"
+                raise self.refusal(f"{name}.{str(axis)[:40]}", told)
+            if table[axis] == ASKED:
+                raise self.refusal(f"{name}.{axis}", 'is "?", and a number must stand there')
+        return {axis: self._number(f"{name}.{axis}", table[axis]) for axis in self.axes if axis in table}
 
-    def _value(self, name: str, value: object) -> Any:
+    def _number(self, name: str, value: object) -> Any:
         if value == ASKED:
             return ASKED
-        number = _number(value)
-        if number is None:
+        text = (
+            value.strip() if isinstance(value, str) else str(value) if isinstance(value, int | Decimal | float) else ""
+        )
+        if isinstance(value, bool) or len(text) > LONGEST or not _NUMBER.fullmatch(text):
             raise self.refusal(name, f'is {_shown(value)}; write a number, such as 12.5 or "12,5", or "?"')
+        number = Decimal(text.replace(",", "."))
         if abs(number) > Decimal(LARGEST):
             raise self.refusal(name, f"is {_shown(value)}, which is larger than a control can travel")
         return number
 
     def refusal(self, name: str, trouble: str) -> SketchError:
         """The error about a field."""
-        return SketchError(f"{self.where + ': ' if self.where else ''}{name} {trouble}")
+        return SketchError(f"{self.where}{name} {trouble}")
 
 
 _NUMBER = re.compile(r"[+-]?+(?:\d++(?:[.,]\d*+)?|[.,]\d++)(?:[eE][+-]?\d{1,2})?")
 LONGEST = 40
 """Characters of a number; 17 digits are all that a double holds."""
-
-
-def _number(value: object) -> Decimal | None:
-    """A number, or a text that is one, perhaps with a decimal comma; None for all else."""
-    text = value.strip() if isinstance(value, str) else str(value) if isinstance(value, int | Decimal | float) else ""
-    if isinstance(value, bool) or len(text) > LONGEST or not _NUMBER.fullmatch(text):
-        return None
-    return Decimal(text.replace(",", "."))
 
 
 def _is_line(value: object) -> bool:
@@ -229,10 +239,6 @@ def _is_line(value: object) -> bool:
 def _shown(value: object) -> str:
     text = _json(value)
     return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
-
-
-def _example(field: _Field) -> str:
-    return " or ".join(f'"{name}"' for name in field.names) if field.names else field.kind.value.partition(",")[0]
 
 
 def _meant(name: str, fields: Mapping[str, _Field]) -> str:
@@ -262,34 +268,31 @@ def write_sketch(sketch: ContourSketch, *, as_json: bool = False) -> str:
 
 def plain_sketch(sketch: ContourSketch) -> dict[str, Any]:
     """A sketch as a table with plain values; numbers are Decimal."""
-    table: dict[str, Any] = {"sketch": VERSION, "part": sketch.part}
-    if sketch.unit != "mm":
-        table["unit"] = sketch.unit
-    if sketch.closed:
-        table["closed"] = True
-    table |= {name: dict(place) for name, place in (("start", sketch.start), ("pole", sketch.pole)) if place}
-    if sketch.facts:
-        table["facts"] = [*sketch.facts]
-    if sketch.elements:
-        table["element"] = [plain_element(each) for each in sketch.elements]
-    return table
+    table = {
+        "sketch": VERSION,
+        "part": sketch.part,
+        "unit": sketch.unit if sketch.unit != "mm" else "",
+        "closed": sketch.closed,
+        "start": dict(sketch.start),
+        "pole": dict(sketch.pole),
+        "facts": [*sketch.facts],
+        "element": [plain_element(each) for each in sketch.elements],
+    }
+    return {name: value for name, value in table.items() if value}
 
 
 def plain_element(element: SketchElement) -> dict[str, Any]:
     """An element as a table with plain values; numbers are Decimal."""
-    table: dict[str, Any] = {"kind": element.kind}
-    if element.turn:
-        table["turn"] = element.turn
-    if element.tangent:
-        table["tangent"] = True
-    table |= element.words
-    if element.corner:
-        table["corner"] = {element.corner.shape: element.corner.size}
-    if element.guess:
-        table["guess"] = dict(element.guess)
-    if element.facts:
-        table["facts"] = [*element.facts]
-    return table
+    table = {
+        "kind": element.kind,
+        "turn": element.turn,
+        "tangent": element.tangent,
+        **element.words,
+        "corner": {element.corner.shape: element.corner.size} if element.corner else {},
+        "guess": dict(element.guess),
+        "facts": [*element.facts],
+    }
+    return {name: value for name, value in table.items() if value or name in element.words}
 
 
 def _toml(value: object) -> str:
@@ -312,46 +315,19 @@ def _json(value: object) -> str:
 
 def sketch_schema() -> dict[str, Any]:
     """The JSON schema of a sketch's file."""
-    words = {name: each for part in DRAWINGS for name, each in _word_fields(part).items()}
+    elements = {name: each for part in DRAWINGS for name, each in _fields_of(part).items()}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Sketch of a contour for contoursolve",
         **_schema_of(_CHAIN),
-        "$defs": {"element": _schema_of({**_ELEMENT, **words})},
+        "$defs": {"element": _schema_of(elements)},
     }
 
 
 def _schema_of(fields: Mapping[str, _Field]) -> dict[str, Any]:
     return {
         "type": "object",
-        "properties": {name: {"description": each.meaning, **_schema(each)} for name, each in fields.items()},
+        "properties": {name: each.schema() for name, each in fields.items()},
         "required": [name for name, each in fields.items() if each.is_needed],
         "additionalProperties": False,
     }
-
-
-def _schema(field: _Field) -> dict[str, Any]:
-    number: dict[str, Any] = {"type": ["number", "string"]}
-    match field.kind:
-        case _Kind.VERSION:
-            return {"const": VERSION}
-        case _Kind.CHOICE:
-            return {"enum": [*field.names]}
-        case _Kind.FLAG:
-            return {"type": "boolean"}
-        case _Kind.PLACE:
-            axes = dict.fromkeys(sorted({axis for each in DRAWINGS.values() for axis in each.plane.axes}), number)
-            return {"type": "object", "properties": axes, "additionalProperties": False}
-        case _Kind.CORNER:
-            return {
-                "type": "object",
-                "properties": dict.fromkeys(_CORNERS, number),
-                "minProperties": 1,
-                "maxProperties": 1,
-                "additionalProperties": False,
-            }
-        case _Kind.FACTS:
-            return {"type": "array", "items": {"type": "string"}}
-        case _Kind.ELEMENTS:
-            return {"type": "array", "items": {"$ref": "#/$defs/element"}}
-    return number

@@ -1,7 +1,6 @@
 """A sketch as a page shows it: all that is known of it as plain data, and its picture."""
 
 from collections.abc import Iterator, Mapping
-from decimal import Decimal
 from itertools import pairwise
 from typing import Any
 
@@ -19,7 +18,7 @@ from contoursolve.pictures import (
     Weight,
     draw_sketched,
 )
-from contoursolve.sketches.known_part import PartState, SketchAnswer, SketchFinding, solve_sketch
+from contoursolve.sketches.known_part import PartState, SketchAnswer, SketchFix, solve_sketch
 from contoursolve.sketches.sketch import ContourSketch
 from contoursolve.sketches.sketch_file import plain_element
 from contoursolve.sketches.terms import entry_text
@@ -121,15 +120,14 @@ def sketch_view(sketch: ContourSketch, *, with_ranges: bool = False, theme: Them
         "missing": found.missing,
         "said": found.said,
         "remarks": [*found.remarks],
-        "asked": [{"number": n, "field": name, "value": _texts(each)} for (n, name), each in found.asked.items()],
+        "asked": [{"number": n, "field": name, "value": plain(each)} for (n, name), each in found.asked.items()],
         "entries": plain(found.entries),
-        "findings": [_finding(each) for each in found.findings],
+        "findings": [plain(each) | {"fixes": [*map(_fix, each.fixes)]} for each in found.findings],
         "solutions": [
-            {
-                "name": each.name,
+            plain(each)
+            | {
                 "segments": [*map(_segment, each.segments)],
-                "is_chosen": each.is_chosen,
-                "guess": {"number": each.guess[0], "place": _texts(each.guess[1])},
+                "guess": dict(zip(("number", "place"), plain(each.guess), strict=True)),
             }
             for each in found.solutions
         ],
@@ -137,28 +135,11 @@ def sketch_view(sketch: ContourSketch, *, with_ranges: bool = False, theme: Them
     }
 
 
-def _finding(finding: SketchFinding) -> dict[str, Any]:
-    fixes = [
-        {"title": each.title, "elements": {str(n): _texts(plain_element(now)) for n, now in each.elements.items()}}
-        for each in finding.fixes
-    ]
-    told: dict[str, Any] = plain(finding)
-    return told | {"fixes": fixes}
+def _fix(fix: SketchFix) -> dict[str, Any]:
+    return {"title": fix.title, "elements": {str(n): plain(plain_element(now)) for n, now in fix.elements.items()}}
 
 
 def _segment(segment: Segment) -> dict[str, Any]:
     """A line or an arc; places in mm, X as radius."""
-    told: dict[str, Any] = {"name": segment.name, "kind": "line", "start": segment.start, "end": segment.end}
-    if isinstance(segment, ArcSegment):
-        turn = segment.turn.value
-        told |= {"kind": "arc", "center": segment.center, "radius": segment.radius, "turn": turn}
-    return {name: plain(value) for name, value in told.items()}
-
-
-def _texts(value: Any) -> Any:
-    """Plain data in which numbers are texts, with the digits that they have."""
-    if isinstance(value, Decimal):
-        return f"{value:f}"
-    if isinstance(value, Mapping):
-        return {name: _texts(each) for name, each in value.items()}
-    return value
+    told: dict[str, Any] = plain(segment)
+    return told | {"kind": "arc" if isinstance(segment, ArcSegment) else "line"}

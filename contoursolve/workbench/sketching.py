@@ -5,6 +5,7 @@ from typing import Any, Literal
 
 from contoursolve import sketches
 from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics import plain
 from contoursolve.postprocess import NumberGround, Written, WrittenContour, ending_of
 from contoursolve.sketches import ContourSketch
 from contoursolve.workbench.fields import ActionError, Data, read_field
@@ -55,7 +56,7 @@ def _candidate(written: WrittenContour) -> Data:
 
 def sketch_in(text: str) -> Data:
     """The sketch of a file's text, as plain data. Raises SketchError."""
-    return {"sketch": _plain(sketches.read_sketch(text))}
+    return {"sketch": plain(sketches.plain_sketch(sketches.read_sketch(text)))}
 
 
 def sketch_in_drawing(data: bytes, action: Mapping[str, Any]) -> Data:
@@ -72,29 +73,12 @@ def sketch_in_drawing(data: bytes, action: Mapping[str, Any]) -> Data:
         reverse=read_field(action, "reverse", bool, False),
     )
     return {
-        "sketch": _plain(found.sketch),
+        "sketch": plain(sketches.plain_sketch(found.sketch)),
         "layers": dict(found.layers),
         "notes": [*found.given, *found.notes],
-        "measured": _texts(found.measured),
+        "measured": plain(found.measured),
     }
 
 
 def _sketch(action: Mapping[str, Any]) -> ContourSketch:
     return sketches.sketch_of(read_field(action, "sketch", dict))
-
-
-def _plain(sketch: ContourSketch) -> Data:
-    """A sketch as plain data, in which numbers are texts with the digits that they have."""
-    told: Data = _texts(sketches.plain_sketch(sketch))
-    return told
-
-
-def _texts(value: Any) -> Any:
-    match value:
-        case Mapping():
-            return {name: _texts(each) for name, each in value.items()}
-        case list() | tuple():
-            return [_texts(each) for each in value]
-        case bool() | str() | int() | None:
-            return value
-    return f"{value:f}"
