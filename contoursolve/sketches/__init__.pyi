@@ -11,7 +11,6 @@ from .dxf_in import (
     read_dxf as read_dxf,
 )
 from .finishing import (
-    EntryRange as EntryRange,
     SketchEntry as SketchEntry,
 )
 from .known_part import (

@@ -40,7 +40,8 @@ class SketchProgram(Struct, frozen=True):
 
 
 def as_program(sketch: ContourSketch, picks: Mapping[int, int] = {}) -> SketchProgram:
-    """The program of a sketch; `picks` are the numbers of solutions by elements, as FSELECT has them."""
+    """The program of a sketch; `picks` are the numbers of solutions by elements, as FSELECT has them. A corner with no
+    element behind it is left out."""
     lines, places = list[str](), dict[Field, Span]()
     for number, element in enumerate(sketch.elements, 1):
         text = f"{number} "
@@ -69,7 +70,7 @@ def _words(sketch: ContourSketch, number: int, element: SketchElement, pick: int
         yield "turn", element.turn
     order = words_of_drawing(sketch.part, element.kind)
     yield from ((name, f"{name}{_number(element.words[name])}") for name in order if name in element.words)
-    if element.corner:
+    if element.corner and number < len(sketch.elements):
         yield "corner", f"{element.corner.shape} {_number(element.corner.size)}"
     if sketch.closed and len(sketch.elements) > 1 and number in (1, len(sketch.elements)):
         yield "closed", "CLSD+" if number == 1 else "CLSD-"

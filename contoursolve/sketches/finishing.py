@@ -1,45 +1,36 @@
 """Entries that would finish a sketch: which fields help, with which numbers, and one example of each that was tried."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from itertools import product
-from math import dist
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import NUMBERS, Answer, AskedValue, Depth, absent_words, either, helping_words
-from contoursolve.diagnostics import OpenNumber
+from contoursolve.diagnosis import NUMBERS, Answer, Depth, absent_words, either, helping_words
+from contoursolve.diagnostics import NumberRange, OpenNumber
 from contoursolve.gcode import parse
-from contoursolve.geometry import Arc, Profile, Unit, assemble
+from contoursolve.geometry import Arc, Unit, assemble
 from contoursolve.program import Run, SolveOptions
-from contoursolve.sketches.as_program import Field, as_program
+from contoursolve.sketches.as_program import Field, SketchProgram, as_program
 from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchElement, Value
 from contoursolve.sketches.sliding import Loose
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, Status, analyse
-from contoursolve.tolerance import LENGTH
-
-
-class EntryRange(Struct, frozen=True):
-    """A range of numbers, as they are written; empty where it has no end."""
-
-    low: str
-    high: str
+from contoursolve.solving import Point, Status, analyse
 
 
 class SketchEntry(Struct, frozen=True):
     """A field that would help to finish a sketch: the number of its element (0 for the sketch), its name, its meaning.
 
-    With `example` the sketch has a contour, where one was tried; `ranges` are the numbers with which it is, all of them
-    if `is_complete`. `beside` are further fields that it needs then, each with its example.
+    With `example` the sketch has a contour, where one was tried; `ranges` are the numbers with which it is, as they are
+    written, all of them if `is_complete`. `beside` are further fields that it needs then, each with its example.
     """
 
     number: int
     field: str
     meaning: str
     example: str = ""
-    ranges: tuple[EntryRange, ...] = ()
+    ranges: tuple[NumberRange, ...] = ()
     is_complete: bool = False
     beside: tuple[tuple[Field, str], ...] = ()
 
@@ -63,22 +54,16 @@ def _written(answer: Answer, value: float, is_diameter: bool, decimals: int) -> 
     return Decimal(f"{number:z.{decimals}f}")
 
 
-def asked_number(asked: AskedValue, answer: Answer) -> Decimal:
-    """A value that was asked for, to three decimals, as it is written."""
-    value, question = asked.value or 0.0, asked.question
-    is_length = question.unit is Unit.MM
-    return _written(answer, value, question.is_diameter, 3) if is_length else Decimal(f"{value:z.3f}")
-
-
-def drawn_plainly(profile: Profile, loose: Loose) -> Iterator[Segment]:
-    """The lines and arcs of a loose drawing, without its corners."""
-    for element in profile.figure.path:
-        tail, head = loose.points[element.tail], loose.points[element.head]
-        if isinstance(element, Arc):
-            center, radius = loose.points[element.center], loose.radii[element.radius]
-            yield ArcSegment(element.name, tail, head, center, radius, element.turn)
-        elif dist(tail, head) > LENGTH:
-            yield LineSegment(element.name, tail, head)
+def asked_values(program: SketchProgram, answer: Answer) -> dict[Field, Decimal | None]:
+    """The values of fields that ask for one, to three decimals, as they are written; None where nothing tells it."""
+    found: dict[Field, Decimal | None] = {}
+    for each in answer.answers:
+        field, value, question = program.field_at(each.question.word.span), each.value, each.question
+        if field is not None and value is not None and question.unit is Unit.MM:
+            found[field] = _written(answer, value, question.is_diameter, 3)
+        elif field is not None:
+            found[field] = None if value is None else Decimal(f"{value:z.3f}")
+    return found
 
 
 def sketch_exactly(answer: Answer, sketch: ContourSketch, loose: Loose) -> ContourSketch:
@@ -127,21 +112,24 @@ def missing_text(sketch: ContourSketch, count: int, fields: Sequence[Field]) -> 
 
 def tried_entries(sketch: ContourSketch, answer: Answer, fields: Iterable[Field]) -> tuple[SketchEntry, ...]:
     """The fields that help, with the numbers that findings have tried."""
-    rows = sketch.control.modes.lexicon.addresses
-    found = dict.fromkeys(fields, SketchEntry(0, "", ""))
-    for fix in (fix for finding in answer.diagnostics for fix in finding.fixes):
-        places = [_place_of(each) for each in fix.numbers]
-        if places and (places[0] not in found or not found[places[0]].example):
-            first, beside = fix.numbers[0], zip(places[1:], fix.numbers[1:], strict=True)
-            ranges = tuple(EntryRange(_number_in(each.low), _number_in(each.high)) for each in first.ranges)
-            told = tuple((place, _number_in(each.example)) for place, each in beside)
-            found[places[0]] = SketchEntry(0, "", "", _number_in(first.example), ranges, first.is_complete, told)
-    return tuple(
-        replace(
-            entry, number=number, field=field, meaning=rows[field].meaning if field in rows else "size of the corner"
-        )
-        for (number, field), entry in sorted(found.items(), key=lambda each: not each[1].example)
-    )
+    fixes = (fix.numbers for finding in answer.diagnostics for fix in finding.fixes if fix.numbers)
+    tried = dict[Field, Sequence[OpenNumber]]()
+    for numbers in sorted(fixes, key=lambda each: not each[0].example):
+        tried.setdefault(_place_of(numbers[0]), numbers)
+    entries = [_entry(sketch, *field, tried.get(field, ())) for field in dict.fromkeys((*fields, *tried))]
+    return tuple(sorted(entries, key=lambda each: not each.example))
+
+
+def _entry(sketch: ContourSketch, number: int, field: str, numbers: Sequence[OpenNumber]) -> SketchEntry:
+    """An entry with the numbers that a fix tells, its own first."""
+    row = sketch.control.modes.lexicon.addresses.get(field)
+    bare = SketchEntry(number, field, row.meaning if row else "size of the corner")
+    if not numbers:
+        return bare
+    first, *others = numbers
+    ranges = tuple(NumberRange(_number_in(each.low), _number_in(each.high)) for each in first.ranges)
+    beside = tuple((_place_of(each), _number_in(each.example)) for each in others)
+    return replace(bare, example=_number_in(first.example), ranges=ranges, is_complete=first.is_complete, beside=beside)
 
 
 def with_examples(
@@ -149,25 +137,20 @@ def with_examples(
 ) -> tuple[SketchEntry, ...]:
     """The same with a number near the loose drawing for each field that has none yet, where it makes a contour."""
     whole = sketch_exactly(answer, sketch, loose)
-    # A corner that does not fit there would leave no value to tell.
-    whole = replace(whole, elements=tuple(replace(each, corner=None) for each in whole.elements))
-    open_ = [each for each in entries if not each.example and each.number]
-    for each in open_:
-        if each.field not in whole.elements[each.number - 1].words:
+    for number in range(1, len(whole.elements) + 1):
+        # A corner that does not fit there would leave no value to tell.
+        whole = whole.changed(number, corner=None)
+    for each in entries:
+        if not each.example and each.number and each.field not in whole.elements[each.number - 1].words:
             whole = _with_word(whole, each.number, each.field, ASKED)
-    program, found = as_program(whole), examined(whole)
-    values: dict[Field, Decimal] = {}
-    for asked in found.answers if found is not None else ():
-        field = program.field_at(asked.question.word.span)
-        if field is not None and asked.value is not None:
-            values[field] = asked_number(asked, answer)
-    told = list[SketchEntry]()
+    found, told = examined(whole), list[SketchEntry]()
+    values: dict[Field, Value | None] = {
+        (number, name): value for number, each in enumerate(whole.elements, 1) for name, value in each.words.items()
+    }
+    values |= asked_values(as_program(whole), found) if found is not None else {}
     for each in entries:
         value = values.get((each.number, each.field))
-        if value is None and each.number:
-            stated = whole.elements[each.number - 1].words.get(each.field)
-            value = stated if isinstance(stated, Decimal) else None
-        example = "" if each.example or value is None else _example(sketch, each, value)
+        example = _example(sketch, each, value) if isinstance(value, Decimal) and not each.example else ""
         told.append(replace(each, example=example) if example else each)
     return tuple(sorted(told, key=lambda each: not each.example))
 
@@ -186,10 +169,7 @@ def _example(sketch: ContourSketch, entry: SketchEntry, value: Decimal) -> str:
 
 
 def _with_word(sketch: ContourSketch, number: int, field: str, value: Value) -> ContourSketch:
-    elements = list(sketch.elements)
-    element = elements[number - 1]
-    elements[number - 1] = replace(element, words={**element.words, field: value})
-    return replace(sketch, elements=tuple(elements))
+    return sketch.changed(number, words={**sketch.elements[number - 1].words, field: value})
 
 
 def _place_of(number: OpenNumber) -> Field:

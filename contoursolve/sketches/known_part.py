@@ -20,12 +20,12 @@ from contoursolve.diagnosis import (
     status_text,
 )
 from contoursolve.diagnostics import Diagnostic, Severity
-from contoursolve.pictures import find_known, in_part, list_trails
+from contoursolve.geometry import Arc
+from contoursolve.pictures import Known, Role, find_known, in_part, list_trails
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program, element_of
 from contoursolve.sketches.finishing import (
     SketchEntry,
-    asked_number,
-    drawn_plainly,
+    asked_values,
     examined,
     missing_fields,
     missing_text,
@@ -145,56 +145,46 @@ def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchA
     >>> found.missing, found.elements[0].state.value
     ('one entry is missing: X, LEN or IX of line 1', 'sliding')
     """
-    number = len(sketch.elements)
-    last = sketch.elements[-1] if number else None
-    if last is not None and last.corner is not None:
-        name, advice = f"corner {number}", "add the next line or arc, or leave the corner out"
-        without = (*sketch.elements[:-1], replace(last, corner=None))
-        found = solve_sketch(replace(sketch, elements=without), with_ranges=with_ranges)
-        found = replace(found, elements=(*found.elements, SketchPart(name, number, PartState.UNKNOWN)))
-        message = f"{name} needs an element behind it, and none follows"
-        if sketch.closed:
-            message, advice = f"{name} lies where the closed contour begins", "let it begin in the middle of an element"
-        return _with_error(found, sketch, "corner-without-next", message, advice, (number, "corner"))
-    if sketch.closed and len(sketch.elements) == 1:
-        message = "a closed contour has two lines or arcs, or more"
-        found = solve_sketch(replace(sketch, closed=False), with_ranges=with_ranges)
-        return _with_error(found, sketch, "closed-alone", message, "add the next line or arc", (0, "closed"))
-    program = as_program(sketch)
-    answer = None
+    program, answer = as_program(sketch), None
     if program.start is not None and sketch.elements:
         answer = examined(sketch, Depth.FINDINGS if with_ranges else Depth.VERDICT)
     if answer is None:
-        return _not_begun(sketch, program)
-    found = _Reading(sketch, program, answer).result(with_ranges=with_ranges)
-    if not any(each.kind == "arc" and each.turn is None for each in sketch.elements):
-        return found
-    # What is not the same whichever way such an arc turns is not known.
-    turned = [replace(each, turn=each.turn or "cw") if each.kind == "arc" else each for each in sketch.elements]
-    other = {each.name: each for each in solve_sketch(replace(sketch, elements=tuple(turned))).elements}
-    same = (_is_known_alike(each, other[each.name]) for each in found.elements)
-    parts = zip(found.elements, same, strict=True)
-    return replace(found, elements=tuple(each if is_same else _unknown(each) for each, is_same in parts))
+        found = _not_begun(sketch, program)
+    else:
+        found = _Reading(sketch, program, answer).result(with_ranges=with_ranges)
+    if answer is not None and any(each.kind == "arc" and each.turn is None for each in sketch.elements):
+        # What is not the same whichever way such an arc turns is not known.
+        turned = [replace(each, turn=each.turn or "cw") if each.kind == "arc" else each for each in sketch.elements]
+        others = solve_sketch(replace(sketch, elements=tuple(turned))).elements
+        found = replace(found, elements=tuple(map(_known_alike, found.elements, others)))
+    for each in _unfinished(sketch):
+        missing = found.missing or f"{each.message}: {each.help}"
+        found = replace(found, missing=missing, findings=(*found.findings, each))
+    return found
 
 
-def _with_error(
-    found: SketchAnswer, sketch: ContourSketch, code: str, message: str, advice: str, field: Field
-) -> SketchAnswer:
-    """The answer about a sketch with something that is not finished, from that about it without."""
-    finding = SketchFinding(f"drawing-{code}", Severity.ERROR, message, advice, (field,))
-    missing = found.missing or f"{message}: {advice}"
-    return replace(found, sketch=sketch, missing=missing, findings=(*found.findings, finding))
+def _unfinished(sketch: ContourSketch) -> Iterator[SketchFinding]:
+    """What the next element will make whole: `as_program` leaves it out."""
+    number = len(sketch.elements)
+    if sketch.closed and number == 1:
+        message, help_ = "a closed contour has two lines or arcs, or more", "add the next line or arc"
+        yield SketchFinding("drawing-closed-alone", Severity.ERROR, message, help_, ((0, "closed"),))
+    if number and sketch.elements[-1].corner is not None:
+        where, help_ = (
+            "needs an element behind it, and none follows",
+            "add the next line or arc, or leave the corner out",
+        )
+        if sketch.closed:
+            where, help_ = "lies where the closed contour begins", "let it begin in the middle of an element"
+        message, fields = f"corner {number} {where}", ((number, "corner"),)
+        yield SketchFinding("drawing-corner-without-next", Severity.ERROR, message, help_, fields)
 
 
-def _is_known_alike(one: SketchPart, other: SketchPart) -> bool:
-    """Whether both are known and in one place, or contradict."""
-    pair = one.segment, other.segment
-    states = {one.state, other.state}
-    is_known = states == {PartState.KNOWN} and (pair == (None, None) or (None not in pair and _is_same(*pair)))  # type: ignore[arg-type]
-    return is_known or one.state is PartState.CONTRADICTING
-
-
-def _unknown(part: SketchPart) -> SketchPart:
+def _known_alike(part: SketchPart, other: SketchPart) -> SketchPart:
+    """A part that is known where another reading has it, or contradicts; else nothing is known of it."""
+    is_known = part.state is other.state is PartState.KNOWN and _is_same(part.segment, other.segment)
+    if is_known or part.state is PartState.CONTRADICTING:
+        return part
     return replace(part, state=PartState.UNKNOWN, segment=None, ways=())
 
 
@@ -203,7 +193,7 @@ def _not_begun(sketch: ContourSketch, program: SketchProgram) -> SketchAnswer:
     open_ = [axis for axis in sketch.axes if axis not in sketch.start]
     entries = tuple(SketchEntry(0, f"start.{axis}", "where the contour begins") for axis in open_)
     missing = f"where it begins is missing: {join(open_)} of the start" if open_ else "the first line or arc is missing"
-    parts = (SketchPart(sketch.name_of(n), n, PartState.UNKNOWN) for n in range(1, len(sketch.elements) + 1))
+    parts = (SketchPart(name, number, PartState.UNKNOWN) for name, number in sketch.parts())
     return SketchAnswer(sketch, program, Status.UNDERDETERMINED.value, None, tuple(parts), missing, entries)
 
 
@@ -218,14 +208,16 @@ class _Reading:
         self.blamed = dict(self._blamed())
         path = answer.profile.figure.path
         self.heads = {number: element.head for number, element in enumerate(path, 1)}
+        # What a guess may be about: ends, then centres.
+        self.points = {(number, ""): head for number, head in self.heads.items()}
+        self.points |= {(number, "CC"): each.center for number, each in enumerate(path, 1) if isinstance(each, Arc)}
         self.loose: Loose | None = None
         self.gap: SketchFinding | None = None
 
     def result(self, *, with_ranges: bool) -> SketchAnswer:
-        answer = self.answer
-        listing = list_solutions(answer)
-        several = [each for each in listing.solutions if each.contour is not None] if listing else []
-        several.sort(key=lambda each: [(pick.element, pick.number) for pick in each.picks])
+        answer, listing = self.answer, list_solutions(self.answer)
+        listed = sorted(listing.solutions if listing else (), key=_order)
+        several = [each.contour for each in listed if each.contour is not None]
         chosen = self._chosen(several) if len(several) > 1 else None
         has_guess = any(each.guess for each in self.sketch.elements)
         if has_guess and answer.contour is not None:
@@ -235,67 +227,61 @@ class _Reading:
         missing = ""
         entries: Iterable[SketchEntry] = ()
         if chosen is not None:
-            picked = examined(self.sketch, picks={each.element: each.number for each in chosen.picks})
+            picks = next(each.picks for each in listed if each.contour is chosen)
+            picked = examined(self.sketch, picks={each.element: each.number for each in picks})
             answer = picked if picked is not None and picked.contour is not None else answer
         elif answer.contour is None:
             self.loose = self._loosely()
             self.gap = self._gap() if self.sketch.closed else None
-            missing, entries = self._missing(self.loose, len(several), with_ranges=with_ranges)
+            missing, entries = self._missing(len(several), with_ranges=with_ranges)
         return SketchAnswer(
             self.sketch,
             self.program,
             answer.status.value,
             answer,
-            tuple(self._parts(answer, several, chosen, self.loose)),
+            tuple(self._parts(answer, is_open=not several, is_chosen=chosen is not None)),
             missing,
             tuple(entries),
             tuple(self._findings(answer)),
             tuple(self._solutions(several, chosen)) if len(several) > 1 else (),
             tuple(self.remarks),
-            dict(self._asked(answer)),
+            asked_values(self.program, answer),
         )
-
-    def _asked(self, answer: Answer) -> Iterator[tuple[Field, Decimal | None]]:
-        for each in answer.answers:
-            field = self.program.field_at(each.question.word.span)
-            if field is not None:
-                yield field, asked_number(each, answer) if each.value is not None else None
 
     # Guesses -------------------------------------------------------------------------------------------------
 
-    def _chosen(self, several: Sequence[Listed]) -> Listed | None:
+    def _chosen(self, several: Sequence[Contour]) -> Contour | None:
         """The solution nearest to the guesses; None without a guess, or where two are equally near."""
-        ranked = sorted(((self._distance(each), n) for n, each in enumerate(several)))
-        if ranked[0][0] == inf:
+        distances = [self._distance(each) for each in several]
+        nearest, next_one, *_ = sorted(distances)
+        if nearest == inf:
             return None
-        if ranked[1][0] - ranked[0][0] <= AGREEMENT:
+        if next_one - nearest <= AGREEMENT:
             self.remarks.append("two contours are equally near to the guess: put it nearer to one of them")
             return None
-        return several[ranked[0][1]]
+        return several[distances.index(nearest)]
 
-    def _distance(self, solution: Listed) -> float:
-        """The distance of the guesses from the ends in a solution, mm; infinite without a guess."""
-        assert solution.contour is not None
+    def _distance(self, contour: Contour) -> float:
+        """The distance of the guesses from the points of a solution, mm; infinite without a guess."""
         squares = []
-        for number, element in enumerate(self.sketch.elements, 1):
-            at = solution.contour.places.get(self.heads.get(number, ""))
+        for (number, prefix), point in self.points.items():
+            guess = self.sketch.elements[number - 1].guess
             for axis, letter in enumerate(self.sketch.axes):
-                if at is not None and letter in element.guess:
-                    squares.append((at[axis] - self._mm(axis, element.guess[letter])) ** 2)
+                if prefix + letter in guess:
+                    guessed = guess[prefix + letter] * self.answer.unit.in_mm
+                    times = 2 if self.answer.plane.diameters[axis] else 1
+                    squares.append((contour.places[point][axis] - float(guessed) / times) ** 2)
         return sum(squares) ** 0.5 if squares else inf
 
-    def _mm(self, axis: int, written: Decimal) -> float:
-        return float(written * self.answer.unit.in_mm) * (0.5 if self.answer.plane.diameters[axis] else 1)
-
-    def _solutions(self, several: Sequence[Listed], chosen: Listed | None) -> Iterator[SketchSolution]:
+    def _solutions(self, several: Sequence[Contour], chosen: Contour | None) -> Iterator[SketchSolution]:
         for number, each in enumerate(several, 1):
-            assert each.contour is not None
-            at, others = each.contour.places, [one.contour.places for one in several if one.contour and one is not each]
-            # The first element whose end no other solution has there tells it best.
-            apart = {n: min(dist(at[head], other[head]) for other in others) for n, head in self.heads.items()}
-            element = next((n for n, gap in apart.items() if gap > AGREEMENT), max(apart, key=lambda n: apart[n]))
-            place = written_place(self.answer, at[self.heads[element]])
-            yield SketchSolution(f"contour {number}", each.contour.elements, each is chosen, (element, place))
+            others = [one.places for one in several if one is not each]
+            # The first point that no other solution has there tells it best.
+            apart = {key: min(dist(each.places[name], at[name]) for at in others) for key, name in self.points.items()}
+            best = next((key for key, gap in apart.items() if gap > AGREEMENT), max(apart, key=lambda key: apart[key]))
+            place = written_place(self.answer, each.places[self.points[best]])
+            guess = {best[1] + axis: value for axis, value in place.items()}
+            yield SketchSolution(f"contour {number}", each.elements, each is chosen, (best[0], guess))
 
     # States --------------------------------------------------------------------------------------------------
 
@@ -313,34 +299,33 @@ class _Reading:
         doubted = [name for name, given in givens if given.word is not None and given.word.span in spans]
         return loosely_drawn(self.sketch, self.answer.profile, doubted)
 
-    def _parts(
-        self, answer: Answer, several: Sequence[Listed], chosen: Listed | None, loose: Loose | None
-    ) -> Iterator[SketchPart]:
+    def _parts(self, answer: Answer, *, is_open: bool, is_chosen: bool) -> Iterator[SketchPart]:
         """Every element and corner with its state."""
+        known = find_known(self.answer)
+        trails = [*list_trails(self.answer, known)]
+        shared = {each.name for trail in trails if trail.role is Role.DETERMINED for each in trail.segments}
+        drawn = {each.name: each for trail in trails for each in trail.segments}
         if answer.contour is not None:
             drawn = {each.name: each for each in answer.contour.elements}
-        else:
-            known = find_known(answer)
-            drawn = {each.name: each for trail in list_trails(answer, known) for each in trail.segments}
-            # What follows from directions as they are is no less sure than what does so whatever they are.
-            self.sure = {*known.points} - known.several | {*in_part(answer.profile).points}
-        shared = {name for name in drawn if not several or _is_shared(name, several)}
-        completed, gap = self._completed(loose, drawn), self.gap
-        for number, element in enumerate(self.sketch.elements, 1):
-            for part in (self.sketch.name_of(number), *([f"corner {number}"] if element.corner else [])):
-                segment, off = completed.get(part, drawn.get(part)), self.blamed.get(part)
-                if part in self.blamed:
-                    state = PartState.CONTRADICTING
-                    off = gap.off_mm if gap is not None and number == len(self.sketch.elements) else off
-                    off = off if off is not None or loose is None else loose.off_of(number)
-                elif answer.contour is None and loose is not None and not several:
-                    state = self._state(part, number, loose, drawn)
-                else:
-                    other = PartState.GUESSED if chosen is not None else PartState.UNKNOWN
-                    state = PartState.KNOWN if part in shared else other
-                is_placed = state is not PartState.UNKNOWN or bool(self.blamed)
-                ways = self._ways(part, number, loose) if loose and state is PartState.SLIDING else ()
-                yield SketchPart(part, number, state, segment if is_placed else None, off, ways)
+        # What follows from directions as they are is no less sure than what does so whatever they are.
+        self.sure = {*known.points} - known.several | {*in_part(answer.profile).points}
+        loose, gap = self.loose, self.gap
+        completed = self._completed(loose, drawn) if loose is not None else {}
+        for part, number in self.sketch.parts():
+            segment, off = completed.get(part, drawn.get(part)), self.blamed.get(part)
+            if part in self.blamed:
+                state = PartState.CONTRADICTING
+                off = gap.off_mm if gap is not None and number == len(self.sketch.elements) else off
+                off = off if off is not None or loose is None else loose.off_of(number)
+            elif loose is not None and is_open:
+                state = self._state(part, number, loose, drawn)
+            elif part in shared:
+                state = PartState.KNOWN
+            else:
+                state = PartState.UNKNOWN if not is_chosen or part not in drawn else PartState.GUESSED
+            is_placed = state is not PartState.UNKNOWN or bool(self.blamed)
+            ways = self._ways(part, number, loose) if loose and state is PartState.SLIDING else ()
+            yield SketchPart(part, number, state, segment if is_placed else None, off, ways)
 
     def _ways(self, part: str, number: int, loose: Loose) -> tuple[tuple[Point, ...], ...]:
         way = loose.ways.get(self.heads.get(number, ""))
@@ -349,8 +334,11 @@ class _Reading:
     def _state(self, part: str, number: int, loose: Loose, drawn: Mapping[str, Segment]) -> PartState:
         """The state of an element, or of the corner behind it, of a sketch that has no contour."""
         path = self.answer.profile.figure.path
-        around = path[number - 1 : number + 1] if part.startswith("corner") else path[number - 1 : number]
-        if not around or (self.blamed and any(each.name in self.blamed or each.name not in drawn for each in around)):
+        is_corner = part.startswith("corner")
+        around = path[number - 1 : number + is_corner]
+        if len(around) <= is_corner or (
+            self.blamed and any(each.name in self.blamed or each.name not in drawn for each in around)
+        ):
             return PartState.UNKNOWN
         ends = [end for each in around for end in (each.tail, each.head, getattr(each, "center", each.head))]
         freedom = max(loose.freedom.get(each, 0) for each in ends)
@@ -358,44 +346,39 @@ class _Reading:
         freedom = freedom or (0 if self.sure.issuperset(ends) else 2)
         return (PartState.KNOWN, PartState.SLIDING, PartState.UNKNOWN)[min(freedom, 2)]
 
-    def _completed(self, loose: Loose | None, drawn: Mapping[str, Segment]) -> dict[str, Segment]:
+    def _completed(self, loose: Loose, drawn: Mapping[str, Segment]) -> dict[str, Segment]:
         """The lines and arcs of a loose drawing, with its corners where they fit."""
-        if loose is None:
-            return {}
-        plain = {each.name: each for each in drawn_plainly(self.answer.profile, loose)}
-        sketch = sketch_exactly(self.answer, self.sketch, loose)
-        corners = [None if f"corner {n}" in self.blamed else each.corner for n, each in enumerate(sketch.elements, 1)]
-        contour = None
-        if any(corners):
-            pairs = zip(sketch.elements, corners, strict=True)
-            found = examined(replace(sketch, elements=tuple(replace(each, corner=corner) for each, corner in pairs)))
-            contour = found.contour if found is not None else None
-        return {**plain, **drawn, **({each.name: each for each in contour.elements} if contour is not None else {})}
+        trails = list_trails(self.answer, Known(loose.points, loose.radii))
+        plain = {each.name: each for trail in trails for each in trail.segments}
+        sketch, found = sketch_exactly(self.answer, self.sketch, loose), None
+        for name, number in self.sketch.parts():
+            if name.startswith("corner") and name in self.blamed:
+                sketch = sketch.changed(number, corner=None)
+        if any(each.corner for each in sketch.elements):
+            found = examined(sketch)
+        whole = found.contour.elements if found is not None and found.contour is not None else ()
+        return {**plain, **drawn, **{each.name: each for each in whole}}
 
-    def _missing(self, loose: Loose | None, several: int, *, with_ranges: bool) -> tuple[str, tuple[SketchEntry, ...]]:
+    def _missing(self, several: int, *, with_ranges: bool) -> tuple[str, tuple[SketchEntry, ...]]:
         """The missing entries in one line, and one by one."""
         if several > 1:
             return f"{several} contours fit: choose one, or guess where an element ends", ()
-        senses = self._senses()
-        if senses:
-            told = join([self.sketch.name_of(each.number) for each in senses])
-            return f"the sense of {told} is missing: clockwise or counter-clockwise", senses
+        arcs = [n for n, each in enumerate(self.sketch.elements, 1) if each.kind == "arc" and each.turn is None]
+        if arcs:
+            told = join([self.sketch.name_of(each) for each in arcs])
+            entries = tuple(SketchEntry(each, "turn", "clockwise or counter-clockwise") for each in arcs)
+            return f"the sense of {told} is missing: clockwise or counter-clockwise", entries
         unfinished = [each for each in self.errors if each.about is None]
         if self.answer.status is Status.REJECTED and unfinished:
             first = self._finding(unfinished[0])
             return f"{first.message}: {first.help}", tried_entries(self.sketch, self.answer, ())
         if self.answer.status is not Status.UNDERDETERMINED:
             return "", ()
-        count, fields = missing_fields(self.answer, loose)
+        count, fields = missing_fields(self.answer, self.loose)
         entries = tried_entries(self.sketch, self.answer, fields)
-        if with_ranges and loose is not None and count == 1:
-            entries = with_examples(self.sketch, self.answer, loose, entries)
+        if with_ranges and self.loose is not None and count == 1:
+            entries = with_examples(self.sketch, self.answer, self.loose, entries)
         return missing_text(self.sketch, count, fields), entries
-
-    def _senses(self) -> tuple[SketchEntry, ...]:
-        """The senses of arcs that are not given."""
-        arcs = [n for n, each in enumerate(self.sketch.elements, 1) if each.kind == "arc" and each.turn is None]
-        return tuple(SketchEntry(n, "turn", "clockwise or counter-clockwise") for n in arcs)
 
     def _gap(self) -> SketchFinding | None:
         """The finding about a closed contour that ends elsewhere: of both axes together; None if it does not."""
@@ -460,9 +443,9 @@ class _Reading:
                 if element is None or not 0 < line <= len(self.sketch.elements):
                     break
                 old = self.sketch.elements[line - 1]
-                now = replace(
-                    element, guess=old.guess, facts=element.facts[: len(element.facts) - self._own_facts(line)]
-                )
+                # Those of the whole sketch stand in the line of its first element.
+                count = len(element.facts) - (len(self.sketch.facts) if line == 1 else 0)
+                now = replace(element, guess=old.guess, facts=element.facts[:count])
                 if now != old:
                     changed[line] = now
             else:
@@ -482,12 +465,12 @@ class _Reading:
                 outcome = outcome.removeprefix(same).removeprefix(", ")
         return f"{change}{arrow}{outcome}" if outcome else change
 
-    def _own_facts(self, line: int) -> int:
-        """The facts of the whole sketch among those in the line of an element."""
-        return len(self.sketch.facts) if line == 1 else 0
-
 
 _OPEN = (Status.UNDERDETERMINED, Status.AMBIGUOUS)
+
+
+def _order(solution: Listed) -> list[tuple[int, int]]:
+    return [(pick.element, pick.number) for pick in solution.picks]
 
 
 def _contours(answer: Answer) -> Iterator[Contour]:
@@ -505,13 +488,9 @@ def _amount(finding: Diagnostic) -> float | None:
     return found if found is not None and found > LENGTH else None
 
 
-def _is_shared(name: str, several: Sequence[Listed]) -> bool:
-    """Whether all solutions have an element in one place."""
-    found = [next((each for each in one.contour.elements if each.name == name), None) for one in several if one.contour]
-    first = found[0]
-    return first is not None and all(each is not None and _is_same(first, each) for each in found)
-
-
-def _is_same(one: Segment, other: Segment) -> bool:
+def _is_same(one: Segment | None, other: Segment | None) -> bool:
+    """Whether two lines or arcs are in one place."""
+    if one is None or other is None:
+        return one is other
     centers = [each.center if isinstance(each, ArcSegment) else each.end for each in (one, other)]
     return max(dist(one.start, other.start), dist(one.end, other.end), dist(*centers)) <= AGREEMENT

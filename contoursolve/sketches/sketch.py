@@ -1,10 +1,11 @@
 """A sketch: a chain of lines and arcs with what the drawing gives of each; all else is left out."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS
 from contoursolve.diagnostics import UserError
@@ -40,7 +41,8 @@ class SketchElement(Struct, frozen=True):
         turn: the sense of an arc, `cw` or `ccw`.
         tangent: whether it begins in the direction of the element before it.
         corner: what stands behind it.
-        guess: about where it ends, by axes: it chooses among solutions, and never counts as a dimension.
+        guess: about where it ends, by axes, and where the centre of an arc is (CCX): it chooses among solutions, and
+            never counts as a dimension.
         facts: statements about it, as `contoursolve facts` lists them.
     """
 
@@ -87,3 +89,15 @@ class ContourSketch(Struct, frozen=True):
     def name_of(self, number: int) -> str:
         """The name of an element, by its number from 1: `line 1`, `arc 2`."""
         return f"{self.elements[number - 1].kind} {number}"
+
+    def parts(self) -> Iterator[tuple[str, int]]:
+        """The names of its elements, and of the corners behind them, each with the number of the element."""
+        for number, element in enumerate(self.elements, 1):
+            yield self.name_of(number), number
+            if element.corner:
+                yield f"corner {number}", number
+
+    def changed(self, number: int, **fields: Any) -> "ContourSketch":
+        """The sketch with other fields of an element, by its number from 1."""
+        element = replace(self.elements[number - 1], **fields)
+        return replace(self, elements=(*self.elements[: number - 1], element, *self.elements[number:]))

@@ -3,13 +3,14 @@
 import json
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from difflib import get_close_matches
 from enum import Enum
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS, words_of_drawing
 from contoursolve.sketches.sketch import ASKED, VERSION, ContourSketch, SketchCorner, SketchElement, SketchError
@@ -19,25 +20,23 @@ _AXES = sorted({axis for each in DRAWINGS.values() for axis in each.plane.axes})
 _NUMBER_SCHEMA = {"type": ["number", "string"]}
 
 
+def _numbers(names: Iterable[str], **more: object) -> dict[str, Any]:
+    """The schema of a table of numbers."""
+    properties = dict.fromkeys(names, _NUMBER_SCHEMA)
+    return {"type": "object", "properties": properties, **more, "additionalProperties": False}
+
+
 class _Kind(Enum):
     """Kinds of values in a sketch: what is meant, for a reader, and the schema."""
 
     VERSION = f"{VERSION}, the version of the file", {"const": VERSION}
     CHOICE = "one of its names", dict[str, Any]()
     FLAG = "true or false", {"type": "boolean"}
-    PLACE = (
-        "a number for each axis, such as {{ {0} = 10, {1} = 20 }}",
-        {"type": "object", "properties": dict.fromkeys(_AXES, _NUMBER_SCHEMA), "additionalProperties": False},
-    )
+    PLACE = "a number for each axis, such as {{ {0} = 10, {1} = 20 }}", _numbers(_AXES)
+    GUESS = PLACE[0], _numbers([*_AXES, *(f"CC{axis}" for axis in _AXES)])
     CORNER = (
         "a rounding or a chamfer, such as {{ rounding = 2 }}",
-        {
-            "type": "object",
-            "properties": dict.fromkeys(("rounding", "chamfer"), _NUMBER_SCHEMA),
-            "minProperties": 1,
-            "maxProperties": 1,
-            "additionalProperties": False,
-        },
+        _numbers(("rounding", "chamfer"), minProperties=1, maxProperties=1),
     )
     VALUE = 'a number, or "?"', _NUMBER_SCHEMA
     FACTS = (
@@ -82,7 +81,7 @@ _ELEMENT: Mapping[str, _Field] = {
     "turn": _Field(_Kind.CHOICE, "sense of an arc: clockwise or counter-clockwise", ("cw", "ccw")),
     "tangent": _Field(_Kind.FLAG, "whether it begins in the direction of the element before it"),
     "corner": _Field(_Kind.CORNER, "what stands behind it: the radius of a rounding, the setback of a chamfer"),
-    "guess": _Field(_Kind.PLACE, "about where it ends: chooses among solutions, never counts as a dimension"),
+    "guess": _Field(_Kind.GUESS, "about where it ends, or its centre is: chooses, never counts as a dimension"),
     "facts": _Field(_Kind.FACTS, "statements about it"),
 }
 _KINDS = {"line": "arcs", "arc": "lines"}
@@ -91,7 +90,10 @@ _KINDS = {"line": "arcs", "arc": "lines"}
 
 def _fields_of(part: str, kind: str | None = None) -> dict[str, _Field]:
     """The fields of lines or arcs, or of both, of a part."""
-    own = {name: each for name, each in _ELEMENT.items() if name != "turn" or kind != "line"}
+    own = {**_ELEMENT}
+    if kind == "line":
+        own["guess"] = replace(own.pop("guess"), kind=_Kind.PLACE)
+        del own["turn"]
     return own | {name: _Field(_Kind.VALUE, meaning) for name, meaning in words_of_drawing(part, kind).items()}
 
 
@@ -190,7 +192,9 @@ class _Reader(Struct, frozen=True):
                     raise self.refusal(name, f"is {_shown(value)}; write {field.example()}")
                 return value
             case _Kind.PLACE, Mapping():
-                return self._place(name, value)
+                return self._place(name, value, self.axes)
+            case _Kind.GUESS, Mapping():
+                return self._place(name, value, (*self.axes, *(f"CC{axis}" for axis in self.axes)))
             case _Kind.CORNER, Mapping() if len(value) == 1 and value.keys() <= field.kind.schema["properties"].keys():
                 ((shape, size),) = value.items()
                 return SketchCorner(shape, self._number(f"{name}.{shape}", size))
@@ -200,14 +204,14 @@ class _Reader(Struct, frozen=True):
                 return tuple(value)
         raise self.refusal(name, f"is {_shown(value)}; write {field.kind.meant.format(*self.axes)}")
 
-    def _place(self, name: str, table: Mapping[str, object]) -> Mapping[str, Decimal]:
+    def _place(self, name: str, table: Mapping[str, object], axes: Sequence[str]) -> Mapping[str, Decimal]:
         for axis in table:
-            if axis not in self.axes:
+            if axis not in axes:
                 told = f"is no axis of this part; its axes are {' and '.join(self.axes)}"
                 raise self.refusal(f"{name}.{str(axis)[:40]}", told)
             if table[axis] == ASKED:
                 raise self.refusal(f"{name}.{axis}", 'is "?", and a number must stand there')
-        return {axis: self._number(f"{name}.{axis}", table[axis]) for axis in self.axes if axis in table}
+        return {axis: self._number(f"{name}.{axis}", table[axis]) for axis in axes if axis in table}
 
     def _number(self, name: str, value: object) -> Any:
         if value == ASKED:

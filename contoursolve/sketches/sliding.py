@@ -201,16 +201,12 @@ class _Drawing:
 
 def _simplified(way: Sequence[Point]) -> Sequence[Point]:
     """A way; of a straight one, its ends."""
-    first = way[0]
-    far = max(way, key=lambda at: dist(first, at))
-    length = dist(first, far)
-    if not length:
-        return (first,)
-    along = (far[0] - first[0]) / length, (far[1] - first[1]) / length
-    if any(abs(along[0] * (at[1] - first[1]) - along[1] * (at[0] - first[0])) > SAME for at in way):
+    steps = numpy.array(way) - way[0]
+    _, (_, *across), right = svd(steps)
+    if max(across, default=0.0) > SAME:
         return way
-    ordered = sorted(way, key=lambda at: along[0] * at[0] + along[1] * at[1])
-    return ordered[0], ordered[-1]
+    along = steps @ right[0]
+    return [way[each] for each in sorted({int(along.argmin()), int(along.argmax())})]
 
 
 class _Layout:
@@ -244,7 +240,7 @@ class _Layout:
 
     def _line(self, number: int, line: Line, here: complex, heading: float) -> tuple[complex, float]:
         """The end of a line, and the direction in which it ends."""
-        length, told = self.equations.amounts.get(f"{number}:LEN", self.size * _SHARE), self._told(number, here)
+        length, told = self.equations.amounts.get(f"{number}:LEN", self.size * _SHARE), self._told(number, "", here)
         along = rect(1, heading)
         known = [(told[axis] or 0.0, axis) for axis in (FIRST, SECOND) if told[axis] is not None]
         for value, axis in known if len(known) == 1 else ():
@@ -259,14 +255,13 @@ class _Layout:
     def _arc(self, number: int, arc: Arc, here: complex, heading: float) -> tuple[complex, float]:
         amounts, sign = self.equations.amounts, arc.turn.sign
         radius = amounts.get(f"{number}:R", self.size * _SHARE)
-        centers = [amounts.get(f"{number}:CC{axis}") for axis in self.drawing.sketch.axes]
-        center = self._with(centers, here + rect(radius, heading + sign * pi / 2))
+        center = self._with(self._told(number, "CC", here), here + rect(radius, heading + sign * pi / 2))
         radius = amounts.get(f"{number}:R", max(abs(here - center), self.size * RANK))
         ended = self.equations.directions.get(f"{number}:CCA")
         angle = phase(complex(*ended)) if ended else phase(here - center) + sign * _SWEPT
         self._put(arc.center, center)
         self.found[arc.radius] = radius
-        head = self._with(self._told(number, here), center + rect(radius, angle))
+        head = self._with(self._told(number, "", here), center + rect(radius, angle))
         return head, phase(head - center) + sign * pi / 2
 
     def _with(self, told: Sequence[float | None], place: complex) -> complex:
@@ -274,18 +269,15 @@ class _Layout:
         first, second = told
         return complex(place.real if first is None else first, place.imag if second is None else second)
 
-    def _told(self, number: int, here: complex) -> list[float | None]:
-        """The coordinates of an element's end that are given or guessed."""
-        amounts, profile = self.equations.amounts, self.drawing.profile
-        guess = self.drawing.sketch.elements[number - 1].guess
-        told: list[float | None] = []
-        for begin, axis, is_turned in zip(
-            (here.real, here.imag), self.drawing.sketch.axes, profile.plane.diameters, strict=True
-        ):
-            stated, step = amounts.get(f"{number}:{axis}"), amounts.get(f"{number}:I{axis}")
+    def _told(self, number: int, prefix: str, here: complex) -> list[float | None]:
+        """The coordinates of an element's end, or of its centre (CC), that are given or guessed."""
+        amounts, profile, sketch = self.equations.amounts, self.drawing.profile, self.drawing.sketch
+        guess, told = sketch.elements[number - 1].guess, list[float | None]()
+        for begin, axis, is_turned in zip((here.real, here.imag), sketch.axes, profile.plane.diameters, strict=True):
+            stated, step = (amounts.get(f"{number}:{lead}{prefix}{axis}") for lead in ("", "I"))
             if stated is None and step is not None:
                 stated = begin + step
-            if stated is None and axis in guess:
-                stated = float(guess[axis] * profile.unit.in_mm) * (0.5 if is_turned else 1)
+            if stated is None and prefix + axis in guess:
+                stated = float(guess[prefix + axis] * profile.unit.in_mm) * (0.5 if is_turned else 1)
             told.append(stated)
         return told

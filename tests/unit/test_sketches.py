@@ -163,6 +163,25 @@ def test_a_guess_chooses_and_is_no_dimension(name):
     assert unused.remarks == ("the guess is not used: what is given has one solution",)
 
 
+def test_a_guess_of_the_centre_chooses_between_arcs_with_the_same_ends():
+    words = [{"X": 10, "Y": 0}, {"X": 30, "Y": 10, "R": 20}]
+    line, arc = ({name: Decimal(value) for name, value in each.items()} for each in words)
+    elements = contoursolve.SketchElement("line", line), contoursolve.SketchElement("arc", arc, "ccw")
+    bare = contoursolve.ContourSketch("milled", elements, {"X": Decimal(0), "Y": Decimal(0)})
+    # Half the chord is sqrt(125), and the centre lies sqrt(275) beside its middle, across it.
+    centers = [(20 - side * 10 * 2.2**0.5 / 2, 5 + side * 20 * 2.2**0.5 / 2) for side in (1, -1)]
+    found = contoursolve.solve_sketch(bare)
+    for solution, center in zip(found.solutions, centers, strict=True):
+        number, place = solution.guess
+        assert (number, [float(each) for each in place.values()]) == (2, pytest.approx(center, abs=1e-4))
+        for guess in (place, {"CCX": place["CCX"] + 5}):
+            again = contoursolve.solve_sketch(
+                contoursolve.read_sketch(contoursolve.write_sketch(changed(bare, number, guess=guess)))
+            )
+            assert again.elements[1].segment.center == pytest.approx(center, abs=1e-6)
+            assert again.elements[1].state.value == "guessed"
+
+
 @pytest.mark.parametrize("name", sorted(ENDS))
 def test_every_state_of_typing_has_an_answer(name):
     whole = sketch(name)
