@@ -40,6 +40,7 @@ STAGED = {
     ROOT / "CHANGELOG.md": "changes.md",
     TRY / "page.md": "try.md",
     **{path: path.name for kind in ("md", "schema.json") for path in sorted((ROOT / "docs").glob(f"*.{kind}"))},
+    **{path: f"vectors/{path.name}" for path in sorted((ROOT / "docs" / "vectors").glob("*.*"))},
     **{path: f"notebooks/{path.stem}.md" for path in sorted((ROOT / "notebooks").glob("*.ipynb"))},
     **{path: f"pictures/{path.name}" for path in sorted((ROOT / "notebooks" / "pictures").iterdir())},
 }

@@ -9,12 +9,11 @@ from types import SimpleNamespace
 import pytest
 from editor import Editor, Served, applied, edits_of, in_editor, random_edit, types
 from examples import some_of
+from vectors import program_of
 
 import contoursolve
 from contoursolve import DIALECTS, Severity, end_text, solve
 from contoursolve.gcode import split_lines
-
-RIGHT = Path(__file__).parents[1] / "slips" / "right.json"
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 BROKEN = (PROGRAMS / "shaft_broken.nc").read_text()
@@ -368,9 +367,7 @@ def test_a_notebook_explores_the_contour_with_the_modal_codes_before_it(served):
     served(use)
 
 
-WITH_A_POLE = "\n".join(
-    next(each for each in json.loads(RIGHT.read_text(encoding="utf-8")) if each["id"] == "right-042")["lines"]
-)
+WITH_A_POLE = program_of("heidenhain", "right-042")
 
 
 def test_a_notebook_has_all_of_the_program_where_a_contour_cannot_stand_alone(served):

@@ -16,7 +16,8 @@ from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pai
 from interpreter import assert_path, interpret, interpret_all
 from oracle import Element, g111
 from oracle_fanuc import Machine, whole
-from oracle_mitsubishi import FORMS as PAIRS, RIGHT, random_block
+from oracle_mitsubishi import FORMS as PAIRS, random_block
+from vectors import VECTORS, ends, path_of as drawn_path
 
 import contoursolve
 from contoursolve.comparison import ToolPath, compare, follow
@@ -195,15 +196,17 @@ def test_linuxcnc_runs_blocks_in_pairs_where_they_were_drawn(count, tmp_path):
 
 
 @pytest.mark.interpreter
-@pytest.mark.parametrize(("text", "expected"), RIGHT)
-def test_linuxcnc_runs_the_worked_examples_of_blocks_in_pairs_to_where_they_end(text, expected, tmp_path):
+@pytest.mark.parametrize("name", [each for each in VECTORS["mitsubishi"] if each.startswith("MI-")])
+def test_linuxcnc_runs_the_worked_examples_of_blocks_in_pairs_to_where_they_end(name, tmp_path):
+    row = VECTORS["mitsubishi"][name]
+    text = "\n".join(row["program"])
     frame = text if text.startswith("%") else f"G21 F100\n{text}\nM2"
     written = contoursolve.expand(frame, post="linuxcnc", control="mitsubishi").text
-    ends = [motion.end for motion in interpret(written, tmp_path) if motion.kind != "traverse"]
-    for first, second in expected:
-        near = [place for place, end in enumerate(ends) if abs(end - complex(first, second)) <= 2e-4]
-        assert near, (first, second)
-        ends = ends[near[0] + 1 :]
+    found = [motion.end for motion in interpret(written, tmp_path) if motion.kind != "traverse"]
+    for expected in ends(row):
+        near = [place for place, end in enumerate(found) if abs(end - complex(*expected)) <= 2e-4]
+        assert near, expected
+        found = found[near[0] + 1 :]
 
 
 RESPELLED = {
@@ -314,18 +317,19 @@ def of_fanuc() -> list[tuple[str, str, list[Element], int]]:
         path = whole(lines, machine)
         assert path, lines
         found.append((control, "F100\n" + "\n".join(lines) + "\n", list(path), plane))
-    for own, text, printed in EXAMPLES.values():
-        control = own or "fanuc-lathe"
-        lines = [line for line in text.splitlines() if re.match(r"(N\d+ )?(G(0[0-3]|1[78]|20) |[XYZ,])", line)]
+    for control, row in EXAMPLES:
+        lines = [line for line in row["program"] if re.match(r"(N\d+ )?(G(0[0-3]|1[78]|20) |[XYZ,])", line)]
         lines = [
             line.replace(" M08", "").replace("N5 Y0", "G01 Y0")
             for line in lines
             if not line.startswith(("N80", "G00 Z50.", "G01 Z-6."))
         ]
-        plane, share = (18, 0.5) if control.endswith("lathe") else (17, 1)
         # The whole programs begin with a line that is no part of a contour.
-        before = {"X16.": "16 2; ", "X-40": "-40 -10; "}.get(lines[0].split()[-2][:4], "")
-        found.append((control, "\n".join(["F100", *lines, ""]), drawn(before + printed, share), plane))
+        path = drawn_path(row)
+        before = {"X16.": 2 + 8j, "X-40": -40 - 10j}.get(lines[0].split()[-2][:4])
+        first = [] if before is None else [Element("line", before, path[0].start)]
+        plane = 18 if control.endswith("lathe") else 17
+        found.append((control, "\n".join(["F100", *lines, ""]), [*first, *path], plane))
     return found
 
 

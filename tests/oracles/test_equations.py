@@ -1,27 +1,23 @@
 """The system on the table: its equations, conditions and functions, against contours, ranks and families."""
 
-import json
 from math import pi
-from pathlib import Path
 
 import numpy as np
 import pytest
 import sympy
+from vectors import BY_HAND as RIGHT, solved
 
 import contoursolve
 from contoursolve.controls import write_tables
 from contoursolve.numeric import symbolic
 from contoursolve.solving import conditions_of, jacobian_of, rank_of
 
-RIGHT = json.loads((Path(__file__).parents[1] / "slips" / "right.json").read_text())
 SHAFT, START = "G111 X100. A180. K-30. B120. P5.", "X40. Z0."
 
 
 def contours(programs):
     for each in programs:
-        settings = dict(setting.split("=") for setting in each.get("settings") or ())
-        text = "\n".join(each["lines"])
-        result = contoursolve.solve(text, control=each["control"], settings=settings, depth="verdict")
+        result = solved(each["control"], each)
         yield from ((each["id"], answer) for answer in result.answers if answer.contour)
 
 

@@ -13,6 +13,7 @@ from random import Random
 import pytest
 from examples_heidenhain import PROGRAMS
 from free_chains import random_chain
+from vectors import VECTORS, program_of, solved as solved_vector
 
 import contoursolve
 from contoursolve import ArcSegment
@@ -30,23 +31,8 @@ from contoursolve.solving import (
 from contoursolve.solving.alternatives import find_alternatives
 from contoursolve.solving.step_equations import Local
 
-# Programs of the manuals: printed there, results derived by hand. -------------------------------------------------
-
-FKEXAMP1 = """0 BEGIN PGM FKEXAMP1 MM
-1 L X-20 Y-20 R0 FMAX
-8 L X+0 Y+0 RL F250
-10 FPOL X+50 Y+20
-11 FL LEN64.5 CLSD+ P1X+15 P1Y+35
-12 FSELECT 1
-13 FL PR+67 AN+21
-14 FL IX+15 IY+0
-15 FL LEN 40 PAR 11
-16 FSELECT 2
-17 FL X+75 Y+20
-18 FL CLSD-
-19 END PGM FKEXAMP1 MM
-"""
-POLAR, CAM = PROGRAMS["g2"], PROGRAMS["g6"]
+HEIDENHAIN = "heidenhain"
+FKEXAMP1 = program_of(HEIDENHAIN, "HF-G1")
 
 
 def chain(*blocks, before="L X+0 Y+0"):
@@ -63,59 +49,6 @@ def solved(program):
 
 def ends(answer):
     return {each.name: each.end for each in answer.contour.elements}
-
-
-@pytest.mark.parametrize(
-    ("program", "printed"),
-    [
-        (
-            FKEXAMP1,
-            {
-                "line 11": (25.4078, 59.2849),
-                "line 13": (79.6224, 80.0959),
-                "line 14": (94.6224, 80.0959),
-                "line 15": (78.8656, 43.3301),
-                "line 17": (75, 20),
-                "line 18": (0, 0),
-            },
-        ),
-        (
-            POLAR,
-            {
-                "line 13": (28.7939, 16.8404),
-                "line 14": (34.6517, 22.6983),
-                "arc 15": (48.7939, 28.5561),
-                "line 16": (65, 10),
-            },
-        ),
-        (chain("FL AN+60", "FL X+80 Y+20 AN-30"), {"line 2": (28.6603, 49.6410), "line 3": (80, 20)}),
-        (
-            chain("FC DR- R20 CCX+20 CCY+30", "FLT", "FCT DR- R12 CCX+90 CCY+45 CCA+0", before="L X+0 Y+30"),
-            {"arc 2": (18.0210, 49.9019), "line 3": (88.8126, 56.9411)},
-        ),
-        (
-            chain("FC DR- R20 CCX+20 CCY+30", "FLT", "FCT DR+ R12 CCX+90 CCY+45 CCA+0", before="L X+0 Y+30"),
-            {"arc 2": (24.9928, 49.3668), "line 3": (87.0043, 33.3799)},
-        ),
-        (
-            CAM,
-            {
-                "line 8": (8.6824, 49.2404),
-                "arc 9": (28.2528, 60.8475),
-                "line 10": (84.5591, 41.8370),
-                "corner 10": (90, 34.2573),
-                "line 12": (90, 5),
-                "corner 12": (85, 0),
-                "line 14": (0, 0),
-            },
-        ),
-    ],
-    ids=["FKEXAMP1", "polar", "vertex", "belt", "crossed belt", "cam"],
-)
-def test_a_program_of_a_manual_comes_out_as_it_does(program, printed):
-    found = ends(solved(program))
-    for name, at in printed.items():
-        assert found[name] == pytest.approx(at, abs=6e-5), name
 
 
 def test_both_choices_of_fkexamp1_are_listed_and_chosen_by_their_numbers():
@@ -156,44 +89,22 @@ def test_settings_tell_what_numbers_choose_and_what_comes_without_them():
     assert ends(first)["line 15"] == pytest.approx((110.3791, 116.8617), abs=6e-5)
 
 
-@pytest.mark.parametrize(
-    ("blocks", "alarm"),
-    [
-        (["FL P1X+20"], "402-0008"),
-        (["FC R10 CCX+5 CCY+5"], "402-0008"),
-        (["FL X+20 Y+5 DP 5"], "402-0008"),
-        (["FL PDX+20 PDY+5 X+3 Y+4"], "402-0008"),
-        (["FL AN+30 D5 LEN10"], "402-0008"),
-        (["FL X+5 Y+0", "FPOL X+3", "FL PR+5 PA+20"], "402-0008"),
-        (["FPOL X+5", "FL PR+5 PA+20"], "402-0008"),
-        (["FPOL Y+5", "M8", "FL X+5 Y+20", "FL X+30 Y+3"], "402-0008"),
-        (["FPOL X+5", "L X+5 Y+20", "FL X+30 Y+3"], "402-0008"),
-        (["FL AN+60", "L X+50 Y+0"], "402-0009"),
-    ],
-)
-def test_the_numbers_of_the_control_come_with_their_causes(blocks, alarm):
-    found = [str(each.alarm) for each in solved(chain(*blocks)).diagnostics if each.alarm]
-    assert any(alarm in text for text in found), found
-
-
 ARC = "FC X+50 Y+20 CCX+30 CCY+20 DR+ R20"
 
 
 @pytest.mark.parametrize(
-    ("blocks", "code", "word"),
-    [
-        ([ARC, "FL LEN30 AN+20 PAR 2"], "heidenhain-block-no-line", "PAR 2"),
-        ([ARC, "FL LEN30 PAR 2 DP10"], "heidenhain-block-no-line", "PAR 2"),
-        ([ARC, "FL X+60 Y+60", "FL LEN30 IAN+20 RAN 2"], "heidenhain-block-no-line", "RAN 2"),
-        ([ARC, "FL LEN30 PAR 9"], "heidenhain-block-missing", "PAR 9"),
-        ([ARC, "FL IX+10 IY+20 RX 2 RY 7"], "heidenhain-block-missing", "RY 7"),
-        ([ARC, "FL LEN30 X+60 Y+45 RX 2"], "heidenhain-reference-alone", "RX 2"),
-    ],
+    ("name", "word"),
+    [("block-no-line", "PAR 2"), ("block-no-line-3", "RAN 2"), ("block-missing", "PAR 9"), ("block-missing-2", "RY 7")],
 )
-def test_a_reference_to_a_block_that_it_cannot_mean_is_told(blocks, code, word):
-    found = solved(chain(*blocks, before="L X+10 Y+20")).diagnostics
-    (own,) = (each for each in found if each.code == code)
+def test_a_reference_to_a_block_that_it_cannot_mean_is_told(name, word):
+    row = VECTORS[HEIDENHAIN][f"heidenhain-{name}"]
+    (own,) = (each for each in solved_vector(HEIDENHAIN, row).diagnostics if each.code == row["refused"]["code"])
     assert own.message.startswith(word)
+
+
+def test_a_reference_beside_both_coordinates_is_told():
+    found = solved(chain(ARC, "FL LEN30 X+60 Y+45 RX 2", before="L X+10 Y+20")).diagnostics
+    assert [each.message[:4] for each in found if each.code == "heidenhain-reference-alone"] == ["RX 2"]
 
 
 def test_an_angle_may_count_from_the_arc_right_before():
@@ -276,41 +187,19 @@ def test_a_block_that_only_cuts_a_line_or_an_arc_is_told_and_the_path_is_solved(
 
 
 @pytest.mark.parametrize(
-    "blocks",
+    ("name", "off"),
     [
-        ["FL X+0 Y+20", "FL AN+180", "FL X+50 Y+20"],
-        ["FL X+0 Y+20", "FL", "FL X+50 Y+20"],
-        ["FL X+0 Y+20", "FL Y+20", "RND R2", "FL X+50 Y+20"],
-        ["FL X+0 Y+20", "FL Y+20", "FL X+50 Y+30"],
-        ["FL AN+180", "FL AN+0 X+50"],
-        ["FL AN+0", "FL AN+0 LEN20", "FL X+50 Y+30"],
-        ["FL AN+0", "FLT", "FCT DR+ R10 CCA+0"],
-    ],
-    ids=["the other way", "anywhere", "with a corner", "not straight", "turning back", "sliding", "of any length"],
-)
-def test_a_point_that_does_more_than_cut_a_line_is_missing_a_word(blocks):
-    answer = solved(chain(*blocks))
-    assert answer.status.value == "underdetermined"
-    assert [each.code for each in answer.diagnostics if each.is_error] == ["words-missing"]
-
-
-@pytest.mark.parametrize(
-    ("blocks", "code", "off"),
-    [
-        (["FC DR+ R20 CCX+0 CCY+20", "FCT DR- R15 CCX+35.917 CCY+20", "FLT"], "radius-difference", 0.917),
-        (
-            ["FL LEN30", "FL AN+45", "FC DR+ R20 CCX+0 CCY+20", "FCT DR- R15 CCX+35.917 CCY+20"],
-            "radius-difference",
-            0.917,
-        ),
-        (["FL X+30 Y+0 LEN25", "FL AN+70"], "words-conflict", 5),
-        (["FL AN+10", "FL X+50 Y+20 AN+60", "FL LEN20 X+80", "FL AN+0"], "no-point", None),
-        (["FL AN+30", "FC DR- R10 CCX+40 CCY+0 X+40 Y+12", "FL AN+0"], "no-point", None),
+        ("radius-difference", 0.917),
+        ("radius-difference-2", 0.917),
+        ("words-conflict", 5),
+        ("no-point", None),
+        ("no-point-2", None),
     ],
 )
-def test_a_contradiction_is_told_before_what_is_missing(blocks, code, off):
-    first, second = solved(chain(*blocks)).diagnostics[:2]
-    assert (first.code, second.code) == (code, "words-missing")
+def test_a_contradiction_is_told_before_what_is_missing(name, off):
+    row = VECTORS[HEIDENHAIN][name]
+    first, second = solved_vector(HEIDENHAIN, row).diagnostics[:2]
+    assert (first.code, second.code) == (row["refused"]["code"], "words-missing")
     assert first.values.get("off_by_mm") == (off and pytest.approx(off, abs=1e-3))
 
 
@@ -332,16 +221,9 @@ def test_many_arcs_on_one_circle_are_told_and_not_searched(monkeypatch):
     assert (answer.status.value, calls) == ("underdetermined", [])
 
 
-@pytest.mark.parametrize(
-    ("block", "word"),
-    [
-        ("FC DR+ R10 CCX+10 CCY+0 CCA+180 X+20 Y+0", "CCA+0"),
-        ("FC DR+ R10 CCX+10 CCY+0 CCA+90 X+10 Y-10", "CCA-90"),
-        ("FC DR+ R10 CCX+10 CCY+0 CCA-45 X+20 Y+0", "CCA+0"),
-    ],
-)
-def test_a_direction_of_an_arc_that_others_contradict_is_one_conflict_and_never_agrees(block, word):
-    (finding,) = solved(chain(block)).diagnostics
+@pytest.mark.parametrize(("number", "word"), [(2, "CCA+0"), (3, "CCA-90"), (4, "CCA+0")])
+def test_a_direction_of_an_arc_that_others_contradict_is_one_conflict_and_never_agrees(number, word):
+    (finding,) = solved(program_of(HEIDENHAIN, f"words-conflict-{number}")).diagnostics
     assert (finding.code, finding.values["expected"]) == ("words-conflict", pytest.approx(float(word[3:])))
     assert any(fix.description.startswith(f"write {word} for") for fix in finding.fixes)
 

@@ -1,128 +1,160 @@
-"""The worked examples of both control sheets, to the digits that they print.
+"""The worked examples of all controls, right and wrong: docs/vectors, to the digits that they print."""
 
-Programs of the NCT manual are printed in it; where its results, and the YASNAC examples as a whole, are
-marked derived, they were computed from the page by hand and not by this package.
-"""
-
-from dataclasses import dataclass, field
+import json
+import re
+import subprocess
+import sys
+from itertools import chain
+from pathlib import Path
 
 import pytest
+from jsonschema import Draft202012Validator
 from oracle import Number, Outcome, circle_line, g111, largest_gap
+from vectors import CLOSE, FILES, FOLDER, ROWS, program_of, public, refusal, settings, solved, written
 
-from contoursolve import Answer, ArcSegment, solve
+from contoursolve import Result, check, solve
+from contoursolve.comparison import Document, ReceiptVerdict, verify
+from contoursolve.controls import DIALECTS
+from contoursolve.output.document import to_json
 
-Point = tuple[str, str]
-"""As printed: a computed value agrees if it rounds to these digits."""
-
-
-@dataclass
-class Example:
-    """A block or pair, where it is from, and the ends of its elements."""
-
-    source: str
-    """Manual, page, and what is printed and what derived."""
-    program: str
-    vertices: tuple[Point, ...]
-    arcs: tuple[tuple[str, str], ...] = ()
-    """Radius and turn of each arc."""
-    points: dict[str, Point] = field(default_factory=dict)
-
-
-LX3 = "YASNAC LX3 2.8.30, p. 136-140: words printed, block and results derived"
-NCT = "NCT 99M 16.3.3, p. 130: program printed, result derived"
-
-# Z and X as radius.
-TAPERS = {
-    "two bevels": Example(
-        LX3,
-        "G00 X40. Z0.\nG111 X100. A180. K-30. B120. C5. D5.",
-        (("-27.8868", "20"), ("-32.8868", "25"), ("-44.4338", "45"), ("-49.4338", "50")),
-        points={"V1": ("-30", "20"), "V2": ("-47.3205", "50")},
-    ),
-    "two roundings": Example(
-        LX3,
-        "G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.",
-        (("-27.1132", "20"), ("-31.4434", "22.5"), ("-45.8771", "47.5"), ("-50.2073", "50")),
-        (("5", "cw"), ("5", "ccw")),
-        {"V1": ("-30", "20"), "V2": ("-47.3205", "50")},
-    ),
-    "two roundings, by Z": Example(
-        LX3,
-        "G00 X40. Z0.\nG111 Z-60. A180. K-30. B120. P5. Q5.",
-        (("-27.1132", "20"), ("-31.4434", "22.5"), ("-59.3301", "70.8013"), ("-60", "73.3013")),
-        (("5", "cw"), ("5", "cw")),
-        {"V1": ("-30", "20"), "V2": ("-60", "71.9615")},
-    ),
-    "a bevel, by W": Example(
-        LX3,
-        "G00 X40. Z0.\nG111 W-60. A180. K-30. B150. D5.",
-        (("-30", "20"), ("-55", "34.4338"), ("-60", "39.4338")),
-        points={"V1": ("-30", "20"), "V2": ("-60", "37.3205")},
-    ),
+NO_WORDS_OF_CONTOURS = {
+    "fanuc-lathe": {"J"},  # Y is no axis of a lathe's plane
+    "haas-lathe": {"J"},
+    "heidenhain": {"Z", "IZ"},  # beside the plane
 }
-"""Both printed formats: the end by X(U), which corner 2 leaves along Z, and by Z(W), which it leaves along X."""
-
-_P130 = "N10 G17 G0 X90 Y0 M3 S200\nN20 G42 G1 X50 D0\nN30 G3 X-50 Y0 R50\nN40 G1 X-50 Y{y} ,A{a} Q{q}\nN50 G40 G0 Y70"
-_PRINTED = {"y": "42.857", "a": "171.87"}
-_EXACT = {"y": "42.857142857143", "a": "171.869897645844"}
-"""The line through (40, 30) and (-30, 40): its slope is -1/7."""
-
-PAIRS = {
-    "Q-1, printed decimals": Example(
-        NCT, _P130.format(q=-1, **_PRINTED), (("39.99998", "30.00002"), ("-50", "42.857")), (("50", "ccw"),)
-    ),
-    "Q1, printed decimals": Example(
-        NCT, _P130.format(q=1, **_PRINTED), (("-30.00012", "39.99991"), ("-50", "42.857")), (("50", "ccw"),)
-    ),
-    "Q-1, exact": Example(
-        NCT, _P130.format(q=-1, **_EXACT), (("40.0000000", "30.0000000"), ("-50", "42.8571429")), (("50", "ccw"),)
-    ),
-    "Q1, exact": Example(
-        NCT, _P130.format(q=1, **_EXACT), (("-30.0000000", "40.0000000"), ("-50", "42.8571429")), (("50", "ccw"),)
-    ),
-}
+"""Letters of a control that no contour of a right vector can have."""
 
 
-def rounds_to(value: float, digits: str) -> bool:
-    decimals = len(digits.partition(".")[2])
-    return abs(value - float(digits)) <= 0.5 * 10**-decimals if decimals else abs(value - float(digits)) <= 1e-9
+RUN, OURS = public("run"), public("answer")
 
 
-def assert_matches(answer: Answer, example: Example) -> None:
-    assert answer.status.value == "solved", example.source
-    assert [each for each in answer.diagnostics if each.severity.value != "info"] == []
-    contour = answer.contour
-    found = [element.end for element in contour.elements] + [contour.points[name] for name in example.points]
-    for at, expected in zip(found, (*example.vertices, *example.points.values()), strict=True):
-        assert all(map(rounds_to, at, expected)), (at, expected, example.source)
-    arcs = [each for each in contour.elements if isinstance(each, ArcSegment)]
-    assert [(f"{arc.radius:g}", arc.turn.value) for arc in arcs] == list(example.arcs)
-    assert contour.end == contour.elements[-1].end
+def assert_right(control: str, row: dict, result: Result) -> None:
+    """That the path is the vector's, in each number that stands there, or the reason why there is none."""
+    if "refused" in row:
+        assert refusal(result) == {name: row[name] for name in ("refused", "grade", "source")}, row["id"]
+        return
+    assert not result.has_errors, (row["id"], [each.message for each in result.diagnostics])
+    assert [[each.lines[0], each.lines[-1]] for each in result.answers] == [each["lines"] for each in row["contours"]]
+    for answer, meant in zip(result.answers, row["contours"], strict=True):
+        contour, points = answer.contour, meant.get("points", {})
+        assert list(answer.plane.axes) == meant["axes"]
+        # Places that are no ends are compared as lines to them.
+        shown = [{"end": at} for at in (meant["start"], *points.values())]
+        found = [{"end": at} for at in (contour.start, *(contour.points[name] for name in points))]
+        vector = {**row, "contours": [{**meant, "path": [*shown, *meant["path"]]}]}
+        path = [*found, *map(OURS.move, contour.elements)]
+        assert RUN.difference(vector, {"path": path}) == "", (row["id"], path)
+        assert len(contour.elements) == len(meant["path"])
 
 
-@pytest.mark.parametrize("name", TAPERS)
-def test_the_tapers_of_the_yasnac_sheet_come_out_to_its_digits(name: str) -> None:
-    assert_matches(solve(TAPERS[name].program).answers[0], TAPERS[name])
+@pytest.mark.parametrize("rows", [ROWS[2::7], pytest.param(ROWS, marks=pytest.mark.slow)], ids=["some", "all"])
+def test_a_vector_comes_out_as_it_says(rows):
+    for control, row in rows:
+        assert_right(control, row, solved(control, row))
 
 
-@pytest.mark.parametrize("name", PAIRS)
-def test_the_pairs_of_the_nct_sheet_come_out_to_its_digits(name: str) -> None:
-    result = solve(PAIRS[name].program)
+@pytest.mark.slow
+def test_no_vector_is_refuted_and_nothing_is_reported_of_a_program_as_people_write_it():
+    for control, row in ROWS:
+        asked = "\n".join(row["program"])
+        result = solve(asked, control=control, settings=settings(control, row))
+        documents = Document("program", asked.encode()), Document("result", to_json(result).encode())
+        verdict = verify(*documents, control=control).verdict
+        assert (verdict is not ReceiptVerdict.FAILED) if "refused" in row else (verdict is ReceiptVerdict.VERIFIED)
+        assert not row.get("part") or {each.severity.value for each in result.diagnostics} <= {"info"}, row["id"]
+
+
+def test_the_files_are_sorted_have_their_schema_and_every_control():
+    schema = json.loads((FOLDER / "schema.json").read_text(encoding="utf-8"))
+    Draft202012Validator.check_schema(schema)
+    holds = Draft202012Validator(schema)
+    assert FILES.keys() == DIALECTS.keys()
+    for control, path in FILES.items():
+        content = path.read_text(encoding="utf-8")
+        file = json.loads(content)
+        assert not [each.message for each in holds.iter_errors(file)][:3]
+        assert content == written(control, file["vectors"])
+        names = [each["id"] for each in file["vectors"]]
+        assert len(names) == len({*names})
+        programs = [(*each["program"], str(each.get("settings"))) for each in file["vectors"]]
+        assert len(programs) == len({*programs})
+        assert {"refused", "contours"} <= {*chain.from_iterable(file["vectors"])}
+    assert len(ROWS) >= 600
+
+
+@pytest.mark.slow
+def test_the_right_vectors_have_every_form_and_every_word_of_their_control():
+    for control, dialect in DIALECTS.items():
+        own = [row for name, row in ROWS if name == control and "contours" in row]
+        claims = [answer.claim for row in own for answer in solved(control, row).answers]
+        words = {word.address for claim in claims for block in claim.blocks for word in block.words}
+        words |= {word.text for claim in claims for block in claim.blocks for word in block.words}
+        lexicon = dialect.modes.lexicon.addresses.keys() - {"ROUNDING", "CHAMFER"}
+        assert lexicon - words == NO_WORDS_OF_CONTOURS.get(control, set()), control
+        forms = {(each.name, each.title) for each in dialect.forms if each.is_contour}
+        assert forms <= {(claim.form.name, claim.form.title) for claim in claims}, control
+
+
+def test_the_page_shows_vectors_as_they_are_and_leads_to_each_file():
+    page = FOLDER.with_name("vectors.md").read_text(encoding="utf-8")
+    shown = [json.loads(each) for each in re.findall(r"```json\n(.*?)```", page, re.DOTALL)]
+    rows = [row for _, row in ROWS]
+    assert [each in rows for each in shown if "id" in each] == [True, True]
+    assert {Path(each).stem for each in re.findall(r"\(vectors/(.*?\.json)\)", page)} == {*FILES, "schema"}
+    asked = next(each for each in shown if "control" in each)
+    assert OURS.answer(asked)["path"][0]["end"] == pytest.approx(shown[3]["path"][0]["end"])
+
+
+# The script that runs them against a program ----------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_the_script_runs_all_of_them_against_a_program():
+    command = [sys.executable, str(FOLDER / "run.py"), sys.executable]
+    told = subprocess.run([*command, str(FOLDER / "answer.py")], capture_output=True, text=True, check=True).stdout
+    assert told == f"{len(ROWS)} of {len(ROWS)} answers are right\n"
+    dumb = "import sys\nfor line in sys.stdin: print('{\"path\": []}')"
+    wrong = subprocess.run([*command, "-c", dumb], capture_output=True, text=True, check=False)
+    assert (wrong.returncode, wrong.stdout.splitlines()[-1]) == (1, f"0 of {len(ROWS)} answers are right")
+
+
+def test_the_script_takes_no_other_path_alarm_or_verdict():
+    difference = RUN.difference
+    assert len((FOLDER / "run.py").read_text(encoding="utf-8").splitlines()) <= 60
+    for control, row in ROWS[::40]:
+        path = [move for contour in row.get("contours", ()) for move in contour["path"]]
+        if not path:
+            assert difference(row, {"path": [{"end": [0, 0]}]})
+            assert difference(row, {"refused": "", "alarm": "007"})
+            assert not difference(row, {"refused": ""})
+            continue
+        right = OURS.answer(RUN.question(control, row))["path"]
+        assert not difference(row, {"path": [{"end": [1e3, 1e3]}, *right, {"end": [0, 0]}]})
+        assert difference(row, {"refused": ""})
+        for number, move in enumerate(right):
+            first, second = move["end"]
+            for other in ({"end": [first, second + 2 * row["tolerance"] + CLOSE]}, {"turn": "up"}):
+                assert difference(row, {"path": [*right[:number], {**move, **other}, *right[number + 1 :]]}), row["id"]
+        assert difference(row, {"path": right[1:]})
+
+
+# What else the sheets say -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("q", "side"), [("Q-1", "nearer"), ("Q1", "farther")])
+def test_the_pairs_of_the_nct_sheet_are_found_without_a_control_and_tell_their_side(q, side):
+    result = solve(program_of("nct-99m", f"p130-{q}-printed"))
     assert result.control == "nct-99m"
     (answer,) = result.answers
-    assert answer.lines == (3, 4)
-    assert answer.sides["P1"].value == ("nearer" if "Q-" in name else "farther")
+    assert answer.sides["P1"].value == side
     assert answer.contour.points["P1"] == answer.contour.elements[0].end
-    assert_matches(answer, PAIRS[name])
 
 
-def test_a_taper_in_the_forbidden_band_is_refused_for_both_bevels() -> None:
+def test_a_taper_in_the_forbidden_band_is_refused_for_both_bevels():
     """YASNAC sheet, third example, derived: both setbacks are negative; alarm 146 is assumed for G111."""
-    result = solve("G00 X40. Z0.\nG111 X60. A180. K-30. B160. C2. D2.")
-    assert result.answers[0].status.value == "no-solution"
-    assert result.answers[0].contour is None
-    errors = [each for each in result.diagnostics if each.severity.value == "error"]
-    assert {(each.alarm.number, each.addresses) for each in errors if each.alarm} == {("146", ("C",)), ("146", ("D",))}
+    found = check("G00 X40. Z0.\nG111 X60. A180. K-30. B160. C2. D2.")
+    errors = {(each.alarm.number, each.addresses) for each in found if each.alarm}
+    assert errors == {("146", ("C",)), ("146", ("D",))}
 
 
 @pytest.mark.parametrize(

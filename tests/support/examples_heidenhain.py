@@ -1,5 +1,7 @@
 """Worked examples of free contour programming, as whole programs."""
 
+from vectors import program_of
+
 PROGRAMS = {
     "g1": """\
 0 BEGIN PGM FKEXAMP1 MM
@@ -17,49 +19,6 @@ PROGRAMS = {
 18 FL CLSD-
 19 END PGM FKEXAMP1 MM
 """,
-    "g2": """\
-0 BEGIN PGM G2 MM
-11 L X+10 Y+10
-12 FPOL X+10 Y+10
-13 FL PR+20 PA+20
-14 FL AN+45
-15 FCT IX+20 DR- R20 CCA+90 RX 13
-16 FL IPR+35 PA+0 RPR 13
-17 END PGM G2 MM
-""",
-    "g3": """\
-0 BEGIN PGM G3 MM
-1 L X+0 Y+0
-2 FL AN+60
-3 FL X+80 Y+20 AN-30
-4 END PGM G3 MM
-""",
-    "g5": """\
-0 BEGIN PGM G5 MM
-1 L X+0 Y+30
-2 FC DR- R20 CCX+20 CCY+30
-3 FLT
-4 FCT DR- R12 CCX+90 CCY+45 CCA+0
-5 END PGM G5 MM
-""",
-    "g6": """\
-0 BEGIN PGM CAM MM
-1 BLK FORM 0.1 Z X-10 Y-10 Z-20
-2 BLK FORM 0.2 X+110 Y+80 Z+0
-3 TOOL CALL 4 Z S3200
-4 L Z+100 R0 FMAX M3
-5 L X-20 Y-20 R0 FMAX
-6 L Z-8 R0 F500
-7 L X+0 Y+0 RL F300 ; START OF THE CONTOUR
-8 FL AN+80 LEN50 CLSD+
-9 FCT DR- R15
-10 FLT X+90 Y+40
-11 RND R8
-12 FL X+90 Y+0
-13 CHF 5
-14 FL X+0 Y+0 CLSD-
-15 L X-20 Y-20 R0 FMAX
-16 L Z+100 R0 FMAX M30
-17 END PGM CAM MM
-""",
+    **{name.lower(): program_of("heidenhain", f"HF-{name}") + "\n" for name in ("G2", "G3", "G6")},
+    "g5": program_of("heidenhain", "HF-G5-belt") + "\n",
 }

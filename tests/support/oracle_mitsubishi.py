@@ -17,45 +17,6 @@ CLEAR = 1e-3
 """mm. What is as close as that to where a solution ends is nobody's to judge."""
 
 
-LEVER = """%
-O3001(LEVER)
-G17 G21 G90 G40
-T5 M6
-G54 G00 X-10. Y0 S2000 M3
-G43 H5 Z5.
-G01 Z-4. F150
-N1 G01 X0 F400
-N2 A60.
-N3 X50. Y60. A0
-N4 A-20.
-N5 G02 X100. Y20. R35.
-N6 G01 Y0 A-110.
-N7 X0 ,R4.
-N8 Y-10.
-G00 Z50.
-M30
-%"""
-VERTEX = "G17 G90 G00 X10. Y10.\nG01 A70.\nX80. Y25. A-30."
-CROSSING = "G17 G90 G00 X0 Y5.\nG01 A10.\nG02 X60. Y15. I-20. J-25. H0"
-CONTACT = "G17 G90 G00 X0 Y0\nG01 A15.\nG03 X70. Y50. R30."
-ARCS = "G17 G90 G00 X0 Y0\nG03 I0 J30.\nG02 X70. Y60. R25."
-
-RIGHT = [
-    ("G17 G90 G00 X10. Y5.\nG01 X40. A25.\nX70. A-35.", [(40, 18.9892), (70, -2.0170)]),
-    (VERTEX, [(26.6669, 55.7919), (80, 25)]),
-    (CROSSING, [(13.0632, 7.3034), (60, 15)]),
-    (CROSSING.replace("H0", "H1"), [(59.3942, 15.4728), (60, 15)]),
-    (CONTACT, [(48.8336, 13.0849), (70, 50)]),
-    (CONTACT.replace("R30.", "R-30."), [(106.7881, 28.6138), (70, 50)]),
-    (ARCS, [(29.4094, 35.9236), (70, 60)]),
-    (
-        LEVER,
-        [(34.6410, 60), (50, 60), (77.0785, 50.1442), (100, 20), (92.7206, 0), (4, 0), (0, -4), (0, -10)],
-    ),
-]
-"""Worked examples of the sheet: a program, and where its elements end."""
-
-
 class Drawn(NamedTuple):
     """A program, its path by the oracle (empty where there is none), and whether rounding decides."""
 

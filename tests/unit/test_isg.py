@@ -8,6 +8,7 @@ from examples import some_of
 from examples_fanuc import drawn
 from oracle import Element
 from oracle_corners import gap
+from vectors import VECTORS, program_of
 
 from contoursolve import check, expand, solve
 from contoursolve.cli import main
@@ -15,44 +16,6 @@ from contoursolve.diagnostics import Severity
 
 ISG = "isg"
 MILL = "G17 G90 G0 X0 Y0\n"
-IS_G3 = "N250 G18 G01 Z15 X2\nN260 #ANG=30 #RND=3\nN270 #ANG=80 G01 Z40 X30"
-IS_G4 = "N250 G18 G01 Z15 X2\nN260 #ANG=30 #RND=3 Z25\nN270 G01 Z40 X30"
-IS_G5 = "G0 X0 Y0\nN10 G91 G01 X80 Y-40 F100\nN20 G301 I40\nN30 G01 X80 Y40"
-IS_G6 = "G0 X0 Y0\nN10 G91 G01 X60 F100\nN20 G302 I30\nN30 X-40 Y-55"
-IS_G7 = """%BRACKET
-(OUTSIDE CONTOUR (6 MM PLATE))
-N10 G17 G90 G71 G162
-N20 T3 D3 M06
-N30 S3000 M03
-N40 G00 X0 Y-10 Z50
-N50 Z2
-N60 G01 Z-6 F200
-N70 Y0 F800 ;START OF CONTOUR
-N80 X10
-N90 #ANG=70 #RND=8
-N100 #ANG=15 X60 Y70
-N110 X90 #CHR=6
-N120 #ANG=-60 Y20
-N130 G302 I5
-N140 G01 Y0
-N150 G00 Z50
-N160 M05
-N170 M30"""
-RIGHT = {
-    "IS-G1": ("N10 G17 G90 G0 X10 Y10\nN20 G01 F2000 #ANG=60 X20", "10 10; 20 27.3205"),
-    "IS-G2": ("G0 X10 Y10\nG01 #ANG=35 Y20", "10 10; 24.2815 20"),
-    "IS-G3": (IS_G3, "15 2; 36.1253 14.1967 > ccw 37.5797 16.2738 34.6253 16.7948; 40 30"),
-    "IS-G4": (IS_G4, "15 2; 24.4005 7.4274 > ccw 25.3872 8.3473 22.9005 10.0255; 40 30"),
-    "IS-G5": (IS_G5, "0 0; 44.2229 -22.1115; 115.7771 -22.1115; 160 0"),
-    "IS-G6": (IS_G6, "0 0; 1.0869 0 > cw 25.3490 -47.6452 1.0869 -30; 20 -55"),
-    "IS-G7": (
-        IS_G7,
-        (
-            "10 0; 31.4036 58.8059 > cw 36.8506 63.7971 38.9211 56.0697; 60 70; 84 70; 93 64.8038; 118.1976 21.1603 > "
-            "cw 118.8675 18.6603 113.8675 18.6603; 118.8675 0"
-        ),
-    ),
-}
 
 
 def isg(text: str, **settings: str):
@@ -87,45 +50,6 @@ def refused(text: str, code: str, number: str | None = None, **settings: str) ->
     assert (errors[0].alarm.number.split()[0] if errors[0].alarm else None) == number
     line = errors[0].span.line
     assert not [each for each in result.answers if each.contour and each.lines[0] <= line <= each.lines[-1]]
-
-
-@pytest.mark.parametrize("name", RIGHT)
-def test_a_worked_example_comes_out_as_the_sheet_has_it(name):
-    text, expected = RIGHT[name]
-    found = path(text)
-    assert gap(drawn(expected, 1), found) < 1.1e-4
-
-
-@pytest.mark.parametrize(
-    ("text", "code", "number"),
-    [
-        ("N240 G18 G1 Z15 X10\n#ANG 60\n#ANG 60 Z40 X30", "angles-parallel", "21892"),
-        ("N240 G18 G1 Z15 X10\n#ANG 60\n#ANG 240 Z40 X30", "angles-parallel", "21892"),
-        ("N100 G17 G1 X10 Y10\n#ANG=45 X20 Y25", "angle-redundant", "21895"),
-        ("N250 G18 G01 Z15 X2\n#ANG=30 #RND=3\nG01 Z40 X30", "closing-incomplete", "21904"),
-        ("N250 G18 G01 Z15 X2\n#ANG=30 #RND=3\nG01 Z40 #ANG=80", "closing-incomplete", "21904"),
-        ("G18 G01 Z15 X2\n#ANG=30\nM30", "end-missing", "21904"),
-        ("G18 G01 Z15 X2\n#ANG=30\nM8\n#ANG=80 Z40 X30", "end-missing", "21904"),
-        (MILL + "G1 #ANG=30\n#ANG=40\n#ANG=80 X40 Y30", "closing-incomplete", "21904"),
-        (MILL + "G1 #ANG=30\nG91 X10 Y-10 #ANG=-45", "closing-increment", "21910"),
-        (MILL + "G01 X10\nG301\nG01 Y10", "corner-size", "20012"),
-        (MILL + "G01 X10\nG302 I0\nG01 Y10", "corner-size", "20012"),
-        (MILL + "G302 I5\nG1 X10", "corner-alone", "20351"),
-        (MILL + "G1 X10 Y10\nM8\nG302 I5\nG1 X20", "corner-alone", "20351"),
-        (MILL + "G1 X30 #RND=40\nY30", "corner-too-large", None),
-        (MILL + "G1 X30\nG301 I31\nG1 Y40", "corner-too-large", None),
-        (MILL + "G1 X30\nG302 I5\nG1 X40", "corner-straight", None),
-        (MILL + "G1 X30 #RND=4 #CHR=2\nY30", "two-corners", None),
-        (MILL + "G1 X30 #CHF=4 #CHR=2\nY30", "two-corners", None),
-        (MILL + "G2 X20 Y20 I20 J0 #ANG=3", "angle-on-arc", None),
-        (MILL + "G1 X30\nG302 I-5\nG1 Y40", "corner-negative", None),
-        (MILL + "G1 X30\nG302 I5\nM30", "corner-without-next", None),
-        (MILL + "G0 X10 Y10\nG01 #ANG=60 X0", "line-reversed", None),
-        (MILL + "G1 #ANG=30\nG18 X60 Z20 #ANG=-45", "plane-changes", None),
-    ],
-)
-def test_what_the_sheet_refuses_has_its_number_and_no_contour(text, code, number):
-    refused(text, f"isg-{code}", number)
 
 
 def test_two_corners_between_two_moves_are_refused():
@@ -225,8 +149,8 @@ def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
 
 
 def test_words_with_a_number_sign_show_the_control():
-    for text, _ in RIGHT.values():
-        assert solve(text).control == ISG, text
+    for name in (name for name in VECTORS[ISG] if name.startswith("IS-")):
+        assert solve(program_of(ISG, name)).control == ISG, name
     assert solve(MILL + "G1 X30 # CHR = 2\nY40").control == ISG
 
 
@@ -356,7 +280,7 @@ def test_a_stream_gives_what_the_whole_program_gives():
 
 # Expansion ----------------------------------------------------------------------------------------------------------
 
-WRITTEN = {name: row[0] for name, row in RIGHT.items()} | {
+WRITTEN = {name: program_of(ISG, name) for name in VECTORS[ISG] if name.startswith("IS-")} | {
     "stored": MILL + "G1 X30\nG302 I5\nG1 Y30\nG301\nG1 X60 #FRC=100",
     "G51": "G18 G51 G90 G0 Z15 X4\nG1 #ANG=30 #RND=3\n#ANG=80 Z40 X60\nG302 I2\nG1 X80",
 }

@@ -11,47 +11,14 @@ from examples_fanuc import drawn
 from hypothesis import strategies as st
 from oracle import Element
 from oracle_corners import gap
+from vectors import VECTORS, program_of
 
 from contoursolve import check, expand, solve
 from contoursolve.cli import main
 
 CONTROLS = ("siemens-840d", "siemens-808d")
 MILL = "G17 G90 G0 X0 Y0\n"
-SI_G1 = """N10 G0 X10 Z100 F1000 G18 DIAMOF
-N20 G1 ANG=140 CHR=7.5
-N30 X80 Z70 ANG=95.824 RND=10
-N40 X70 Z50"""
-SI_G3 = "G18 DIAMON G0 X0 Z10\nG1 X23.293 Z0\nX40 Z-30\nCT X58.146 Z-42"
-SI_G4 = MILL + "G1 ANG=30 RND=6\nX60 Y20 ANG=-45"
-SI_G5 = """; FLANGE, FINISH CONTOUR
-N10 G18 G90 G95 DIAMON
-N20 T="FINISH_35" D1
-N30 G96 S200 LIMS=3000 M4
-N40 G0 X20 Z2
-N50 G1 Z0 F0.2
-N60 X30 CHR=1.5
-N70 Z-20 F0.12
-N80 X40 ANG=120
-N90 ANG=175 RND=10
-N100 X70 Z-60 ANG=105 CHR=2
-N110 Z-85 RND=3
-N120 X84
-N130 G0 X120 Z60
-N140 M30"""
-_SI_G1 = "10 100; 26.1563 80.7456; 38.4385 74.2392; 65.5949 71.4693 > ccw 73.5244 57.0488 64.5801 61.5209; 70 50"
-_SI_G5 = (
-    "20 0; 27 0; 30 -1.5; 30 -20; 40 -22.8868; 44.7092 -49.7998 > cw 59.4567 -58.5875 64.6331 -48.9282; "
-    "66.1363 -59.4824; 70 -62; 70 -82 > cw 76 -85 76 -82; 84 -85"
-)
-RIGHT = {
-    "SI-G1": (SI_G1, 1, _SI_G1),
-    "SI-G2 X": ("G18 DIAMOF G0 X5 Z70\nG1 X88.8 ANG=110", 1, "5 70; 88.8 39.4993"),
-    "SI-G2 Z": ("G18 DIAMOF G0 X5 Z70\nG1 Z39.5 ANG=110", 1, "5 70; 88.7981 39.5"),
-    "SI-G3 on": (SI_G3, 0.5, "23.293 0; 40 -30; cw 58.146 -42 79.4862 -24.5025"),
-    "SI-G3 off": (SI_G3.replace("MON", "MOF"), 1, "23.293 0; 40 -30; cw 58.146 -42 60.6433 -18.5037"),
-    "SI-G4": (SI_G4, 0, "0 0; 46.7308 26.9801 > cw 53.9735 26.0265 49.7308 21.7839; 60 20"),
-    "SI-G5": (SI_G5, 0.5, _SI_G5),
-}
+SI_G1, SI_G4, SI_G5 = (program_of(CONTROLS[0], f"SI-G{number}") for number in (1, 4, 5))
 
 
 def siemens(text: str, control: str = CONTROLS[0], **settings: str):
@@ -85,16 +52,6 @@ def near(*places: tuple[float, float]):
     return [pytest.approx(place, abs=1e-4) for place in places]
 
 
-def sheet(text: str, share: float) -> list[Element]:
-    """A path of the sheet: X Z of a lathe with this share of X as radius, X Y of a mill with 0."""
-    found = []
-    for each in drawn(text, 0.5 if share else 1):
-        start, end = (complex(at.real, at.imag * (2 * share if share else 1)) for at in (each.start, each.end))
-        center = each.center and complex(each.center.real, each.center.imag * (2 * share if share else 1))
-        found.append(Element(each.kind, start, end, center, abs(end - center) if center else 0.0, each.turn))
-    return found
-
-
 def codes(text: str, **settings: str) -> dict[str, str | None]:
     """The alarms of all findings by their codes."""
     found = siemens(text, **settings).diagnostics
@@ -109,50 +66,6 @@ def refused(text: str, code: str, alarm: str | None = None, **settings: str) -> 
     assert (errors[0].alarm.number.split()[0] if errors[0].alarm else None) == alarm
     line = errors[0].span.line
     assert not [each for each in result.answers if each.contour and each.lines[0] <= line <= each.lines[-1]]
-
-
-@pytest.mark.parametrize("name", RIGHT)
-@pytest.mark.parametrize("control", CONTROLS)
-def test_a_worked_example_comes_out_as_the_sheet_has_it(name, control):
-    text, share, expected = RIGHT[name]
-    found = path(text, control)
-    assert gap(sheet(expected, share), found) < 1.1e-4
-    assert [each.kind for each in found] == [each.kind for each in sheet(expected, share)]
-
-
-@pytest.mark.parametrize(
-    ("text", "code", "alarm"),
-    [
-        (SI_G4.replace(" ANG=-45", ""), "closing-incomplete", "10794"),
-        (SI_G4.replace("X60 ", ""), "closing-incomplete", "10794"),
-        (MILL + "G1 ANG=30\nM30", "end-missing", "10793"),
-        (MILL + "G1 ANG=30", "end-missing", "10793"),
-        (MILL + "G1 ANG=30\nG2 X60 Y20 CR=50", "end-missing", "10793"),
-        (MILL + "G1 ANG=30\nCT X60 Y20", "end-missing", "10793"),
-        (MILL + "G1 ANG=30\nANG=40\nX60 Y20 ANG=-45", "closing-incomplete", "10794"),
-        (MILL + "G1 ANG=30\nX60 Y20 ANG=210", "angles-parallel", "10791"),
-        (MILL + "G1 ANG=30\nX60 Y20 ANG=30", "angles-parallel", "10791"),
-        (MILL + "G1 ANG=30\nG18\nX60 Z20 ANG=-45", "plane-changes", "10790"),
-        (MILL + "G1 ANG=30\nG18 X60 Z20 ANG=-45", "plane-changes", "10790"),
-        (MILL + "G2 X10 Y10 CR=8 ANG=30", "angle-on-arc", "10792"),
-        (MILL + "G1 X5 RND=1\nG2 X10 Y10 CR=8 ANG=30", "angle-on-arc", "10792"),
-        (MILL + "G1 X5\nCT X10 Y10 ANG=30", "angle-on-arc", "10792"),
-        (MILL + "G1 X60 Y20 ANG=45", "angle-redundant", "10795"),
-        (MILL + "G1 X30 RND=5", "corner-without-next", None),
-        (MILL + "G1 X30 RND=5\nG0 Y40", "corner-without-next", None),
-        (MILL + "G0 X30 RND=5\nG1 Y40", "corner-rapid", None),
-        (MILL + "G1 X30 CHR=31\nY40", "corner-too-large", None),
-        (MILL + "G1 X30 RND=-5\nY40", "corner-negative", None),
-        (MILL + "G1 X30 RND=5\nX60", "corner-straight", None),
-        (MILL + "G1 X30 CHR=2 CHF=3\nY40", "two-chamfers", None),
-        (MILL + "G1 X30 RND=5 Z-2\nY40", "outside-plane", None),
-        (MILL + "G2 X30 Y30 RND=2\nG1 X60", "circle-undefined", None),
-        (MILL + "G2 X30 Y30 CR=30 I30 J0 RND=2\nG1 X60", "center-and-radius", None),
-        (MILL + "RNDM=-2 G1 X30\nY40", "rounding-negative", None),
-    ],
-)
-def test_what_the_sheet_refuses_has_its_alarm_and_no_contour(text, code, alarm):
-    refused(text, f"siemens-{code}", alarm)
 
 
 def test_an_angle_beside_both_coordinates_tells_the_real_one():
@@ -539,7 +452,7 @@ def test_a_long_stream_keeps_a_rounding_in_force():
 
 # Expansion ----------------------------------------------------------------------------------------------------------
 
-WRITTEN = {name: row[0] for name, row in RIGHT.items()} | {
+WRITTEN = {name: program_of(CONTROLS[0], name) for name in VECTORS[CONTROLS[0]] if name.startswith("SI-")} | {
     "CT": MILL + "G1 X10\nCT X20 Y10\nX30 Y20\nX50 Y0 RND=2\nG1 X80",
     "RNDM": MILL + "RNDM=2\nG1 X30\nX40 Y40\nX80 CHR=3\nY80\nX90\nG0 X0\nG1 Y20\nX5",
     "IC": MILL + "G1 X=IC(30) RND=3 FRC=0.1\nG91 Y30 CHR=2\nX=AC(0)",

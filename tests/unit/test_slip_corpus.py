@@ -1,4 +1,4 @@
-"""The corpora of slips by hand and of right programs are well formed: columns, kinds, fills and names; and how often
+"""The corpus of slips by hand is well formed: columns, kinds, fills and names; and how often
 the first fix undoes a slip."""
 
 import json
@@ -7,13 +7,13 @@ from itertools import chain
 from pathlib import Path
 
 import pytest
+from vectors import BY_HAND as RIGHT
 
 import contoursolve
 from contoursolve.program import changed, changes_of
 
 FOLDER = Path(__file__).parents[1] / "slips"
 SLIPS = json.loads((FOLDER / "by_hand.json").read_text())
-RIGHT = json.loads((FOLDER / "right.json").read_text())
 CONTROLS = {
     *("yasnac-lx3", "nct-99m", "fanuc-lathe", "fanuc-mill", "haas-lathe"),
     *("haas-mill", "siemens-840d", "isg", "mitsubishi", "heidenhain"),
@@ -54,10 +54,10 @@ def test_the_page_lists_the_kinds():
 def test_names_are_unique_and_every_control_takes_part():
     assert len({each["id"] for each in SLIPS}) == len(SLIPS) >= 170
     assert len({each["id"] for each in RIGHT}) == len(RIGHT) == 300
-    assert len({(each["control"], *each["lines"]) for each in RIGHT}) == len(RIGHT)
+    assert len({(each["control"], *each["program"]) for each in RIGHT}) == len(RIGHT)
     meant = {(each["part"], each["control"], *each["right"]) for each in SLIPS}
     assert len({part for part, *_ in meant}) == len(meant) >= 35
-    assert meant <= {(each["part"], each["control"], *each["lines"]) for each in RIGHT}
+    assert meant <= {(each["part"], each["control"], *each["program"]) for each in RIGHT}
     assert {each["control"] for each in SLIPS} == {each["control"] for each in RIGHT} == CONTROLS
 
 

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 from examples import some_of
+from vectors import BY_HAND as RIGHT, settings
 
 from contoursolve import Severity, check
 from contoursolve.cli import main
 
-RIGHT = json.loads((Path(__file__).parents[1] / "slips" / "right.json").read_text())
 BACK = "G00 X40. Z0.\nG111 A180. K-30. B60. X100.\nG01 Z-60.\n"
 FILLETS = "G17 G90\nG00 X0. Y0.\nG01 X60. ,R4. F150.\nY30. ,R4.\nX40. ,R4.\nY50.\nX0. ,R4.\nY0."
 CONES = "G18 G90 DIAMON\nG0 X20 Z2\nG1 Z-15 F0.2\nX50 ANG=150\nZ-60\nX70 ANG=150\nZ-90\nX90 ANG=120\nZ-120"
@@ -51,8 +51,8 @@ def test_a_long_program_is_told_the_same():
 
 @some_of("right", RIGHT, one_in=2)
 def test_right_programs_are_told_nothing(right):
-    settings = dict(each.split("=", 1) for each in right["settings"])
-    found = check("\n".join(right["lines"]), control=right["control"], settings=settings)
+    named = settings(right["control"], right)
+    found = check("\n".join(right["program"]), control=right["control"], settings=named)
     assert [each for each in found if each.severity is not Severity.INFO] == []
 
 
