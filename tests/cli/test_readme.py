@@ -189,7 +189,7 @@ def anchors(text: str) -> list[str]:
     return [re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings]
 
 
-@pytest.mark.parametrize("page", [*PAGES, "CONTRIBUTING.md"])
+@pytest.mark.parametrize("page", [*PAGES, "CHANGELOG.md", "CONTRIBUTING.md"])
 def test_every_link_leads_to_a_file_of_the_repository_and_to_a_heading_in_it(page) -> None:
     source = ROOT / page
     for link in links(source.read_text(encoding="utf-8")):

@@ -77,6 +77,18 @@ def test_the_citation_is_of_this_version() -> None:
     assert {"cff-version", "message"} <= set(citation)
 
 
+def test_a_version_of_the_changes_is_short_and_each_line_leads_to_a_page() -> None:
+    _, *versions = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").split("\n## ")
+    assert versions
+    assert versions[0].startswith(contoursolve.__version__)
+    for version in versions:
+        assert len(version.split()) > 1
+        assert len([line for line in version.splitlines() if line]) <= 20
+        assert {*re.findall(r"^(\w+):$", version, re.MULTILINE)} <= {"Added", "Changed", "Mended"}
+        for entry in re.split(r"^\* ", version, flags=re.MULTILINE)[1:]:
+            assert re.search(r"\]\([\w./#-]+\)", entry), entry
+
+
 def test_the_hook_runs_a_command_that_exists() -> None:
     (hook,) = read_yaml(".pre-commit-hooks.yaml")
     program, command = hook["entry"].split()
