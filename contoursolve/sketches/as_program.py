@@ -44,21 +44,16 @@ def as_program(sketch: ContourSketch, picks: Mapping[int, int] = {}) -> SketchPr
     element behind it is left out."""
     lines, places = list[str](), dict[Field, Span]()
     for number, element in enumerate(sketch.elements, 1):
-        text = f"{number} "
-        for name, words in _words(sketch, number, element, picks.get(number)):
-            begin = len(text) + 1
-            text += f"{words} "
-            places[number, name] = Span(number, begin, begin + len(words))
-        text = text.rstrip()
-        facts = (*element.facts, *(sketch.facts if number == 1 else ()))
-        mark = _FACT
-        for place, fact in enumerate(facts):
-            text += mark
-            told = (
-                (number, f"facts.{place}") if place < len(element.facts) else (0, f"facts.{place - len(element.facts)}")
-            )
-            places[told] = Span(number, len(text) + 1, len(text) + 1 + len(fact))
-            text, mark = text + fact, "; "
+        facts = [((number, f"facts.{place}"), fact) for place, fact in enumerate(element.facts)]
+        facts += [((0, f"facts.{place}"), fact) for place, fact in enumerate(sketch.facts) if number == 1]
+        words = _words(sketch, number, element, picks.get(number))
+        told = [((number, name), " ", written) for name, written in words]
+        told += [(field, "; " if place else _FACT, fact) for place, (field, fact) in enumerate(facts)]
+        text = str(number)
+        for field, lead, written in told:
+            begin = len(text + lead) + 1
+            places[field] = Span(number, begin, begin + len(written))
+            text += lead + written
         lines.append(text)
     return SketchProgram("\n".join(lines), _start(sketch), places)
 

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from contoursolve.sketches.dxf_chain import DxfChain
 from contoursolve.sketches.sketch import SketchElement, Value
-from contoursolve.solving import ArcSegment, LineSegment, Point
+from contoursolve.solving import ArcSegment, LineSegment, Point, direction, foot
 
 _STRAIGHT, _SLOPED, _ANGULAR, _DIAMETER, _RADIUS, _BY_POINTS, _ORDINATE = range(7)
 """Types of dimensions, as DXF numbers them (group 70)."""
@@ -140,16 +140,11 @@ class Chained:
 
     def lines_on(self, begin: Point, end: Point) -> list[int]:
         """The lines of the chain that lie on the line through two places."""
-        along = complex(*end) - complex(*begin)
-
-        def off(at: Point) -> float:
-            return abs(((complex(*at) - complex(*begin)) * along.conjugate()).imag) / abs(along)
-
-        return [
-            place
-            for place, each in enumerate(self.elements)
-            if place not in self.arcs and abs(along) > self.near and max(off(each.start), off(each.end)) <= self.near
-        ]
+        way, found = direction(begin, end), list[int]()
+        for place, each in enumerate(self.elements if dist(begin, end) > self.near else ()):
+            off = max(dist(at, foot(at, begin, way)) for at in (each.start, each.end))
+            found += [place] if place not in self.arcs and off <= self.near else []
+        return found
 
 
 def relations(chained: Chained) -> Iterator[DrawnFact]:

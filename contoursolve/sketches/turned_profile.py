@@ -1,12 +1,12 @@
 """The profile of a turned part from its drawing: one side of the axis, without what is only drawn."""
 
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 
 from msgspec.structs import replace
 
 from contoursolve.sketches.dxf_chain import DrawnCurve, DxfError, Net, turned_round
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, is_on, middle
+from contoursolve.tool_radius import crossings, split
 
 
 def axis_of(curves: Sequence[DrawnCurve], near: float, drawing: Sequence[DrawnCurve]) -> tuple[float, list[str]]:
@@ -93,17 +93,6 @@ def _is_symmetrical(curves: Sequence[DrawnCurve], axis: float, near: float) -> b
 
 def _above(segment: Segment, near: float) -> Iterator[Segment]:
     """The parts of a line or an arc above the axis Y0."""
-    places, (first, second) = list[Point](), (segment.start[1], segment.end[1])
-    if isinstance(segment, ArcSegment):
-        half = max(segment.radius**2 - segment.center[1] ** 2, 0) ** 0.5
-        swept = {
-            replace(segment, end=at).sweep % 360: at
-            for at in ((segment.center[0] + half, 0.0), (segment.center[0] - half, 0.0))
-        }
-        places = [swept[each] for each in sorted(swept) if each < segment.sweep and half]
-    elif first * second < 0:
-        places = [(segment.start[0] + (segment.end[0] - segment.start[0]) * first / (first - second), 0.0)]
-    for begin, end in pairwise((segment.start, *places, segment.end)):
-        part = replace(segment, start=begin, end=end)
-        if begin != end and DrawnCurve(part, "").points()[1][1] > near:
-            yield part
+    axis = LineSegment("axis", (0.0, 0.0), (1.0, 0.0))
+    parts = split(segment, (at for at in crossings(segment, axis) if is_on(segment, at)))
+    yield from (part for part in parts if middle(part)[0][1] > near)

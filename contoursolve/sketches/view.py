@@ -5,7 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 from contoursolve.diagnosis import length_text, status_text
-from contoursolve.diagnostics import plain
+from contoursolve.diagnostics import members, plain
 from contoursolve.pictures import (
     Mark,
     MarkKind,
@@ -107,21 +107,15 @@ def sketch_view(sketch: ContourSketch, *, with_ranges: bool = False, theme: Them
     found = solve_sketch(sketch, with_ranges=with_ranges)
     picture = draw_sketch(found, theme=theme)
     return {
-        "status": found.status,
-        "is_finished": found.is_finished,
+        **members(found, "status is_finished missing said remarks entries"),
         "axes": [*sketch.axes],
         "diameters": [*sketch.control.plane.diameters],
-        "program": found.program.text,
-        "start": found.program.start,
+        **members(found.program, "program=text start"),
         "elements": [
             plain(each) | {"segment": each.segment and _segment(each.segment), "told": _STATES[each.state][1]}
             for each in found.elements
         ],
-        "missing": found.missing,
-        "said": found.said,
-        "remarks": [*found.remarks],
         "asked": [{"number": n, "field": name, "value": plain(each)} for (n, name), each in found.asked.items()],
-        "entries": plain(found.entries),
         "findings": [plain(each) | {"fixes": [*map(_fix, each.fixes)]} for each in found.findings],
         "solutions": [
             plain(each)

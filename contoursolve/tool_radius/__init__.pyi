@@ -1,6 +1,8 @@
 from .clearance import (
+    crossings as crossings,
     foot_on as foot_on,
     nearest as nearest,
+    split as split,
 )
 from .faults import (
     ToolFault as ToolFault,
