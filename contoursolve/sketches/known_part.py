@@ -12,7 +12,6 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import (
     Answer,
     Depth,
-    Listed,
     join,
     length_text,
     list_solutions,
@@ -215,9 +214,8 @@ class _Reading:
         self.gap: SketchFinding | None = None
 
     def result(self, *, with_ranges: bool) -> SketchAnswer:
-        answer, listing = self.answer, list_solutions(self.answer)
-        listed = sorted(listing.solutions if listing else (), key=_order)
-        several = [each.contour for each in listed if each.contour is not None]
+        answer, listed = self.answer, _contours(self.answer)
+        several = [contour for contour, _ in listed]
         chosen = self._chosen(several) if len(several) > 1 else None
         has_guess = any(each.guess for each in self.sketch.elements)
         if has_guess and answer.contour is not None:
@@ -227,8 +225,7 @@ class _Reading:
         missing = ""
         entries: Iterable[SketchEntry] = ()
         if chosen is not None:
-            picks = next(each.picks for each in listed if each.contour is chosen)
-            picked = examined(self.sketch, picks={each.element: each.number for each in picks})
+            picked = examined(self.sketch, picks=next(picks for contour, picks in listed if contour is chosen))
             answer = picked if picked is not None and picked.contour is not None else answer
         elif answer.contour is None:
             self.loose = self._loosely()
@@ -382,16 +379,14 @@ class _Reading:
 
     def _gap(self) -> SketchFinding | None:
         """The finding about a closed contour that ends elsewhere: of both axes together; None if it does not."""
-        last = len(self.sketch.elements)
-        field = last, "closed"
+        field = len(self.sketch.elements), "closed"
         errors = [each for each in self.errors if field in self._fields(each) and isinstance(each.about, RefusalKind)]
         # Where it ends is what the rest gives, if that is one place.
         left_open = examined(replace(self.sketch, closed=False)) if errors else None
-        contours = [*_contours(left_open)] if left_open is not None else []
-        if not contours or any(dist(each.end, contours[0].end) > AGREEMENT for each in contours):
+        paths = [contour for contour, _ in _contours(left_open)] if left_open is not None else []
+        if not paths or any(dist(each.end, paths[0].end) > AGREEMENT for each in paths):
             return None
-        end = contours[0].end
-        gap = dist(contours[0].start, end)
+        end, gap = paths[0].end, dist(paths[0].start, paths[0].end)
         if gap <= LENGTH:
             return None
         there, amount = self._place(end), length_text(gap, self.answer.unit)
@@ -454,31 +449,27 @@ class _Reading:
 
     def _moved(self, title: str) -> str:
         """The title of a fix without the places that it leaves where they are."""
-        change, arrow, outcome = title.partition(" -> ")
         points = self.loose.points if self.loose is not None else {}
-        ends = {f"{name} is": at for name, at in points.items()}
-        if points:
-            ends["the contour ends"] = points[self.heads[max(self.heads)]]
-        for lead, at in ends.items():
-            same = f"{lead} at {self._place(at)}"
-            if outcome == same or outcome.startswith(f"{same}, "):
-                outcome = outcome.removeprefix(same).removeprefix(", ")
-        return f"{change}{arrow}{outcome}" if outcome else change
+        told = {f"{name} is": at for name, at in points.items()}
+        told |= {"the contour ends": points[self.heads[max(self.heads)]]} if points else {}
+        same = [f"{lead} at {self._place(at)}" for lead, at in told.items()]
+        change, _, outcome = title.partition(" -> ")
+        moved = ", ".join(each for each in outcome.split(", ") if each not in same)
+        return f"{change} -> {moved}" if moved else change
 
 
 _OPEN = (Status.UNDERDETERMINED, Status.AMBIGUOUS)
 
 
-def _order(solution: Listed) -> list[tuple[int, int]]:
-    return [(pick.element, pick.number) for pick in solution.picks]
-
-
-def _contours(answer: Answer) -> Iterator[Contour]:
-    """Its contour, or all that fit."""
-    if answer.contour is not None:
-        yield answer.contour
-    elif (listing := list_solutions(answer)) is not None:
-        yield from (each.contour for each in listing.solutions if each.contour is not None)
+def _contours(answer: Answer) -> list[tuple[Contour, Mapping[int, int]]]:
+    """All contours that fit, each with the numbers that choose it by elements, and in the order of these."""
+    listing = list_solutions(answer)
+    found = [
+        (each.contour, {pick.element: pick.number for pick in each.picks})
+        for each in (listing.solutions if listing else ())
+        if each.contour is not None
+    ]
+    return sorted(found, key=lambda each: [*each[1].items()])
 
 
 def _amount(finding: Diagnostic) -> float | None:
