@@ -95,7 +95,7 @@ class Chained:
             case "":
                 return float(end[axis]) * factor
             case "I":
-                return float(end[axis] - at[self.nodes[origin or 0], axis]) * factor
+                return float(end[axis] - at[self.nodes[origin], axis]) * factor
             case "CC":
                 return float(at[self.centers[place], axis]) * factor
             case "R":

@@ -92,7 +92,7 @@ def _fields_of(part: str, kind: str | None = None) -> dict[str, _Field]:
     """The fields of lines or arcs, or of both, of a part."""
     own = {**_ELEMENT}
     if kind == "line":
-        own["guess"] = replace(own.pop("guess"), kind=_Kind.PLACE)
+        own["guess"] = replace(own["guess"], kind=_Kind.PLACE)
         del own["turn"]
     return own | {name: _Field(_Kind.VALUE, meaning) for name, meaning in words_of_drawing(part, kind).items()}
 
@@ -173,7 +173,7 @@ class _Reader(Struct, frozen=True):
             if name not in fields:
                 raise self.refusal(str(name)[:40], "is no field here" + _meant(str(name), fields))
         for name, field in fields.items():
-            if field.is_needed and name not in table:
+            if field.is_needed and table.get(name) is None:
                 raise self.refusal(name, f"is missing; write {name} = {field.example()}")
         return {name: self.value(name, fields[name], value) for name, value in table.items() if value is not None}
 
