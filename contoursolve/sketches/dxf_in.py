@@ -144,33 +144,46 @@ def read_dxf(
     is_backward = part == "turned" and not chosen.is_closed and chosen.elements[0].start[0] < chosen.elements[-1].end[0]
     chosen = _directed(chosen, is_reversed=is_backward != reverse)
     chained = Chained(chosen, DRAWINGS[part].plane.axes, JOINED / _MM[named], is_turned=part == "turned")
-    taken, known = _numbers(chained, contents.dimensions, place, notes)
-    sketch, given = _sketch(chained, taken, known, named, part, notes)
+    known = list(coordinates(chained))
+    sketch, given = _sketch(chained, known, contents.dimensions, place, named, notes)
     return DxfSketch(sketch, given, tuple(notes), dict(layers), tuple(_measured(chained, known)))
 
 
 def _sketch(
-    chained: Chained, taken: Sequence[DrawnFact], known: Sequence[DrawnFact], unit: _Unit, part: _Part, notes: list[str]
+    chained: Chained, known: Sequence[DrawnFact], entities: Sequence[Any], place: Any, unit: _Unit, notes: list[str]
 ) -> tuple[ContourSketch, tuple[str, ...]]:
-    """The sketch with the numbers of dimensions, and these; where that is another contour, with the coordinates. A
-    guess chooses among several solutions."""
+    """The sketch with the numbers of dimensions, and these; where they fix no contour, or another one, with the
+    coordinates. A guess chooses among several solutions. What is told of dimensions is added to the notes."""
 
-    def sketch(facts: Sequence[DrawnFact], *, has_guess: bool) -> ContourSketch:
+    def sketch(facts: Sequence[DrawnFact], *, has_guess: bool = False) -> ContourSketch:
         elements = elements_of(chained, facts, has_guess=has_guess)
+        part: _Part = "turned" if chained.is_turned else "milled"
         return ContourSketch(part, elements, chained.place(0), unit, chained.is_closed)
 
-    for has_guess in (False, True) if taken else ():
-        found = sketch(taken, has_guess=has_guess)
+    facts, about = dimensions(chained, entities, place)
+    notes += about
+    taken, is_complete = independent(chained, list(relations(chained)), facts, known) if facts else ([], False)
+    given = tuple(dict.fromkeys(fact.given for fact in taken if fact.given))
+    if not given or not is_complete:
+        notes += ["no dimension gives a number: the coordinates of the drawing are given"] if entities else []
+        return sketch(known), ()
+    others = dict.fromkeys(fact.given for fact in facts if fact.given not in given)
+    notes += [f"{each}: it follows from others, or no field is free for it" for each in others]
+    read = [
+        f"{fact.field} of {'arc' if fact.element in chained.arcs else 'line'} {fact.element + 1}"
+        for fact in taken
+        if fact in known and not (chained.is_turned and fact.field == chained.axes[1] and not fact.value)
+    ]
+    notes += [f"no dimension gives {several(read)}: read from the lines"] if read else []
+    for found in (sketch(taken), sketch(taken, has_guess=True)):
         answer = solve_sketch(found).answer
         path = answer.contour.elements if answer is not None and answer.contour is not None else ()
         ends = [(each.end[0] / _MM[unit], each.end[1] / _MM[unit]) for each in path]
-        same = [dist(end, each.end) <= chained.near for end, each in zip(ends, chained.elements, strict=False)]
-        if len(same) == len(chained.elements) == len(path) and all(same):
-            return found, tuple(dict.fromkeys(fact.given for fact in taken if fact.given))
-    notes += (
-        ["the numbers of dimensions do not fix the contour: the coordinates of the drawing are given"] if taken else []
-    )
-    return sketch(known, has_guess=False), ()
+        drawn = [each.end for each in chained.elements]
+        if len(ends) == len(drawn) and max(map(dist, ends, drawn)) <= chained.near:
+            return found, given
+    notes.append("the numbers of dimensions do not fix the contour: the coordinates of the drawing are given")
+    return sketch(known), ()
 
 
 class _Placing(Struct, frozen=True):
@@ -301,30 +314,6 @@ def _directed(chain: DxfChain, *, is_reversed: bool) -> DxfChain:
         opposite = 2 * first.center[0] - first.start[0], 2 * first.center[1] - first.start[1]
         elements = [replace(first, end=opposite), replace(first, start=opposite)]
     return replace(chain, elements=tuple(elements))
-
-
-def _numbers(
-    chained: Chained, entities: Sequence[Any], place: Any, notes: list[str]
-) -> tuple[list[DrawnFact], list[DrawnFact]]:
-    """The facts that determine a chain with the numbers of dimensions, none where no dimension gives any; and its
-    coordinates. What is told of dimensions is added to the notes."""
-    known = list(coordinates(chained))
-    facts, about = dimensions(chained, entities, place)
-    notes += about
-    taken, is_complete = independent(chained, list(relations(chained)), facts, known) if facts else ([], False)
-    given = dict.fromkeys(fact.given for fact in taken if fact.given)
-    if not given or not is_complete:
-        notes += ["no dimension gives a number: the coordinates of the drawing are given"] if entities else []
-        return [], known
-    others = dict.fromkeys(fact.given for fact in facts if fact.given not in given)
-    notes += [f"{each}: it follows from others, or no field is free for it" for each in others]
-    read = [
-        f"{fact.field} of {'arc' if fact.element in chained.arcs else 'line'} {fact.element + 1}"
-        for fact in taken
-        if fact in known and not (chained.is_turned and fact.field == chained.axes[1] and not fact.value)
-    ]
-    notes += [f"no dimension gives {several(read)}: read from the lines"] if read else []
-    return taken, known
 
 
 def _measured(chained: Chained, known: Sequence[DrawnFact]) -> Iterator[dict[str, Value]]:
