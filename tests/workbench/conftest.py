@@ -3,7 +3,15 @@
 import pytest
 from browsing import Watched
 from served_page import SCREENS
+from small_disk import SmallDisk
 from test_server import Served
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    disk = SmallDisk(tmp_path / "disk")
+    yield disk
+    disk.unmount()
 
 
 @pytest.fixture(scope="module")

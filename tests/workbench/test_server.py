@@ -265,3 +265,21 @@ def test_what_cannot_be_served_is_one_sentence(arguments, tmp_path):
     )
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
+
+
+def test_on_a_full_disk_the_old_file_stays_and_there_is_room_later_for_the_new_one(serve, small_disk):
+    file = small_disk.folder / "a.nc"
+    file.write_bytes(BROKEN.encode())
+    server = serve(small_disk.folder)
+    server.ask("open", name="a.nc")
+    longer = f"{BROKEN}({'x' * 8_000})\r\n"
+    server.ask("edit", text=longer)
+    small_disk.fill()
+    full = "a.nc was not saved: it cannot be written: No space left on device; your text is still here"
+    assert server.ask("save") == (200, {"trouble": full})
+    assert server.ask("save", name="b.nc") == (200, {"trouble": full.replace("a.nc", "b.nc")})
+    assert (small_disk.names(), file.read_bytes()) == (["a.nc"], BROKEN.encode())
+    assert server.ask("view")[1]["has_changes"]
+    small_disk.make_room()
+    assert server.ask("save")[1]["saved"] == "a.nc"
+    assert (small_disk.names(), file.read_bytes()) == (["a.nc"], longer.encode())

@@ -132,6 +132,33 @@ def test_a_file_that_another_program_changed_is_replaced_only_when_its_user_says
     assert (folder / "both.nc").read_bytes() == SHAFT.replace("G00 X150.", "N5 G00 X150.").encode()
 
 
+def test_on_a_full_disk_the_page_says_one_sentence_and_keeps_the_text(opened, small_disk) -> None:
+    (small_disk.folder / "part.nc").write_bytes(SHAFT.encode())
+    server = Served(small_disk.folder)
+    page = opened("part.nc", server=server)
+    page.locator(".cm-line").nth(1).click()
+    page.keyboard.press("End")
+    page.keyboard.type(" M08")
+    small_disk.fill()
+    page.keyboard.press("Control+s")
+    full = "part.nc was not saved: it cannot be written: No space left on device; your text is still here"
+    page.locator(".workbench > .trouble", has_text=full).wait_for()
+    assert page.locator(".programs button", has_text="•").count() == 1
+    # It is still so, whatever else works.
+    page.keyboard.type(" M09")
+    wait_for_text(page, "G00 X40. Z0. M08 M09")
+    show(page, "Contour")
+    page.locator('.contour .row[data-word="X"]').wait_for()
+    assert page.locator(".workbench > .trouble").inner_text() == full
+    assert (small_disk.folder / "part.nc").read_bytes() == SHAFT.encode()
+    small_disk.make_room()
+    page.keyboard.press("Control+s")
+    said(page, "Saved as part.nc.")
+    assert page.locator(".workbench > .trouble").inner_text() == ""
+    assert (small_disk.folder / "part.nc").read_bytes() == SHAFT.replace("Z0.", "Z0. M08 M09").encode()
+    server.end()
+
+
 def test_where_the_server_is_gone_the_text_stays_and_can_be_taken_along(browser, tmp_path) -> None:
     (tmp_path / "part.nc").write_bytes(SHAFT.encode())
     server = Served(tmp_path)

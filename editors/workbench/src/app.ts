@@ -29,6 +29,7 @@ export class App {
   private readonly pane: ProgramPane;
   private readonly chain: ChainPane;
   private readonly trouble = make("p", { class: "trouble", role: "alert" });
+  private isUnsaved = false; // what the trouble says stays true until something is saved
   private readonly rescue = make("div", { class: "rescue bar", hidden: true });
   private readonly said = make("span", { class: "said", role: "status" });
   private readonly tabs = make("div", { class: "programs", "aria-label": "Open programs" });
@@ -321,6 +322,7 @@ export class App {
       if (answer === "Download") this.downloadActive();
       if (answer === "Save" && !(await this.saveActive())) return;
     }
+    this.tell(null);
     void work.close();
     const at = this.works.indexOf(work);
     this.works = this.works.filter((each) => each !== work);
@@ -329,7 +331,7 @@ export class App {
 
   private changed(work: Work, why: Trouble | null): void {
     if (why) this.tell(why);
-    else if (this.trouble.textContent) this.tell(null);
+    else this.answered();
     if (work === this.active) this.follow();
   }
 
@@ -410,7 +412,9 @@ export class App {
       if (answer === "Replace it") return this.write(work, { ...options, over: conflict });
       return answer !== null && this.saveAs();
     }
+    this.isUnsaved = !saved;
     if (!saved) return false;
+    this.tell(null);
     work.wasSaved(saved.saved, saved.base);
     this.say(`Saved as ${saved.saved}.`);
     this.follow();
@@ -460,7 +464,7 @@ export class App {
   private async asked<Reply>(request: Record<string, unknown>): Promise<Reply | null> {
     try {
       const reply = await this.transport.ask<Reply>(request);
-      if (this.trouble.textContent) this.tell(null);
+      this.answered();
       return reply;
     } catch (error) {
       this.tell(error);
@@ -477,9 +481,14 @@ export class App {
     this.said.textContent = text;
   }
 
+  private answered(): void {
+    if (this.trouble.textContent && !this.isUnsaved) this.tell(null);
+  }
+
   // One sentence at the top; where nobody answers, the text can be taken along.
   private tell(error: unknown): void {
     if (error !== null && !(error instanceof Trouble)) throw error;
+    this.isUnsaved = false;
     this.trouble.textContent = error?.message ?? "";
     this.rescue.hidden = !error || error.reply !== null;
     if (this.rescue.hidden) return;
