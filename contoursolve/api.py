@@ -117,7 +117,7 @@ def solve(
     >>> f"{asked.answers[0].answers[0].value:.3f}"
     '8.038'
     """
-    return _follow(_read(text, name), SolveOptions(**options)).collect()
+    return follow_options(_read(text, name), SolveOptions(**options)).collect()
 
 
 @takes(SolveKeywords)
@@ -141,7 +141,7 @@ def system(text: str, *, name: str = "<program>", **options: Unpack[SolveKeyword
     (-81.96152422706632, 50.0)
     """
     options.setdefault("depth", "verdict")
-    answers = _follow(_read(text, name), SolveOptions(**options)).collect().answers
+    answers = follow_options(_read(text, name), SolveOptions(**options)).collect().answers
     if len(answers) != 1:
         raise ValueError(f"a system is that of one contour; the program has {len(answers)}")
     return answers[0].system
@@ -175,7 +175,7 @@ def check(
     >>> [each.code for each in check("G00 X40. Z0.\\nG111 X100. A180. B120.")]
     ['g111-line-1', 'words-missing']
     """
-    return _follow(_read(text, name), SolveOptions(**options, depth=_FINDINGS)).collect().diagnostics
+    return follow_options(_read(text, name), SolveOptions(**options, depth=_FINDINGS)).collect().diagnostics
 
 
 @takes(CheckKeywords)
@@ -201,7 +201,7 @@ def apply_fixes(
     _read(text, name)
     return mend(
         text,
-        lambda now: examined_result(now, _follow(gcode.parse(now, name), asked).collect()),
+        lambda now: examined_result(now, follow_options(gcode.parse(now, name), asked).collect()),
         likely_fixes if unsafe else safe_fixes,
     )
 
@@ -232,7 +232,7 @@ def _follow_file(path: str | Path, options: SolveOptions) -> Run:
     folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
     program = read_program(path)
     stated = stated_settings(block.text for block in program.blocks) | dict(options.settings or {})
-    return _follow(program, replace(options, settings=find_settings(folder) | stated))
+    return follow_options(program, replace(options, settings=find_settings(folder) | stated))
 
 
 @takes(SolveKeywords)
@@ -241,7 +241,7 @@ def solve_program(
     **options: Unpack[SolveKeywords],
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
-    return _follow(program, SolveOptions(**options)).collect()
+    return follow_options(program, SolveOptions(**options)).collect()
 
 
 @takes(SolveKeywords)
@@ -268,10 +268,11 @@ def solve_with_tool(
     >>> [f"{value:.4f}" for value in found.runs[0].path.end]
     ['-20.8000', '10.0000']
     """
-    from contoursolve.tool_radius import result_beside_tool, wanted_tool  # noqa: PLC0415 - only this needs them
+    from contoursolve.tool_radius import look_at_tool, result_beside_tool, wanted_tool  # noqa: PLC0415 - only this
 
-    run = _follow(_read(text, name), SolveOptions(**options))
-    return result_beside_tool(run, wanted_tool(name, tool, tip, side, outside))
+    run = follow_options(_read(text, name), SolveOptions(**options))
+    report = look_at_tool(result := run.collect(), run.asked, wanted_tool(name, tool, tip, side, outside))
+    return result_beside_tool(result, report), report
 
 
 @takes(FollowKeywords)
@@ -280,10 +281,11 @@ def follow_program(
     **options: Unpack[FollowKeywords],
 ) -> Run:
     """The same as a stream of contours and findings, for a program of any length; `strict` as for `check`."""
-    return _follow(program, SolveOptions(**options))
+    return follow_options(program, SolveOptions(**options))
 
 
-def _follow(program: Program, options: SolveOptions) -> Run:
+def follow_options(program: Program, options: SolveOptions) -> Run:
+    """The same, with its options in a record."""
     asked = options.request(program.name)
     dialect = choose_alike(options.control, program, asked, options.settings)
     asked = asked if dialect is None else asked.of(dialect, lambda: (block.text for block in program.blocks))

@@ -10,7 +10,7 @@ from typing import IO, Any
 import click
 from msgspec.structs import replace
 
-from contoursolve.api import MOST_DECIMALS
+from contoursolve.api import MOST_DECIMALS, follow_options
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     check_toolless,
@@ -289,25 +289,19 @@ def _rewrite(
     tool = {name: options[name] for name in ("tool", "tip", "side", "outside") if name in options}
     told = {name: options[name] for name in ("units", "rules", "facts", "variables", "folders") if name in options}
     with opening as opened, naming(opened.name):
-        source, settings, control = opened, settings_of(opened, options["assignments"]), options["control"]
-        writer: Writer | None = None
-        beside = None
-        if options.get("has_formulas"):
-            writer = _formulas(source, wish, options)
-        elif tool.get("tool"):
-            from contoursolve.cli.tool import open_beside_tool  # noqa: PLC0415 - few programs need it
+        settings, control = settings_of(opened, options["assignments"]), options["control"]
+        asked = SolveOptions(start=start, control=control, settings=settings, **told)
+        if tool.get("tool") and not options.get("has_formulas"):
+            from contoursolve.output import rewrite_beside_tool  # noqa: PLC0415 - few programs need it
+            from contoursolve.tool_radius import wanted_tool  # noqa: PLC0415 - as above
 
-            stated = {**told, "control": control, "settings": settings}
-            beside = open_beside_tool(source, start, tool, stated, is_inline=wish.is_inline)
-            source, control, writer = beside.source, beside.dialect, beside.writer
-            if control is not None and control.writing is not None and wish.post is not POSTS["same"]:
-                later = f"write that with -o first, then expand it with --post {wish.post.name}"
-                raise click.UsageError(f"--tool writes a program of {control.name} in its own words: {later}")
-        asked = SolveOptions(start=start, **told).request(source.name)
-        found = rewrite(source, body, wish, asked, control=control, settings=settings, progress=progress, writer=writer)
-        if beside is not None:
-            beside.say_at_home(found.summary)
-        return found
+            wanted = wanted_tool(opened.name, **tool)
+            return rewrite_beside_tool(opened, body, wish, asked, wanted, follow_options, progress)
+        writer = _formulas(opened, wish, options) if options.get("has_formulas") else None
+        request = asked.request(opened.name)
+        return rewrite(
+            opened, body, wish, request, control=control, settings=settings, progress=progress, writer=writer
+        )
 
 
 def _formulas(source: OpenFile, wish: ExpansionOptions, options: Mapping[str, Any]) -> Writer:

@@ -100,5 +100,6 @@ def _gain(window: Window, seen: Seen) -> float:
 
 def _fix(window: Window, draft: Candidate) -> Fix:
     own, edits = window.own[0], signed(draft.edits, window.blocks)
-    (text,) = (each.text for each in window.changes(edits) if each.span.line == own.line)
+    # In a program that runs, a line may be there in several passes.
+    text = next(each.text for each in window.changes(edits) if (each.span, each.old) == (own.span, own.text))
     return Fix(told(edits, draft.slips, [own]), text, Applicability.CHANGES_CONTOUR, replaced=own.text)

@@ -68,12 +68,9 @@ def convert_program(opened: Opened | None, control: str) -> Reply:
 
 def report_on(opened: Opened | None) -> Reply:
     """A page about the program, or why there is none."""
-    return _reply("html", None if opened is None else _unread(opened) or _page_about(opened))
-
-
-def _page_about(opened: Opened) -> Product:
-    name = str(opened.path or opened.program.name)
-    return page_about(opened.program, name, opened.tool(), contoursolve.__version__)
+    if opened is None:
+        return _reply("html", None)
+    return _reply("html", _unread(opened) or page_about(opened.program, opened.tool(), contoursolve.__version__))
 
 
 def notebook_of(opened: Opened | None, line: int) -> Reply:

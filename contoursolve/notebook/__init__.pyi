@@ -6,10 +6,11 @@ from .open_products import (
     Product as Product,
     converted as converted,
     expanded as expanded,
+    expanded_beside_tool as expanded_beside_tool,
     notebook_about as notebook_about,
     page_about as page_about,
     project_settings as project_settings,
-    solved as solved,
+    report_on_tool as report_on_tool,
     stated_tool as stated_tool,
 )
 from .standing_alone import standing_alone as standing_alone

@@ -5,21 +5,19 @@ An editor's server and the workbench offer the same ones. What a product needs i
 
 import json
 from collections.abc import Mapping
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
 if TYPE_CHECKING:
-    from contoursolve.postprocess import Conversion, Expansion
-    from contoursolve.program import OpenProgram, Result
-    from contoursolve.tool_radius import ToolReport
+    from contoursolve.postprocess import Summary
+    from contoursolve.program import OpenProgram
+    from contoursolve.tool_radius import ToolReport, ToolRequest
 
 MOST_TOLD = 3
 """Things that were left as they are that a message names."""
-
-_LONGEST = 5_000
-"""Lines of a program that is solved again for its tool while somebody waits."""
 
 
 class Product(Struct, frozen=True):
@@ -42,18 +40,35 @@ def project_settings(path: Path | None) -> dict[str, str] | str:
 def stated_tool(program: "OpenProgram", path: Path | None) -> "ToolReport | str | None":
     """The report about the tool that a program or its project file states; the reason where nothing can be said, None
     where no tool is stated."""
-    from contoursolve.api import solve_with_tool  # noqa: PLC0415 - as above
     from contoursolve.program import find_tool_table  # noqa: PLC0415 - as above
 
     is_stated = "contoursolve tool" in program.text
     try:
         has_table = path is not None and find_tool_table(path.parent)
-        if program.dialect is None or not (is_stated or has_table) or len(program.blocks) > _LONGEST:
-            return None
-        name = str(path) if path is not None else "<program>"
-        return solve_with_tool(program.text, name=name, control=program.dialect, depth="verdict")[1]
+        return report_on_tool(program, path) if program.dialect is not None and (is_stated or has_table) else None
     except (OSError, ValueError) as error:
         return str(error) if is_stated else None
+
+
+def report_on_tool(program: "OpenProgram", path: Path | None, **stated: Any) -> "ToolReport":
+    """The report about a tool, which is stated as for `solve_with_tool`; else about that of the program or its project
+    file. Raises ToolError."""
+    from contoursolve.tool_radius import look_at_tool  # noqa: PLC0415 - as above
+
+    program.check()
+    return look_at_tool(program.result(), program.request, _tool_of(path, **stated))
+
+
+def _tool_of(
+    path: Path | None,
+    tool: str | None = None,
+    tip: int | None = None,
+    side: str | None = None,
+    outside: str | None = None,
+) -> "ToolRequest":
+    from contoursolve.tool_radius import wanted_tool  # noqa: PLC0415 - as above
+
+    return wanted_tool(str(path) if path is not None else "<program>", tool, tip, side, outside)
 
 
 def expanded(program: "OpenProgram", **options: Any) -> Product:
@@ -64,7 +79,32 @@ def expanded(program: "OpenProgram", **options: Any) -> Product:
         found = expand(program.text, control=program.dialect, name=program.name, **options)
     except ValueError as error:
         return Product(None, str(error))
-    return Product(found.text, _what_was_left(found, program.dialect.title if program.dialect else ""))
+    return _expansion(program, found.text, found.summary)
+
+
+def expanded_beside_tool(program: "OpenProgram", path: Path | None, **stated: Any) -> Product:
+    """A program along the path of a tool, without calls where it had some; or why there is none. The tool is stated as
+    for `report_on_tool`."""
+    from contoursolve.api import follow_options  # noqa: PLC0415 - as above
+    from contoursolve.gcode import ANY_TEXT, file_in_memory  # noqa: PLC0415 - as above
+    from contoursolve.output import rewrite_beside_tool  # noqa: PLC0415 - as above
+    from contoursolve.postprocess import ExpansionOptions  # noqa: PLC0415 - as above
+    from contoursolve.program import SolveOptions  # noqa: PLC0415 - as above
+
+    source, wish = file_in_memory(program.text, program.name), ExpansionOptions(is_inline=True)
+    asked = SolveOptions(control=program.dialect, units=program.unit)
+    try:
+        tool = _tool_of(path, **stated)
+        found = rewrite_beside_tool(source, BytesIO(), wish, asked, tool, follow_options)
+    except ValueError as error:
+        return Product(None, str(error))
+    is_whole = not (found.summary.left or found.summary.misread)
+    text = b"".join(found.pieces()).decode(*ANY_TEXT) if is_whole else None
+    return _expansion(program, text, found.summary)
+
+
+def _expansion(program: "OpenProgram", text: str | None, summary: "Summary") -> Product:
+    return Product(text, _what_was_left(summary, program.dialect.title if program.dialect else ""))
 
 
 def converted(program: "OpenProgram", control: str, settings: Mapping[str, str]) -> Product:
@@ -79,32 +119,25 @@ def converted(program: "OpenProgram", control: str, settings: Mapping[str, str])
     difference = found.comparison.difference if found.comparison else None
     if difference is not None:
         return Product(found.text, f"the new program is another path: {difference.reason}")
-    return Product(found.text, _what_was_left(found, DIALECTS[control].title))
+    return Product(found.text, _what_was_left(found.summary, DIALECTS[control].title))
 
 
-def _what_was_left(found: "Expansion | Conversion", target: str) -> str:
+def _what_was_left(summary: "Summary", target: str) -> str:
     """Reasons why contours were left as they are, and words that the target reads otherwise; empty without any."""
-    left = [f"program line {each.lines[0]}: {each.reason}" for each in found.summary.left]
-    left += [f"program line {each.line}: {each.sentence(target)}" for each in found.summary.unfamiliar]
+    left = [f"program line {each.lines[0]}: {each.reason}" for each in summary.left]
+    left += [f"program line {each.line}: {each.sentence(target)}" for each in summary.unfamiliar]
     return "; ".join(left[:MOST_TOLD]) + (f"; and {len(left) - MOST_TOLD} more" if len(left) > MOST_TOLD else "")
 
 
-def solved(program: "OpenProgram", name: str, tool: "ToolReport | str | None") -> "tuple[Result, ToolReport | None]":
-    """A program solved as a whole; if there is a report about its tool, with that, as a program of another name. Raises
-    as `solve`."""
-    from contoursolve.api import solve, solve_with_tool  # noqa: PLC0415 - as above
-
-    if tool is None or isinstance(tool, str):
-        return solve(program.text, control=program.dialect, name=program.name), None
-    return solve_with_tool(program.text, control=program.dialect, name=name)
-
-
-def page_about(program: "OpenProgram", name: str, tool: "ToolReport | str | None", version: str) -> Product:
-    """A page of HTML about a program, or why there is none."""
+def page_about(program: "OpenProgram", tool: "ToolReport | str | None", version: str) -> Product:
+    """A page of HTML about a program, with the report about its tool if there is one; or why there is none."""
     from contoursolve.output import report_page  # noqa: PLC0415 - as above
+    from contoursolve.tool_radius import result_beside_tool  # noqa: PLC0415 - as above
 
+    report = None if isinstance(tool, str) else tool
+    program.check()
     try:
-        result, report = solved(program, name, tool)
+        result = program.result() if report is None else result_beside_tool(program.result(), report)
         if not result.answers:
             return Product(None, "the program has no contour block")
         return Product("".join(report_page(result, version, tool=report)))

@@ -128,6 +128,9 @@ from .map_page import (
     map_script as map_script,
     map_style as map_style,
 )
+from .moved_program import (
+    rewrite_beside_tool as rewrite_beside_tool,
+)
 from .plain_text import (
     Table as Table,
     columns as columns,

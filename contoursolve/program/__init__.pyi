@@ -73,6 +73,9 @@ from .recognise import (
     named_control as named_control,
     what_shows as what_shows,
 )
+from .renumbering import (
+    renumbered as renumbered,
+)
 from .request import (
     CheckKeywords as CheckKeywords,
     FollowKeywords as FollowKeywords,

@@ -5,26 +5,23 @@ that it touches or that looked at it. Examination goes on from the first stale p
 part did at the same place; from there on, the old parts hold.
 """
 
-import re
 from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass, replace as with_fields
+from dataclasses import dataclass
 from difflib import SequenceMatcher
-from enum import Enum
 from functools import partial
 from itertools import accumulate, islice, takewhile
-from operator import is_
-from typing import Any, overload
+from typing import overload
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Context, Policy, rank
-from contoursolve.diagnostics import Diagnostic, Fix, LineChange, OpenNumber, Span, choice_of
+from contoursolve.diagnostics import Diagnostic, Span, choice_of
 from contoursolve.execution import needs_running, surroundings_of
 from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse_block, split_lines
-from contoursolve.geometry import Length, Plane
+from contoursolve.geometry import Length
 from contoursolve.program.agreeing_controls import choose_alike
 from contoursolve.program.examination import Cursor, Examination
 from contoursolve.program.named_words import has_named, is_named_for_all
@@ -40,6 +37,7 @@ from contoursolve.program.recognise import (
     shown_by,
     shown_of_machine,
 )
+from contoursolve.program.renumbering import renumbered
 from contoursolve.program.request import Request
 from contoursolve.program.running import KeptSteps
 from contoursolve.program.solve_queue import Step
@@ -100,6 +98,9 @@ class _Move:
 
     def line(self, line: int) -> int:
         return line + self.by if line >= self.first else line
+
+    def place(self, span: Span) -> Span:
+        return span._replace(line=self.line(span.line)) if span.line >= self.first else span
 
 
 class _Lines(Sequence[Block]):
@@ -263,6 +264,11 @@ class OpenProgram:
         """The end of its first line; a line feed if that line has no end."""
         first = self._lines.texts[0]
         return first[len(first.rstrip("\r\n")) :] or "\n"
+
+    @property
+    def request(self) -> Request:
+        """The options of its examination, with its control."""
+        return replace(self._asked, dialect=self.dialect, around=surroundings_of(self.name))
 
     def configure(self, control: str | Dialect | None, settings: Mapping[str, str]) -> None:
         """Read the program as one for this control (None: as it shows), with these settings."""
@@ -485,8 +491,8 @@ class OpenProgram:
     def _bring_up(self, part: _Part) -> None:
         """Bring what a part knows, and its findings, up to date with the lines that have moved."""
         for move in self._moves[part.age :]:
-            part.known = _moved(part.known, move)
-            part.beside, part.findings = _moved(part.beside, move), _moved(part.findings, move)
+            part.known = renumbered(part.known, move)
+            part.beside, part.findings = renumbered(part.beside, move), renumbered(part.findings, move)
         part.age = len(self._moves)
 
     @property
@@ -540,8 +546,7 @@ class OpenProgram:
     def _whole(self) -> Result:
         """All that is known of a program that is not examined in parts."""
         if self._unread is None:
-            asked = replace(self._asked, dialect=self.dialect, around=surroundings_of(self.name))
-            self._unread = run(self._program(), asked, kept=self._kept)
+            self._unread = run(self._program(), self.request, kept=self._kept)
         return self._unread
 
     def _program(self) -> Program:
@@ -619,45 +624,3 @@ def _alike(one: Dialect, other: Dialect) -> bool:
 def _is_plain(part: _Part) -> bool:
     """Whether a part may take in another plain block."""
     return part.answer is None and not part.beside and not part.is_stale and 0 < part.count < _LONGEST
-
-
-_LINES = re.compile(r"(?<=program )lines? \d+(?:, \d+)*(?: and \d+)?")
-"""Line numbers as messages name them; `line 1` alone is an element of a contour."""
-
-
-_TEXTS = {Fix: ("replacement", "replaced", "example"), LineChange: ("old", "text")}
-"""Texts of programs, which name no lines."""
-
-
-def _moved(record: Any, move: _Move) -> Any:
-    """A record with every line that it names moved."""
-    if isinstance(record, str):
-        if "program line" not in record:
-            return record
-        return _LINES.sub(lambda lines: re.sub(r"\d+", lambda line: str(move.line(int(line[0]))), lines[0]), record)
-    if isinstance(record, Span):
-        line = move.line(record.line)
-        return record if line == record.line else record._replace(line=line)
-    if isinstance(record, Enum | Plane):
-        return record
-    if isinstance(record, tuple):
-        parts = [_moved(each, move) for each in record]
-        return record if all(map(is_, parts, record)) else tuple(parts)
-    if isinstance(record, Mapping):
-        values = {name: _moved(each, move) for name, each in record.items()}
-        return record if all(values[name] is each for name, each in record.items()) else values
-    if isinstance(record, Struct):
-        names = [name for name in record.__struct_fields__ if name not in _TEXTS.get(type(record), ())]
-        changes = _changes(record, names, move)
-        changes |= {"line": move.line(record.line)} if isinstance(record, Block | OpenNumber) else {}
-        return replace(record, **changes) if changes else record
-    if is_dataclass(record) and not isinstance(record, type):
-        changes = _changes(record, [each.name for each in fields(record)], move)
-        return with_fields(record, **changes) if changes else record
-    return record
-
-
-def _changes(record: Any, names: Iterable[str], move: _Move) -> dict[str, Any]:
-    old = {name: getattr(record, name) for name in names}
-    new = {name: _moved(each, move) for name, each in old.items()}
-    return {name: each for name, each in new.items() if each is not old[name]}

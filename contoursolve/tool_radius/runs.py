@@ -155,16 +155,16 @@ def find_runs(path: ToolPath, asked: ToolRequest, dialect: Dialect) -> list[Cutt
     texts = {side: dialect.modes.codes[side.code].text for side in ToolSide}
     for place, code in stock.switches:
         if asked.side and code in {*SIDES} - {asked.side.code}:
-            told = (
-                f"--side {asked.side.value} is against {texts[SIDES[code]]} in program line {path.blocks[place].line}"
+            line = path.blocks[place].line
+            raise ToolError(
+                f"side {asked.side.value} is against {texts[SIDES[code]]} in program line {line}; leave one out"
             )
-            raise ToolError(f"{told}; leave one out")
     is_stated = any(code in SIDES for _, code in stock.switches)
     groups = list(_groups(path, is_stated=is_stated))
     if not is_stated and asked.side is None and any(group.travels for group in groups):
         raise ToolError(
             f"nothing says on which side of the contour the tool runs; write {' or '.join(texts.values())} before it, "
-            "or give --side left or --side right"
+            "or state the side: left or right"
         )
     found = [run for group in groups if (run := _run(group, path.axes, stock, asked.side)) is not None]
     return [stock.left(run, found) for run in found] if is_stated else found
@@ -296,7 +296,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
     if first:
         lead, is_approached, travels, elements = travels[first - 1], True, travels[first:], elements[first:]
     if tool.tip is None and (any(plane.diameters) or (plane.axes == _TURNED and stock.has_lathe)):
-        raise ToolError("a turning tool needs the number of its imaginary tip; give --tip 0 to 9, such as --tip 3")
+        raise ToolError("a turning tool needs the number of its imaginary tip, 0 to 9; state it, as in R0.8, tip 3")
     if tool.tip is not None and not _is_turned(plane, tool):
         raise ToolError(f"a cutter has no imaginary tip; leave tip {tool.tip} out")
     made = CuttingRun(
@@ -469,10 +469,10 @@ class _Stock:
         tool = self.asked.tool or stated or self.asked.default
         if isinstance(tool, Word):
             told = f"{tool.text.strip()} in program line {tool.span.line} has no row in the table of tools"
-            raise ToolError(f"{told}; write one below [tools] in contoursolve.toml, or give --tool R0.8")
+            raise ToolError(f"{told}; write one below [tools] in contoursolve.toml, or state a tool such as R0.8")
         if tool is None:
             raise ToolError(
-                f"nothing says which tool cuts program line {step.line}; give --tool R0.8, or write the comment "
+                f"nothing says which tool cuts program line {step.line}; state one such as R0.8, or write the comment "
                 "(contoursolve tool: R0.8, tip 3) above it"
             )
         tool = tool if self.asked.tip is None else replace(tool, tip=self.asked.tip)

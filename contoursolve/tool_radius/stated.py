@@ -8,9 +8,9 @@ from typing import Any
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import rank
-from contoursolve.program import Result, Run, find_tool_table
+from contoursolve.program import Result, find_tool_table
 from contoursolve.reading import ReadIssue
-from contoursolve.tool_radius.findings import ToolReport, look_at_tool
+from contoursolve.tool_radius.findings import ToolReport
 from contoursolve.tool_radius.runs import ToolRequest
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, make_tool, read_tool
 
@@ -18,12 +18,11 @@ FROM_PROGRAM = "program"
 """In the place of a tool: what the program and the project file say."""
 
 
-def result_beside_tool(run: Run, wanted: ToolRequest) -> tuple[Result, ToolReport]:
-    """The result of a run with the findings about its tool, and the path of the tool. Raises ToolError."""
-    report = look_at_tool(result := run.collect(), run.asked, wanted)
+def result_beside_tool(result: Result, report: ToolReport) -> Result:
+    """The result of a program with the findings about its tool."""
     is_cut = bool(report.runs)
     kept = [each for each in result.diagnostics if not (is_cut and each.about is ReadIssue.NO_CONTOUR)]
-    return replace(result, diagnostics=tuple(sorted((*kept, *report.findings), key=rank))), report
+    return replace(result, diagnostics=tuple(sorted((*kept, *report.findings), key=rank)))
 
 
 def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | None, outside: str | None) -> ToolRequest:

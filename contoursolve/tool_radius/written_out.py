@@ -21,7 +21,7 @@ def written_out(run: Run, dialect: Dialect, *, is_inline: bool) -> list[Block]:
         return []
     others = (block.text for block in program.blocks if not _calls_profile(block.text, language))
     if not is_inline and needs_running(others, language):
-        raise ToolError("a program that calls, jumps or computes has no one path: add --inline")
+        raise ToolError("a program that calls, jumps or computes has no one path: expand it inline")
     machine.finishes = True
     blocks, backs = list[Block](), iter(list[str]())
     if any(_calls_profile(block.text, language) for block in program.blocks):

@@ -11,12 +11,20 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import status_text
 from contoursolve.diagnostics import importing
 from contoursolve.execution import named_variables
-from contoursolve.notebook import Product, converted, expanded, page_about, stated_tool
+from contoursolve.notebook import (
+    Product,
+    converted,
+    expanded,
+    expanded_beside_tool,
+    page_about,
+    report_on_tool,
+    stated_tool,
+)
 from contoursolve.output import beside_of, receipt_lines, to_json
 from contoursolve.pictures import Theme, draw_result
 from contoursolve.postprocess import ending_of
 from contoursolve.program import CONTROL, Result
-from contoursolve.tool_radius import ToolReport, title_of
+from contoursolve.tool_radius import ToolReport, result_beside_tool, title_of
 from contoursolve.workbench.fields import ActionError, Data, read_field
 from contoursolve.workbench.open_view import ProgramView
 
@@ -51,16 +59,8 @@ def _drawn(result: Result, tool: ToolReport | None) -> Data:
 
 
 def _with_tool(view: ProgramView, action: Mapping[str, Any]) -> Data:
-    program = view.program
-    result, report = contoursolve.solve_with_tool(
-        program.text,
-        read_field(action, "tool", str, "program"),
-        tip=read_field(action, "tip", int, None),
-        side=read_field(action, "side", str, None) or None,
-        outside=read_field(action, "outside", str, None),
-        name=program.name,
-        control=program.dialect,
-    )
+    report = report_on_tool(view.program, view.path, **_tool(action))
+    result = result_beside_tool(view.program.result(), report)
     radii = [each.largest_radius for each in report.runs]
     limits = [each for each in radii if each is not None]
     return {
@@ -78,6 +78,12 @@ def _with_tool(view: ProgramView, action: Mapping[str, Any]) -> Data:
         ],
         "largest_mm": min(limits, default=None),
     }
+
+
+def _tool(action: Mapping[str, Any]) -> Data:
+    """The tool that an action states."""
+    kinds = {"tool": str, "tip": int, "side": str, "outside": str}
+    return {name: read_field(action, name, kind) for name, kind in kinds.items() if action.get(name) not in (None, "")}
 
 
 def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
@@ -125,17 +131,14 @@ def _told(view: ProgramView, result: Result) -> Sequence[Data]:
 
 
 def _expand(view: ProgramView, action: Mapping[str, Any]) -> Data:
-    options = {
-        name: read_field(action, name, kind, None)
-        for name, kind in (("post", str), ("arcs", str), ("decimals", int))
-        if action.get(name) is not None
-    }
-    options |= {
-        name: read_field(action, name, bool, False)
-        for name in ("comments", "inline", "keep_going", "keep_untranslated")
-        if name in action
-    }
+    if tool := _tool(action):
+        return _program(view, expanded_beside_tool(view.program, view.path, **tool), f"-tool{_suffix(view)}")
+    kinds = {"post": str, "arcs": str, "decimals": int, **dict.fromkeys(_SWITCHES, bool)}
+    options = {name: read_field(action, name, kind) for name, kind in kinds.items() if action.get(name) is not None}
     return _program(view, expanded(view.program, **options), f"-plain{_suffix(view)}")
+
+
+_SWITCHES = ("comments", "inline", "keep_going", "keep_untranslated")
 
 
 def _convert(view: ProgramView, action: Mapping[str, Any]) -> Data:
@@ -155,9 +158,7 @@ def _program(view: ProgramView, made: Product, ending: str) -> Data:
 
 def _report(view: ProgramView, _: Mapping[str, Any]) -> Data:
     with importing("report", "a report"):
-        made = page_about(
-            view.program, view.program.name, stated_tool(view.program, view.path), contoursolve.__version__
-        )
+        made = page_about(view.program, stated_tool(view.program, view.path), contoursolve.__version__)
     if made.text is None:
         raise ActionError(made.message)
     return _file(view, ".html", made.text.encode("utf-8", "replace"))

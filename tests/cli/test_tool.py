@@ -62,7 +62,7 @@ def test_a_side_against_the_program_and_a_tip_of_a_cutter(tmp_path: Path):
     (tmp_path / "a.nc").write_text(COMPENSATED)
     done = call("check", *LATHE, *NOSE, "--side", "left", tmp_path / "a.nc")
     assert (done.exit_code, done.stderr.count("\n")) == (2, 1)
-    assert "--side left is against G42 in program line 3" in done.stderr
+    assert "side left is against G42 in program line 3" in done.stderr
     assert call("check", *LATHE, *NOSE, "--side", "right", tmp_path / "a.nc").exit_code == 0
     done = call("check", *MILL, *NOSE, "--side", "left", "--start", "X0 Y0", "--block", "G01 X5. Y5.")
     assert "a cutter has no imaginary tip" in done.stderr
@@ -584,7 +584,7 @@ def test_the_side_of_a_contour_that_is_not_solved_is_known(tmp_path: Path):
         done = call("check", "--tool", "R5", tmp_path / "a.h")
         assert (done.exit_code, done.stderr) == (1, "")
         assert "error[several-contours]" in done.stdout
-        assert "--side left is against RR" in call("check", "--tool", "R5", "--side", "left", tmp_path / "a.h").stderr
+        assert "side left is against RR" in call("check", "--tool", "R5", "--side", "left", tmp_path / "a.h").stderr
 
 
 def test_a_program_that_cuts_nothing_is_not_asked_for_a_side(tmp_path: Path):
@@ -658,7 +658,7 @@ def test_a_program_with_calls_is_written_out_along_the_path_of_the_tool(
     (tmp_path / "KONTUR.SPF").write_text(KONTUR)
     words, new = ("--control", control, "--tool", "R4"), tmp_path / "new.nc"
     done = call("expand", *words, tmp_path / "a.nc")
-    assert (done.exit_code, "no one path: add --inline" in done.stderr) == (2, True)
+    assert (done.exit_code, "no one path: expand it inline" in done.stderr) == (2, True)
     done = call("expand", *words, "--inline", tmp_path / "a.nc", "-o", new)
     assert (done.exit_code, f"{count} contours expanded" in done.stderr) == (0, True), done.stderr
     assert not re.search(rb"(?m)^[^;(\r\n]*(?:G4[12]|M98|WHILE|KONTUR)|[^\r]\n", new.read_bytes())

@@ -153,3 +153,10 @@ def test_a_comma_a_point_or_a_sign_too_many_is_asked_about_and_the_first_fix_is_
     assert all("is not a number that a control reads: did you mean" in each.message for each in errors)
     # What the help says is what the first fix does.
     assert errors[0].fixes[0].description.startswith(errors[0].help.partition(" if")[0].partition(";")[0])
+
+
+def test_a_slip_in_a_line_of_a_loop_is_mended_where_it_stands():
+    text = "O2\n#100=5.\nWHILE[#100 LT 8.]DO1\nG01 X40. Z12,50\nG01 Z-30. ,R#100 F0.2\nG01 X100. ,A120.\n"
+    text += "#100=#100+1.\nEND1\nM30\n"
+    (found,) = (each for each in solve(text, control="fanuc-lathe").diagnostics if each.span.line == 4)
+    assert [fix.replacement for fix in found.fixes] == ["G01 X40. Z12.50"]

@@ -5,10 +5,12 @@ from base64 import b64decode, b64encode
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from examples import some_of
 from workbench_page import Page
 
 import contoursolve
+from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
 from contoursolve.gcode import decode
 from contoursolve.notebook import Conversation, begin
@@ -114,6 +116,23 @@ def test_each_product_is_that_of_the_command_of_its_name(tmp_path):
         {"do": "variables", "values": {"#1": 10**400}},
     ):
         assert [*page.ask(**wrong)] == ["trouble"]
+
+
+def test_a_program_along_the_path_of_its_tool_is_that_of_the_command_line(tmp_path):
+    text = "G21 G40 G18\nG00 X40. Z5.\n{}G42 G00 X20. Z2. D1\nG01 Z-10. F0.2\nX30. Z-20.\nZ-30.\nG40 X50.\nM30\n"
+    for name, tool, words in (("a.nc", {"tool": "R0.8", "tip": 3}, ("R0.8", "--tip", "3")), ("b.nc", {}, ("program",))):
+        stated = "" if tool else "(contoursolve tool: R0.4, tip 3)\n"
+        (tmp_path / name).write_text(text.format(stated))
+        page = Page(Desk(tmp_path))
+        page.ask("open", name=name, control="fanuc-lathe")
+        command = ["expand", str(tmp_path / name), "--control", "fanuc-lathe", "--tool", *words]
+        plain = CliRunner().invoke(main, command).stdout
+        made = page.ask("expand", **(tool or {"tool": "program"}))
+        assert b64decode(made["base64"]).decode() == plain != text.format(stated)
+        assert made["name"] == f"{name[0]}-tool.nc"
+    page.ask("open", name="a.nc", control="fanuc-lathe")
+    assert "0 to 9; state it, as in R0.8, tip 3" in page.ask("expand", tool="R1")["trouble"]
+    assert "the radius of the tool is R-1" in page.ask("expand", tool="R-1")["trouble"]
 
 
 def test_the_way_around_outside_corners_is_that_of_the_program():

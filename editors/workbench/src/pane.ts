@@ -143,6 +143,7 @@ export class ProgramPane {
     return [
       { text: "Convert for another control…", act: () => void this.convert() },
       { text: "Expand into G01, G02, G03", act: run("expand") },
+      { text: "Expand along the path of the tool", act: () => void this.command("expand", this.asked(this.own.tool)) },
       { text: "Verify", act: run("verify") },
       { text: "Report", act: run("report") },
       { text: "Drawing as DXF", act: run("dxf") },
@@ -338,6 +339,12 @@ export class ProgramPane {
 
   // Commands -------------------------------------------------------------------------------------------------------
 
+  // The tool of its fields; without a radius, that which the program states.
+  private asked({ radius, tip, side }: ToolState): Record<string, unknown> {
+    const isOwn = radius === "" || radius === PROGRAM;
+    return { tool: isOwn ? PROGRAM : `R${radius}`, ...(tip ? { tip: Number(tip) } : {}), ...(side ? { side } : {}) };
+  }
+
   private async setTool(tool: ToolState): Promise<void> {
     const program = this.program;
     if (!program) return;
@@ -345,11 +352,9 @@ export class ProgramPane {
     own.tool = { ...tool, radius: decimal(tool.radius) };
     own.tooled = null;
     if (own.tool.radius) {
-      const { radius, tip, side } = own.tool;
-      const asked = () => ({ do: "tool", tool: radius === PROGRAM ? radius : `R${radius}`, ...(tip ? { tip: Number(tip) } : {}), ...(side ? { side } : {}) });
       own.toolTrouble = "";
-      own.tooled = await program.ask<Tooled>(asked, false, (why) => {
-        if (why.reply) own.toolTrouble = why.message.replace("give --side left or --side right", "choose the side here").replace(/--(side|tip)/g, "$1");
+      own.tooled = await program.ask<Tooled>(() => ({ do: "tool", ...this.asked(own.tool) }), false, (why) => {
+        if (why.reply) own.toolTrouble = why.message;
         return why.reply !== null;
       });
       own.toolSeq = program.view.seq;
