@@ -5,15 +5,15 @@ From it the words of any control are made: each word states a fact about these p
 
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from math import dist, inf, isclose
+from math import dist, isclose
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
-from contoursolve.geometry import CornerShape, Fact, Given, Length, Line, Plane, Unit, Values, scalar
+from contoursolve.geometry import CornerShape, Fact, Given, Length, Line, Plane, Unit
 from contoursolve.postprocess.expansion_report import ConversionError
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, direction, on_arc
 
 EXACT = 5e-9
 """mm or degrees. A value that is off a number by no more is that number."""
@@ -42,43 +42,22 @@ class DrawnElement(Struct, frozen=True):
     @property
     def ends(self) -> tuple[complex, complex]:
         """The directions in which it begins and ends."""
-        each, found = self.segment, list[complex]()
-        for at in (each.start, each.end):
-            if isinstance(each, LineSegment):
-                step = complex(each.end[0] - each.start[0], each.end[1] - each.start[1])
-            else:
-                step = complex(at[0] - each.center[0], at[1] - each.center[1]) * 1j * each.turn.sign
-            found.append(step / abs(step))
-        return found[0], found[1]
+        each = self.segment
+        if isinstance(each, LineSegment):
+            return (complex(*direction(each.start, each.end)),) * 2
+        return complex(*on_arc(each, 0.0)[1]), complex(*on_arc(each, 1.0)[1])
 
 
-class DrawingNumbers:
-    """The numbers that a drawing gives: coordinates by axis and lengths in mm (X of a lathe as radius), angles in
-    degrees."""
-
-    def __init__(self) -> None:
-        self._places: dict[tuple[int | None, Unit, int], Decimal] = {}
-
-    def add(self, number: Decimal, axis: int | None, unit: Unit) -> None:
-        """Take a number: a coordinate along an axis, else a length or an angle."""
-        for sign in (1, -1) if axis is None and unit is not Unit.DEGREE else (1,):
-            self._places.setdefault((axis, unit, _place(float(sign * number), unit)), sign * number)
-
-    def find(self, value: float, axis: int | None, unit: Unit) -> Decimal | None:
-        """The number that a value is."""
-        place = _place(value, unit)
-        near = (self._places.get((axis, unit, place + step)) for step in (0, -1, 1))
-        offs = ((number, abs(float(number) - value)) for number in near if number is not None)
-        turns = _TURN if unit is Unit.DEGREE else inf
-        return next((number for number, off in offs if off <= EXACT or abs(off - turns) <= EXACT), None)
+_Numbers = Mapping[tuple[int | None, Unit, float], Decimal]
+"""Coordinates by axis and lengths in mm (X of a lathe as radius), angles in degrees; by their rounded values."""
 
 
-_TURN = 360.0
+_TURN, _DIGITS = 360.0, 8
 
 
-def _place(value: float, unit: Unit) -> int:
-    """A number of steps as large as what is exact; that of an angle without whole turns."""
-    return round((value % _TURN if unit is Unit.DEGREE else value) / EXACT)
+def _key(value: float, axis: int | None, unit: Unit) -> tuple[int | None, Unit, float]:
+    is_angle = unit is Unit.DEGREE
+    return axis, unit, round(value % _TURN, _DIGITS) % _TURN if is_angle else round(value, _DIGITS)
 
 
 class ContourDrawing(Struct, frozen=True):
@@ -87,9 +66,13 @@ class ContourDrawing(Struct, frozen=True):
     plane: Plane
     unit: Length
     elements: tuple[DrawnElement, ...]
-    numbers: DrawingNumbers
+    numbers: _Numbers
     points: tuple[Point, ...] = ()
     """The points whose both coordinates the drawing gives."""
+
+    def number(self, value: float, axis: int | None, unit: Unit) -> Decimal | None:
+        """The number of the drawing that a value is."""
+        return self.numbers.get(_key(value, axis, unit))
 
     def point_on(self, element: DrawnElement) -> Point | None:
         """A point of the drawing on the line or circle of an element, away from where it begins."""
@@ -148,18 +131,18 @@ def draw(answer: Answer) -> ContourDrawing:
     return ContourDrawing(answer.plane, answer.unit, tuple(elements), _numbers(answer), points)
 
 
-def _numbers(answer: Answer) -> DrawingNumbers:
+def _numbers(answer: Answer) -> _Numbers:
     """The numbers that the words of a contour and its facts state, and those of its start."""
-    profile, numbers = answer.profile, DrawingNumbers()
+    profile = answer.profile
     facts: Mapping[str, Fact] = {fact.given: fact for fact in profile.facts if fact.given}
-    for axis, value in enumerate(profile.start.values):
-        if value is not None:
-            numbers.add(value, axis, Unit.MM)
+    found = [(value, axis, Unit.MM) for axis, value in enumerate(profile.start.values) if value is not None]
     for given in (each for each in profile.givens.values() if _is_drawn(each)):
         placed = facts[given.name].placed if given.name in facts else None
-        is_coordinate = placed is not None and placed.is_stepped and not placed.origin
-        numbers.add(given.value, placed.axis if placed is not None and is_coordinate else None, given.unit)
-    return numbers
+        axis = placed.axis if placed is not None and placed.is_stepped and not placed.origin else None
+        found.append((given.value, axis, given.unit))
+        if axis is None and given.unit is not Unit.DEGREE:
+            found.append((-given.value, axis, given.unit))
+    return {_key(float(number), axis, unit): number for number, axis, unit in reversed(found)}
 
 
 def _is_drawn(given: Given) -> bool:
@@ -171,44 +154,33 @@ def with_roundings(drawn: ContourDrawing) -> ContourDrawing:
     """The same, where each arc that touches the lines before and behind it is the rounding of their corner."""
     elements = list(drawn.elements)
     for number in reversed(range(1, len(elements) - 1)):
-        before, arc, after = elements[number - 1 : number + 2]
-        vertex = _vertex(before, arc, after)
-        if vertex is None or not isinstance(arc.segment, ArcSegment):
-            continue
-        corner = DrawnCorner(CornerShape.FILLET, arc.segment.radius, arc.segment)
-        elements[number - 1 : number + 2] = [
-            replace(before, segment=replace(before.segment, end=vertex), corner=corner),
-            replace(after, segment=replace(after.segment, start=vertex)),
-        ]
+        elements[number - 1 : number + 2] = _rounded(*elements[number - 1 : number + 2])
     return replace(drawn, elements=tuple(elements))
 
 
-def _vertex(before: DrawnElement, arc: DrawnElement, after: DrawnElement) -> Point | None:
-    """The virtual intersection of two lines that an arc rounds; None if it does not."""
-    lines, round_ = (before.segment, after.segment), arc.segment
-    if not (isinstance(round_, ArcSegment) and all(isinstance(each, LineSegment) for each in lines)):
-        return None
-    if before.corner or arc.corner or round_.sweep >= _MOST_ROUNDED:
-        return None
+def _rounded(before: DrawnElement, arc: DrawnElement, after: DrawnElement) -> tuple[DrawnElement, ...]:
+    """Two lines up to their virtual intersection, if what is between them rounds it; else all three."""
+    round_, lines = arc.segment, all(isinstance(each.segment, LineSegment) for each in (before, after))
     one, other = before.ends[1], after.ends[0]
-    if not (_touch(one, arc.ends[0]) and _touch(arc.ends[1], other)):
-        return None
-    setback = round_.radius * abs((other - one) / (other + one))
-    at = complex(*round_.start) + one * setback
-    return at.real, at.imag
+    is_tangent = begins_smoothly(before, arc) and begins_smoothly(arc, after)
+    if not (isinstance(round_, ArcSegment) and lines and is_tangent and round_.sweep < _MOST_ROUNDED):
+        return before, arc, after
+    vertex = complex(*round_.start) + one * round_.radius * abs((other - one) / (other + one))
+    at, corner = (vertex.real, vertex.imag), DrawnCorner(CornerShape.FILLET, round_.radius, round_)
+    return (
+        replace(before, segment=replace(before.segment, end=at), corner=corner),
+        replace(after, segment=replace(after.segment, start=at)),
+    )
 
 
 _MOST_ROUNDED = 170.0
 """Degrees. The virtual intersection of lines that turn by more lies far away."""
 
 
-def _touch(one: complex, other: complex) -> bool:
-    return abs((one.conjugate() * other).imag) <= SMOOTH and (one.conjugate() * other).real > 0
-
-
 def begins_smoothly(before: DrawnElement, element: DrawnElement) -> bool:
     """Whether an element begins in the direction in which the one before it ends, without a corner."""
-    return before.corner is None and _touch(before.ends[1], element.ends[0])
+    turn = before.ends[1].conjugate() * element.ends[0]
+    return before.corner is None and abs(turn.imag) <= SMOOTH and turn.real > 0
 
 
 def size_as(shape: CornerShape, element: DrawnElement) -> float | None:
@@ -229,12 +201,3 @@ def size_as(shape: CornerShape, element: DrawnElement) -> float | None:
     if shape is CornerShape.FILLET or not isclose(*setbacks, rel_tol=0, abs_tol=EXACT):
         return None
     return setbacks[0] if shape is CornerShape.CHAMFER_SETBACK else face
-
-
-def value_of(fact: Fact, places: Mapping[str, Point], radii: Mapping[str, float]) -> float | None:
-    """The value of the word that states a fact, where its points are known; mm (radius) or degrees."""
-    scalars = {scalar(name, axis): at for name, place in places.items() for axis, at in enumerate(place)} | dict(radii)
-    try:
-        return fact.implied(Values(scalars, {}, {}))
-    except KeyError:
-        return None

@@ -1,6 +1,7 @@
 """Wordings of drawn elements: words with what they rest on, and the plain lines and arcs that all controls have."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from decimal import Decimal
 from enum import Enum
 from itertools import product
@@ -10,8 +11,8 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import write_word
 from contoursolve.gcode import number_of
-from contoursolve.geometry import Length, Unit
-from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, value_of
+from contoursolve.geometry import Length, Unit, Values, scalar
+from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement
 from contoursolve.postprocess.emit import Format, emit
 from contoursolve.postprocess.post_processors import Arcs
 from contoursolve.reading import ContourForm, Dialect, State, WithoutPoint
@@ -102,7 +103,7 @@ class Speller:
         """The word for a value, mm (radius) or degrees: a coordinate along an axis, a length or an angle. Of a text
         that states it, only on what that rests."""
         row = self.lexicon.addresses[address]
-        own = self.drawn.numbers.find(value, axis, row.unit)
+        own = self.drawn.number(value, axis, row.unit)
         text = text or write_word(address, value if own is None else float(own), self.lexicon, self.unit)
         number = Decimal(number_of(text, address) or 0)
         if row.unit is not Unit.DEGREE:
@@ -233,11 +234,13 @@ _STEP = 0.002
 def values_of(
     form: ContourForm, places: Mapping[str, Point], radii: Mapping[str, float]
 ) -> dict[str, tuple[float, int | None]]:
-    """The value of each word whose fact is about known points, and its axis if it is a coordinate."""
-    found = dict[str, tuple[float, int | None]]()
-    for fact in (row.fact for row in form.outline.facts):
-        value = value_of(fact, places, radii) if fact.given and fact.given not in found else None
-        if value is not None:
-            placed = fact.placed
-            found[fact.given] = value, placed.axis if placed is not None and not placed.origin else None
+    """The value of each word whose fact is about known points, mm (radius) or degrees, and its axis if it is a
+    coordinate."""
+    scalars = {scalar(name, axis): at for name, place in places.items() for axis, at in enumerate(place)} | dict(radii)
+    known, found = Values(scalars, {}, {}), dict[str, tuple[float, int | None]]()
+    for fact in (row.fact for row in form.outline.facts if row.fact.given):
+        with suppress(KeyError):
+            value, placed = fact.implied(known), fact.placed
+            if value is not None and fact.given not in found:
+                found[fact.given] = value, placed.axis if placed is not None and not placed.origin else None
     return found
