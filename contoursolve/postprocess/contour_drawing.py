@@ -135,7 +135,8 @@ def _numbers(answer: Answer) -> _Numbers:
     """The numbers that the words of a contour and its facts state, and those of its start."""
     profile = answer.profile
     facts: Mapping[str, Fact] = {fact.given: fact for fact in profile.facts if fact.given}
-    found = [(value, axis, Unit.MM) for axis, value in enumerate(profile.start.values) if value is not None]
+    found = list[tuple[Decimal, int | None, Unit]]()
+    found += [(value, axis, Unit.MM) for axis, value in enumerate(profile.start.values) if value is not None]
     for given in (each for each in profile.givens.values() if _is_drawn(each)):
         placed = facts[given.name].placed if given.name in facts else None
         axis = placed.axis if placed is not None and placed.is_stepped and not placed.origin else None

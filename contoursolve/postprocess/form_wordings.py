@@ -1,77 +1,59 @@
 """The words of a control whose contours are blocks of their own forms: every set that the rules of a form allow."""
 
 from collections.abc import Iterator, Sequence
-from itertools import product
+from itertools import islice, product
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis import legal_samples
-from contoursolve.geometry import Line
-from contoursolve.postprocess.contour_drawing import ContourDrawing, DrawnElement, size_as
-from contoursolve.postprocess.wordings import GCodeSpeller, Wording, WrittenBlock, WrittenWord, values_of
-from contoursolve.reading import ContourForm, Dialect, State, check, stated_sets
-from contoursolve.solving import ArcSegment, LineSegment, Point
+from contoursolve.geometry import Arc, Line
+from contoursolve.postprocess.contour_drawing import DrawnElement, size_as
+from contoursolve.postprocess.wordings import CornerWay, GCodeSpeller, Wording, WrittenBlock
+from contoursolve.reading import ContourForm, Dialect, check, stated_sets
+from contoursolve.solving import LineSegment, Point
 
 
 class FormWordings(GCodeSpeller):
     """The words of a control's forms for elements of a contour."""
 
-    def __init__(self, drawn: ContourDrawing, dialect: Dialect, state: State) -> None:
-        super().__init__(drawn, dialect, state)
-        self.uses = _uses(dialect)
-
-    def corner_words(self, _: DrawnElement) -> Iterator[WrittenWord]:
-        return iter(())
-
     def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
-        for form, names in self.uses:
-            yield from self._of_form(form, names, index, is_cut=is_cut)
+        for form, names in _uses(self.dialect):
+            path = form.outline.path
+            row = self.drawn.elements[index : index + len(path)]
+            if [isinstance(each, Line) for each in path] == [isinstance(each.segment, LineSegment) for each in row]:
+                for ways in product(*(self._ways(form, *each) for each in zip(path, row, strict=True))):
+                    if not any(way.behind for way in ways[:-1]):
+                        yield from self._of_form(form, names, row, self.begin(index, is_cut=is_cut), ways)
 
-    def _of_form(self, form: ContourForm, names: frozenset[str], index: int, *, is_cut: bool) -> Iterator[Wording]:
-        path = form.outline.path
-        row = self.drawn.elements[index : index + len(path)]
-        if [isinstance(each, Line) for each in path] != [isinstance(each.segment, LineSegment) for each in row]:
-            return
-        corners = [self._corners(form, each.name, drawn) for each, drawn in zip(path, row, strict=True)]
-        behind, ends = row[-1].corner, [each.segment.end for each in row]
-        written_out: tuple[WrittenBlock, ...] = ()
-        if behind is not None and not corners[-1]:
-            ends[-1], written_out = behind.segment.start, next(self.moves(behind.segment))
-        if any(each.corner and not words for each, words in zip(row[:-1], corners, strict=False)):
-            return
-        places, radii = {path[0].tail: self.begin(index, is_cut=is_cut)}, dict[str, float]()
-        for each, drawn, end in zip(path, row, ends, strict=True):
-            places[each.head] = end
-            if not isinstance(each, Line) and isinstance(drawn.segment, ArcSegment):
-                places[each.center], radii[each.radius] = drawn.segment.center, drawn.segment.radius
-        self._place_beside(form, places, behind.segment.end if behind and not written_out else None)
-        values = values_of(form, places, radii)
+    def _ways(self, form: ContourForm, line: Line | Arc, element: DrawnElement) -> Iterator[CornerWay]:
+        """The ways in which a form makes the corner behind an element: by its words (none where another one makes it),
+        or else as a block of its own."""
+        shapes = [row.shapes for row in form.outline.corners if row.before == line.name]
+        sizes = [(word, size_as(shape, element)) for each in shapes for word, shape in each.items()]
+        said = [(word, size) for word, size in sizes if size is not None]
+        for word, size in said:
+            words = (self.word(word, size),) if word in self.lexicon.addresses else ()
+            yield CornerWay(words, element.segment.end)
+        yield from () if said else islice(self.corners(element), 1)
+
+    def _of_form(
+        self,
+        form: ContourForm,
+        names: frozenset[str],
+        row: Sequence[DrawnElement],
+        begin: Point,
+        ways: tuple[CornerWay, ...],
+    ) -> Iterator[Wording]:
+        values = self.laid(form, row, begin, ways)
         if not names <= values.keys():
             return
-        own = tuple(self.word(name, *values[name]) for name in sorted(names))
-        for chosen in product(*(each or [()] for each in corners)):
-            words = (*own, *(word for each in chosen for word in each))
-            if not check(self.dialect.rules, form.roles, {word.text[:1]: None for word in words}):
-                number = int(form.name.removeprefix("G"))
-                block = WrittenBlock(number if number in _MODAL else None, form.name, words)
-                has_corner = behind is not None
-                yield Wording(len(path), (block, *written_out), has_corner, writes_corner=bool(written_out))
-
-    def _corners(self, form: ContourForm, name: str, element: DrawnElement) -> list[tuple[WrittenWord, ...]]:
-        """The words of a form for the corner behind an element; no word where another one makes it."""
-        shapes = [row.shapes for row in form.outline.corners if row.before == name]
-        sizes = [(word, size_as(shape, element)) for each in shapes for word, shape in each.items()]
-        return [
-            (self.word(word, size),) if word in self.lexicon.addresses else ()
-            for word, size in sizes
-            if size is not None
-        ]
-
-    def _place_beside(self, form: ContourForm, places: dict[str, Point], behind: Point | None) -> None:
-        """Place the ends of the lines beside the path, on which the last corner lands."""
-        for line in form.outline.lines:
-            if line.head not in places and behind is not None:
-                places[line.head] = behind
-            if line.head in places:
-                places.setdefault(line.tail, places[line.head])
+        own = (self.word(name, *values[name]) for name in sorted(names))
+        words = (*own, *(word for way in ways for word in way.words))
+        if not check(self.dialect.rules, form.roles, {word.text[:1]: None for word in words}):
+            number = int(form.name.removeprefix("G"))
+            block = WrittenBlock(number if number in _MODAL else None, form.name, words)
+            found = self.closed(len(row), (block,), replace(ways[-1], words=()))
+            yield replace(found, is_cut=row[-1].corner is not None)
 
 
 _MODAL = (1, 11, 12)

@@ -2,20 +2,23 @@
 are solved together."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import islice
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.gcode import Word, spell
 from contoursolve.geometry import Arc, CornerShape, Turn, Unit
-from contoursolve.postprocess.contour_drawing import (
-    EXACT,
-    ContourDrawing,
-    DrawnElement,
-    begins_smoothly,
-    size_as,
+from contoursolve.postprocess.contour_drawing import ContourDrawing, DrawnElement, begins_smoothly
+from contoursolve.postprocess.wordings import (
+    REFERENCE,
+    NumberGround,
+    Speller,
+    Wording,
+    WrittenBlock,
+    WrittenWord,
+    changed_axes,
 )
-from contoursolve.postprocess.wordings import REFERENCE, NumberGround, Speller, Wording, WrittenBlock, WrittenWord
 from contoursolve.reading import Dialect, State
 from contoursolve.solving import ArcSegment, LineSegment, Segment
 
@@ -32,6 +35,8 @@ _LONGEST = 24
 
 class KlartextWordings(Speller):
     """The words of Klartext. `is_solved` tells whether some blocks alone make elements from one of an index on."""
+
+    corner_shapes = CORNERS
 
     def __init__(
         self,
@@ -51,26 +56,20 @@ class KlartextWordings(Speller):
     def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
         element = self.drawn.elements[index]
         if index and isinstance(element.segment, ArcSegment) and self._goes_on_smoothly(index):
-            ends = tuple(
-                self.word(axis, at, n) for n, (axis, at) in enumerate(zip("XY", element.segment.end, strict=True))
-            )
-            for word, _, behind in self.corners(element):
-                if not behind:
-                    yield Wording(1, self.attach((WrittenBlock(None, "CT", ends),), word))
-        is_rounded = all(
-            any(w.ground is NumberGround.COMPUTED for b in each.blocks for w in b.words) for each in _plain
-        )
+            smooth = (WrittenBlock(None, "CT", self.place(element.segment.end)),)
+            yield from (self.closed(1, smooth, way) for way in self.corners(element) if not way.behind)
+        is_rounded = all(any(word.ground is NumberGround.COMPUTED for word in each.words) for each in _plain)
         if is_cut or not (is_rounded or not index):
             return
-        for word, end, behind in self.corners(element):
-            for line in self._by_angle(replace(element.segment, end=end)):
+        for way in self.corners(element):
+            for line in self._by_angle(replace(element.segment, end=way.end)):
                 if element.corner or self.is_solved(index, 1, line):
-                    yield Wording(1, (*self.attach(line, word), *behind), bool(behind), writes_corner=bool(behind))
+                    yield self.closed(1, line, way)
         whole = len(self.drawn.elements) - index
         for count in range(1, min(_LONGEST, whole) + 1):
             found = [each for each in self._run(index, count) if self.is_solved(index, count, each)]
-            corner = next(self.corner_words(self.drawn.elements[index + count - 1]), None)
-            yield from (Wording(count, self.attach(each, corner)) for each in found[:1])
+            corner = islice(self.corner_words(self.drawn.elements[index + count - 1]), 1)
+            yield from (Wording(count, self.attach(each, tuple(corner))) for each in found[:1])
             if found and not self._goes_on_smoothly(index + count):
                 break
         for blocks in self._run(index, whole) if not index and count < whole else ():
@@ -82,8 +81,7 @@ class KlartextWordings(Speller):
         """A free line by its angle, and a coordinate of its end or its length, without rounding."""
         if isinstance(segment, LineSegment):
             angle = self.word("AN", segment.angle)
-            ends = (self.word(axis, at, n) for n, (axis, at) in enumerate(zip("XY", segment.end, strict=True)))
-            for word in (*ends, self.word("LEN", segment.length)):
+            for word in (*self.place(segment.end), self.word("LEN", segment.length)):
                 if NumberGround.COMPUTED not in (word.ground, angle.ground):
                     yield (WrittenBlock(None, "FL", (word, angle)),)
 
@@ -94,43 +92,33 @@ class KlartextWordings(Speller):
     def _run(self, index: int, count: int) -> Iterator[tuple[WrittenBlock, ...]]:
         """Free elements in a row, without the corner behind the last one; none if a corner between them has no word."""
         row = self.drawn.elements[index : index + count]
-        corners = [next(self.corner_words(each), None) for each in row]
-        pairs = list(zip(row, corners, strict=True))
-        if any(each.corner and word is None for each, word in pairs):
+        corners = [tuple(islice(self.corner_words(each), 1)) for each in row]
+        if any(each.corner and not words for each, words in zip(row, corners, strict=True)):
             return
         is_closed = [False, True] if count == len(self.drawn.elements) else [False]
         for is_whole in is_closed:
             blocks = tuple[WrittenBlock, ...]()
-            for place, (_, word) in enumerate(pairs, index):
-                free = tuple(self._free(place, is_whole=is_whole))
-                free = tuple(each for each in free if each.code != "FPOL" or each not in blocks)
-                blocks = self.attach((*blocks, *free), word if place < index + count - 1 else None)
+            for place, words in enumerate((*corners[:-1], ()), index):
+                free = self._free(place, is_whole=is_whole)
+                new = tuple(each for each in free if each.code != "FPOL" or each not in blocks)
+                blocks = self.attach((*blocks, *new), words)
             yield blocks
 
-    def attach(self, moves: tuple[WrittenBlock, ...], corner: WrittenWord | None) -> tuple[WrittenBlock, ...]:
-        return (*moves, WrittenBlock(None, "", (corner,))) if corner else moves
-
-    def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
-        for address, shape in CORNERS.items() if not self.is_last(element) else ():
-            size = size_as(shape, element)
-            if size is not None:
-                yield self.word(address, size)
+    def attach(self, moves: tuple[WrittenBlock, ...], words: tuple[WrittenWord, ...]) -> tuple[WrittenBlock, ...]:
+        return (*moves, WrittenBlock(None, "", words)) if words else moves
 
     def moves(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
         if isinstance(segment, ArcSegment):
             yield from self._arc(segment)
             return
-        changed = [n for n, (a, b) in enumerate(zip(segment.start, segment.end, strict=True)) if abs(b - a) > EXACT]
-        words = tuple(self.word("XY"[axis], segment.end[axis], axis) for axis in changed)
+        ends = self.place(segment.end)
+        words = tuple(ends[axis] for axis in changed_axes(segment))
         if words:
             yield (WrittenBlock(None, "L", words),)
 
     def _arc(self, arc: ArcSegment) -> Iterator[tuple[WrittenBlock, ...]]:
         sense = WrittenWord(_SENSES[arc.turn])
-        ends, center = (
-            tuple(self.word(axis, at, n) for n, (axis, at) in enumerate(zip("XY", place, strict=True)))
-            for place in (arc.end, arc.center)
-        )
+        ends, center = self.place(arc.end), self.place(arc.center)
         if arc.sweep < _FULL:
             radius = self.word("R", arc.radius if arc.sweep <= _FULL / 2 else -arc.radius)
             yield (WrittenBlock(None, "CR", (*ends, radius, sense)),)
@@ -171,8 +159,7 @@ class KlartextWordings(Speller):
         named = dict.fromkeys(name.rpartition(".")[0] for each in facts for name in each.reads())
         for pole in (each for each in named if each.startswith("pole")):
             at = self.answer.contour.places[pole] if self.answer.contour else (0.0, 0.0)
-            words = tuple(self.word(axis, value, n) for n, (axis, value) in enumerate(zip("XY", at, strict=True)))
-            yield WrittenBlock(None, "FPOL", words)
+            yield WrittenBlock(None, "FPOL", self.place(at))
 
     def _by_facts(self, element: DrawnElement) -> Iterator[WrittenWord]:
         """The words of Klartext that state what the words of another control do."""

@@ -11,11 +11,11 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import write_word
 from contoursolve.gcode import number_of
-from contoursolve.geometry import Length, Unit, Values, scalar
-from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement
+from contoursolve.geometry import Arc, CornerShape, Unit, Values as Known, scalar
+from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, size_as
 from contoursolve.postprocess.emit import Format, emit
-from contoursolve.postprocess.post_processors import Arcs
-from contoursolve.reading import ContourForm, Dialect, State, WithoutPoint
+from contoursolve.postprocess.post_processors import SAME, Arcs
+from contoursolve.reading import ContourForm, Dialect, State
 from contoursolve.solving import ArcSegment, Point, Segment
 
 REFERENCE = "@"
@@ -66,6 +66,11 @@ class Wording(Struct, frozen=True):
     is_plain: bool = False
     """Whether they are lines and arcs by their ends."""
 
+    @property
+    def words(self) -> Iterator[WrittenWord]:
+        """The words of all its blocks."""
+        return (word for block in self.blocks for word in block.words)
+
 
 class HostProgram(Struct, frozen=True):
     """A program in which the blocks stand: where the tool is before them (mm), how numbers and arcs are written,
@@ -77,9 +82,25 @@ class HostProgram(Struct, frozen=True):
     side: str
 
 
+class CornerWay(Struct, frozen=True):
+    """One way to make the corner behind an element: its words, where the element ends then, and the blocks behind it,
+    if it has no words."""
+
+    words: tuple[WrittenWord, ...]
+    end: Point
+    behind: tuple[WrittenBlock, ...] = ()
+
+
+Values = Mapping[str, tuple[float, int | None]]
+"""The value of each word of a form, mm (radius) or degrees, and its axis if it is a coordinate."""
+
+
 class Speller:
     """The words of a control for numbers of a contour; `state` is that behind its opening, `around` the program in
     which they stand, if it is there already: then each block states both coordinates."""
+
+    corner_shapes: Mapping[str, CornerShape] = {}
+    """The words that make the corner behind an element, each with the shape that it makes."""
 
     def __init__(
         self, drawn: ContourDrawing, dialect: Dialect, state: State, around: HostProgram | None = None
@@ -88,31 +109,32 @@ class Speller:
         self.drawn, self.dialect, self.modes = drawn, dialect, dialect.modes
         self.plane, self.unit = state.plane, state.unit
         self.lexicon = dialect.modes.words(state)
-        numbers = self.lexicon.numbers
-        step = numbers.inch if self.unit is Length.INCH else numbers.mm
-        decimals = -int(step.normalize().as_tuple().exponent)
-        has_point = numbers.without_point is WithoutPoint.LEAST_INCREMENTS
-        radius = self.modes.radius
-        self.formats = [Format(self.plane, self.unit, decimals, has_point, arcs, radius=radius) for arcs in Arcs]
         rows = self.lexicon.addresses.values()
-        self.steps = {row.axis: row.address for row in rows if row.is_increment and row.axis}
-        if around is not None:
-            self.formats, self.steps = [around.form], {}
+        self.steps = {row.axis: row.address for row in rows if row.is_increment and row.axis and around is None}
+
+    def address_in(self, text: str) -> str:
+        """The address of a word."""
+        return max(filter(text.startswith, self.lexicon.addresses), key=len)
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:
         """The word for a value, mm (radius) or degrees: a coordinate along an axis, a length or an angle. Of a text
         that states it, only on what that rests."""
         row = self.lexicon.addresses[address]
         own = self.drawn.number(value, axis, row.unit)
-        text = text or write_word(address, value if own is None else float(own), self.lexicon, self.unit)
+        exact = value if own is None else float(own)
+        text = text or write_word(address, exact, self.lexicon, self.unit)
         number = Decimal(number_of(text, address) or 0)
         if row.unit is not Unit.DEGREE:
             number *= self.unit.in_mm / (2 if row.is_diameter else 1)
-        off = abs(float(number) - (value if own is None else float(own)))
+        off = abs(float(number) - exact)
         ground = NumberGround.COMPUTED if off > EXACT else NumberGround.ROUND if own is None else NumberGround.DRAWING
         is_turned = row.unit is Unit.DEGREE and ground is NumberGround.COMPUTED
         is_indirect = is_turned or bool(row.axis and row.is_increment)
         return WrittenWord(text, ground, off if off > EXACT else 0.0, row.unit, is_indirect)
+
+    def place(self, at: Point) -> tuple[WrittenWord, ...]:
+        """The words for both coordinates of a point."""
+        return tuple(self.word(axis, at[n], n) for n, axis in enumerate(self.plane.axes))
 
     def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
         """All wordings of the elements from one on, which begins behind a corner that is cut or at its virtual end; or
@@ -130,44 +152,44 @@ class Speller:
         before = self.drawn.elements[index - 1].corner if index else None
         return before.segment.end if is_cut and before else self.drawn.elements[index].segment.start
 
-    def is_last(self, element: DrawnElement) -> bool:
-        """Whether nothing follows an element."""
-        return element is self.drawn.elements[-1]
-
     def plain(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
         """Ends, as coordinates or increments; arcs about their centre, or by their radius. A corner is written out, or
         has the control's word."""
         element, begin = self.drawn.elements[index], self.begin(index, is_cut=is_cut)
-        for said, end, behind in self.corners(element):
-            segment = replace(element.segment, start=begin, end=end)
+        for way in self.corners(element):
+            segment = replace(element.segment, start=begin, end=way.end)
             # Of an element that its corners use up, nothing is left to be written out.
-            for moves in self.moves(segment) if said or element.cut is not None else ((),):
-                own = self.attach(moves, said) if moves else ()
-                if own or behind:
-                    yield Wording(1, (*own, *behind), bool(behind), writes_corner=bool(behind), is_plain=not said)
+            for moves in self.moves(segment) if way.words or element.cut is not None else ((),):
+                if moves or way.behind:
+                    yield self.closed(1, moves, way, is_plain=not way.words)
 
-    def corners(self, element: DrawnElement) -> Iterator[tuple[WrittenWord | None, Point, tuple[WrittenBlock, ...]]]:
-        """The ways to make the corner behind an element: its word, where the element ends then, and the blocks behind
-        it, if it has no word."""
-        corner = element.corner
-        if corner is None:
-            yield None, element.segment.end, ()
+    def closed(self, count: int, moves: tuple[WrittenBlock, ...], way: CornerWay, *, is_plain: bool = False) -> Wording:
+        """The wording of elements with the corner behind the last one."""
+        blocks, is_cut = self.attach(moves, way.words), bool(way.behind)
+        return Wording(count, (*blocks, *way.behind), is_cut, writes_corner=is_cut, is_plain=is_plain)
+
+    def corners(self, element: DrawnElement) -> Iterator[CornerWay]:
+        """The ways to make the corner behind an element."""
+        if element.corner is None:
+            yield CornerWay((), element.segment.end)
             return
-        yield from ((word, element.segment.end, ()) for word in self.corner_words(element))
-        yield from ((None, corner.segment.start, blocks) for blocks in self.moves(corner.segment))
+        yield from (CornerWay((word,), element.segment.end) for word in self.corner_words(element))
+        behind = element.corner.segment
+        yield from (CornerWay((), behind.start, blocks) for blocks in self.moves(behind))
 
-    def attach(self, moves: tuple[WrittenBlock, ...], corner: WrittenWord | None) -> tuple[WrittenBlock, ...]:
-        """The blocks of an element with the word that makes the corner behind it, if there is one."""
-        if corner is None:
-            return moves
-        return (*moves[:-1], replace(moves[-1], words=(*moves[-1].words, corner)))
+    def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
+        """The words that make the corner behind an element; none where no element follows."""
+        for address, shape in self.corner_shapes.items() if element is not self.drawn.elements[-1] else ():
+            size = size_as(shape, element)
+            if size is not None:
+                yield self.word(address, size)
+
+    def attach(self, moves: tuple[WrittenBlock, ...], words: tuple[WrittenWord, ...]) -> tuple[WrittenBlock, ...]:
+        """The blocks of an element with the words that make the corner behind it."""
+        return (*moves[:-1], replace(moves[-1], words=(*moves[-1].words, *words))) if words else moves
 
     def moves(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
         """An element by its end, in each way that the control has."""
-        raise NotImplementedError
-
-    def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
-        """The words that make the corner behind an element."""
         raise NotImplementedError
 
 
@@ -176,13 +198,11 @@ class GCodeSpeller(Speller):
 
     def moves(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
         """An element by its end: as coordinates or as increments, an arc about its centre or by its radius."""
-        axes = self.plane.axes
         if isinstance(segment, ArcSegment) or self.around is not None:
-            yield from (tuple(self._written_out(segment, form)) for form in self.formats)
+            yield from (tuple(self._written_out(segment, form)) for form in self._formats())
             return
-        changed = [n for n, (a, b) in enumerate(zip(segment.start, segment.end, strict=True)) if abs(b - a) > EXACT]
-        ways = list[list[WrittenWord]]()
-        for axis in sorted(changed, key=lambda axis: axes[axis]):
+        ways, axes = list[list[WrittenWord]](), self.plane.axes
+        for axis in sorted(changed_axes(segment), key=lambda axis: axes[axis]):
             step, end = self.steps.get(axes[axis]), segment.end[axis]
             words = [self.word(axes[axis], end, axis), *([self.word(step, end - segment.start[axis])] if step else [])]
             ways.append([word for n, word in enumerate(words) if not n or word.ground is not NumberGround.COMPUTED])
@@ -190,29 +210,64 @@ class GCodeSpeller(Speller):
             (WrittenBlock(self.line, self.code(self.line), words),) if words else () for words in product(*ways)
         )
 
+    def _formats(self) -> Iterator[Format]:
+        """How arcs are written."""
+        numbers = self.lexicon.numbers
+        decimals, has_point = SAME.digits(self.unit, numbers), SAME.writes_point(numbers)
+        own = (Format(self.plane, self.unit, decimals, has_point, arcs, radius=self.modes.radius) for arcs in Arcs)
+        yield from own if self.around is None else (self.around.form,)
+
     def _written_out(self, segment: Segment, form: Format) -> Iterator[WrittenBlock]:
         """Plain moves, rounded so that an arc stays one; increments count from where rounding has led before."""
         here = _rounded(segment.start, form) if form.is_incremental else segment.start
         for move in emit(segment, here, form, is_rapid=not self.line):
-            words = list[WrittenWord]()
-            for text in move.words:
-                address = next(a for a in (*self.plane.axes, *self.plane.centers, form.radius) if text.startswith(a))
-                if address in self.plane.axes:
-                    axis = self.plane.axes.index(address)
-                    end = _near(segment.end[axis], move.end[axis])
-                    word = self.word(address, end - here[axis] * form.is_incremental, axis, text)
-                elif isinstance(segment, ArcSegment):
-                    axis = self.plane.centers.index(address) if address in self.plane.centers else -1
-                    value = segment.radius if axis < 0 else segment.center[axis] - here[axis]
-                    word = self.word(address, value, None, text)
-                words.append(word)
-            here = move.end
+            ends = map(_near, segment.end, move.end)
+            steps = (end - at * form.is_incremental for end, at in zip(ends, here, strict=True))
+            exact = dict(zip(self.plane.axes, steps, strict=True))
+            if isinstance(segment, ArcSegment):
+                center = (at - begin for at, begin in zip(segment.center, here, strict=True))
+                exact |= {form.radius: segment.radius, **dict(zip(self.plane.centers, center, strict=True))}
+            here, words = move.end, list[WrittenWord]()
+            for address, text in ((self.address_in(text), text) for text in move.words):
+                axis = self.plane.axes.index(address) if address in self.plane.axes else None
+                words.append(self.word(address, exact[address], axis, text))
             if words:
                 yield WrittenBlock(move.code, self.code(move.code), tuple(words))
 
     def code(self, motion: int) -> str:
         """The code of a motion."""
         return self.modes.codes[motion].text
+
+    def laid(
+        self,
+        form: ContourForm,
+        row: Sequence[DrawnElement],
+        begin: Point,
+        ways: Sequence[CornerWay],
+        more: Mapping[str, Point] = {},
+    ) -> Values:
+        """The values of the words of a form whose path lies on a row of elements, which begins at a place and has
+        corners made in some ways. There may be `more` known points."""
+        places, radii, path = {form.outline.path[0].tail: begin, **more}, dict[str, float](), form.outline.path
+        for each, element, way in zip(path, row, ways, strict=True):
+            places[each.head] = way.end
+            if isinstance(each, Arc) and isinstance(element.segment, ArcSegment):
+                places[each.center], radii[each.radius] = element.segment.center, element.segment.radius
+        # The lines beside the path, on which the last corner lands.
+        corner = row[-1].corner
+        for line in form.outline.lines:
+            if corner is not None and not ways[-1].behind:
+                places.setdefault(line.head, corner.segment.end)
+            if line.head in places:
+                places.setdefault(line.tail, places[line.head])
+        scalars = {scalar(name, axis): at for name, place in places.items() for axis, at in enumerate(place)} | radii
+        known, found = Known(scalars, {}, {}), dict[str, tuple[float, int | None]]()
+        for fact in (each.fact for each in form.outline.facts if each.fact.given):
+            with suppress(KeyError):
+                value, placed = fact.implied(known), fact.placed
+                axis = placed.axis if placed is not None and not placed.origin else None
+                found |= {fact.given: (value, axis)} if value is not None and fact.given not in found else {}
+        return found
 
 
 def _rounded(place: Point, form: Format) -> Point:
@@ -231,16 +286,6 @@ _STEP = 0.002
 """mm. A coordinate is rounded by less."""
 
 
-def values_of(
-    form: ContourForm, places: Mapping[str, Point], radii: Mapping[str, float]
-) -> dict[str, tuple[float, int | None]]:
-    """The value of each word whose fact is about known points, mm (radius) or degrees, and its axis if it is a
-    coordinate."""
-    scalars = {scalar(name, axis): at for name, place in places.items() for axis, at in enumerate(place)} | dict(radii)
-    known, found = Values(scalars, {}, {}), dict[str, tuple[float, int | None]]()
-    for fact in (row.fact for row in form.outline.facts if row.fact.given):
-        with suppress(KeyError):
-            value, placed = fact.implied(known), fact.placed
-            if value is not None and fact.given not in found:
-                found[fact.given] = value, placed.axis if placed is not None and not placed.origin else None
-    return found
+def changed_axes(segment: Segment) -> Iterator[int]:
+    """The axes along which an element leads elsewhere."""
+    return (n for n, (a, b) in enumerate(zip(segment.start, segment.end, strict=True)) if abs(b - a) > EXACT)

@@ -141,10 +141,10 @@ def _why_plain(name: str, found: Sequence[WrittenContour], searches: Sequence["_
 def _needed(wordings: Iterator[Wording]) -> list[Wording]:
     """Wordings without those that say more words than another one of the same elements."""
     said = {
-        each: frozenset(word.text for word in _words(each) if word.ground is not NumberGround.NONE) for each in wordings
+        each: frozenset(word.text for word in each.words if word.ground is not NumberGround.NONE) for each in wordings
     }
     kinds = {
-        each: (*(block.code for block in each.blocks), *(w.text for w in _words(each) if w.ground is NumberGround.NONE))
+        each: (*(block.code for block in each.blocks), *(w.text for w in each.words if w.ground is NumberGround.NONE))
         for each in said
     }
     return [
@@ -152,10 +152,6 @@ def _needed(wordings: Iterator[Wording]) -> list[Wording]:
         for each, texts in said.items()
         if not any(kinds[each] == kinds[other] and own < texts for other, own in said.items())
     ]
-
-
-def _words(wording: Wording) -> Iterator[WrittenWord]:
-    return (word for block in wording.blocks for word in block.words)
 
 
 Moves = Mapping[str, tuple[MotionBlock, ...]]
@@ -287,12 +283,12 @@ class _Search:
         is_before = bool(number and self.back.word and each.wording.is_plain and has_word)
         blamed = before if is_before else each
         index, is_cut = blamed.node.index, blamed.node.is_cut
-        several, last = self._allowed(index, is_cut), [*_words(blamed.wording)][-1:]
+        several, last = self._allowed(index, is_cut), [*blamed.wording.words][-1:]
         found = [blamed.wording]
         if is_before:
             found = [other for other in several if other.count == before.wording.count and not other.writes_corner]
         elif [word.text for word in last] == [self.back.word] and self.drawn.elements[index].corner is not None:
-            found = [other for other in several if [*_words(other)][-1:] == last]
+            found = [other for other in several if [*other.words][-1:] == last]
         if len(several) > 1:
             self.banned.update((index, is_cut, other) for other in found)
             self.kinds.pop((index, is_cut), None)
@@ -417,7 +413,7 @@ class _Search:
 
 def _cost(wording: Wording) -> Cost:
     """The cost of a wording without its codes."""
-    words = [*_words(wording)]
+    words = [*wording.words]
     rests = [word.ground for word in words]
     steps = sum(word.is_indirect for word in words) + wording.count - 1
     return (
