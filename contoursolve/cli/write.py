@@ -138,8 +138,7 @@ _WHOLE = "kind"
 
 def _candidate_lines(candidate: WrittenContour) -> Iterator[str]:
     """The number of words of a candidate, its blocks, and on what its numbers rest."""
-    _, words, _, *_ = candidate.cost
-    yield f"{count(words, 'word')} in {count(len(candidate.blocks), 'block')}, {_ground(candidate)}"
+    yield f"{count(candidate.cost.words, 'word')} in {count(len(candidate.blocks), 'block')}, {_ground(candidate)}"
     yield from (f"    {line}" for line in candidate.lines)
     for ground in (NumberGround.COMPUTED, NumberGround.ROUND):
         told = [_told(word) for word in candidate.words(ground)]

@@ -1,7 +1,7 @@
 """The words with which HEIDENHAIN says elements of a drawn contour: conventional moves, and free elements in a row that
 are solved together."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
 from msgspec.structs import replace
@@ -10,6 +10,7 @@ from contoursolve.diagnosis import Answer
 from contoursolve.gcode import Word, spell
 from contoursolve.geometry import Arc, CornerShape, Turn, Unit
 from contoursolve.postprocess.contour_drawing import ContourDrawing, DrawnElement, begins_smoothly
+from contoursolve.postprocess.small_program import SmallProgram
 from contoursolve.postprocess.wordings import (
     REFERENCE,
     NumberGround,
@@ -31,10 +32,12 @@ _BESIDE = ("DR", "tangent", "FSELECT", *CORNERS)
 _PICK = "FSELECT"
 _LONGEST = 24
 """Free elements that are tried in a row."""
+MOST_TRIED = 60
+"""Rows of free elements that are tried."""
 
 
 class KlartextWordings(Speller):
-    """The words of Klartext. `is_solved` tells whether some blocks alone make elements from one of an index on."""
+    """The words of Klartext; `program` is that in which free elements are solved."""
 
     corner_shapes = CORNERS
 
@@ -44,10 +47,10 @@ class KlartextWordings(Speller):
         dialect: Dialect,
         state: State,
         answer: Answer,
-        is_solved: Callable[[int, int, tuple[WrittenBlock, ...]], bool],
+        program: SmallProgram,
     ) -> None:
         super().__init__(drawn, dialect, state)
-        self.answer, self.is_solved = answer, is_solved
+        self.answer, self.program, self.tries = answer, program, MOST_TRIED
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:
         found = super().word(address, value, axis, text)
@@ -63,19 +66,31 @@ class KlartextWordings(Speller):
             return
         for way in self.corners(element):
             for line in self._by_angle(replace(element.segment, end=way.end)):
-                if element.corner or self.is_solved(index, 1, line):
+                if element.corner or self._is_solved(index, 1, line):
                     yield self.closed(1, line, way)
         whole = len(self.drawn.elements) - index
         for count in range(1, min(_LONGEST, whole) + 1):
-            found = [each for each in self._run(index, count) if self.is_solved(index, count, each)]
+            found = [each for each in self._run(index, count) if self._is_solved(index, count, each)]
             corner = islice(self.corner_words(self.drawn.elements[index + count - 1]), 1)
             yield from (Wording(count, self.attach(each, tuple(corner))) for each in found[:1])
             if found and not self._goes_on_smoothly(index + count):
                 break
         for blocks in self._run(index, whole) if not index and count < whole else ():
-            if self.is_solved(index, whole, blocks):
+            if self._is_solved(index, whole, blocks):
                 yield Wording(whole, blocks)
                 return
+
+    def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:
+        """Whether blocks alone make some elements in a row, as far as their number allows to try."""
+        row = [*self.drawn.elements[index : index + count]]
+        if self.tries <= 0 or row[0].cut is None or row[-1].cut is None:
+            return False
+        self.tries -= 1
+        row[-1] = replace(row[-1], corner=None, cut=replace(row[-1].cut, end=row[-1].segment.end))
+        row[0] = replace(row[0], cut=replace(row[0].cut, start=row[0].segment.start))
+        part, mm = replace(self.drawn, elements=tuple(row)), float(self.unit.in_mm)
+        start = [f"{axis}{at / mm:+.9f}" for axis, at in zip(self.plane.axes, part.start, strict=True)]
+        return self.program.read(part, start, blocks, is_exact=True, is_part=True).deviation is not None
 
     def _by_angle(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
         """A free line by its angle, and a coordinate of its end or its length, without rounding."""

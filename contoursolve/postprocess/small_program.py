@@ -1,34 +1,60 @@
-"""A whole small program around the blocks of a contour: what a control must be told first, the start, and the end."""
+"""A whole small program around the blocks of a contour, read as its control does: how far it is off the drawn one."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.comparison import Motion, ToolPath, Travel, along, compare, follow
 from contoursolve.controls import DIALECTS
-from contoursolve.gcode import comment_out, parse_block
+from contoursolve.diagnosis import Depth
+from contoursolve.gcode import comment_out, parse, parse_block
 from contoursolve.geometry import Length
 from contoursolve.postprocess.contour_drawing import ContourDrawing
-from contoursolve.postprocess.post_processors import MachineKind, machine_of
-from contoursolve.postprocess.wordings import REFERENCE, HostProgram, WrittenBlock
-from contoursolve.reading import Dialect, Diameter, State, advance
+from contoursolve.postprocess.post_processors import SAME, MachineKind, machine_of
+from contoursolve.postprocess.wordings import REFERENCE, HostProgram, WrittenBlock, said
+from contoursolve.program import Request, run
+from contoursolve.reading import Dialect, Diameter, ReadIssue, State, advance
+from contoursolve.solving import Point
 
-_ISO = ("%", "O0001"), ("M30", "%")
-_FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    **dict.fromkeys(("siemens-840d", "siemens-808d"), ((), ("M30",))),
-    "isg": (("%CONTOUR",), ("M30",)),
-    "heidenhain": (("BEGIN PGM CONTOUR {unit}",), ("M30", "END PGM CONTOUR {unit}")),
+_ISO = ("%", "O0001"), ("M30", "%"), ".nc"
+_FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...], str]] = {
+    **dict.fromkeys(("siemens-840d", "siemens-808d"), ((), ("M30",), ".mpf")),
+    "isg": (("%CONTOUR",), ("M30",), ".nc"),
+    "heidenhain": (("BEGIN PGM CONTOUR {unit}",), ("M30", "END PGM CONTOUR {unit}"), ".h"),
 }
-"""The lines with which a program begins and ends, where that is not as ISO 6983 has it."""
-
-_ENDINGS = {"siemens-840d": ".mpf", "siemens-808d": ".mpf", "heidenhain": ".h"}
-"""The ends of file names of programs, where that is not `.nc`."""
+"""The lines with which a program begins and ends, and the end of its file's name, where that is not as ISO 6983 has
+it."""
 
 _MISSING = "Add tool, speed, feed, approach and retract: they are not in it."
 _RAPID = "The next block is a rapid straight to the start of the contour. Make it a safe approach."
 
+_SAME = 1e-6
+"""mm. A contour whose words are exact is read back to within this."""
+
+_UNITS_OFF = 2
+"""A contour with rounded words is read back to within so many units of the last decimal of its control."""
+
 
 def ending_of(target: Dialect) -> str:
     """The end of the name of a file with a program for a control, with its dot."""
-    return _ENDINGS.get(target.name, ".nc")
+    return _FRAMES.get(target.name, _ISO)[2]
+
+
+class Reading(Struct, frozen=True):
+    """A small program as it is read back: by how much its contour is off, mm, and where it ends. Where it is another
+    contour, or has a finding, `deviation` is None: `block` of the contour is to blame, or a `word`, for a `reason`."""
+
+    text: str
+    lines: tuple[str, ...]
+    """Those of the contour."""
+    deviation: float | None = None
+    end: Point = (0.0, 0.0)
+    block: int = 0
+    word: str = ""
+    """The text to which a finding points."""
+    reason: str = ""
 
 
 class SmallProgram:
@@ -38,9 +64,9 @@ class SmallProgram:
         self.target, self.is_numbered, self.around = target, target.writing is not None, around
         self.opening = () if self.is_numbered else (_opening(target, drawn),)
         self.told = () if around is not None else (*_stated(target), *comment_out(_MISSING, target.modes.syntax))
-        self.frame = [
-            [line.format(unit=drawn.unit.value.upper()) for line in lines] for lines in _FRAMES.get(target.name, _ISO)
-        ]
+        unit = drawn.unit.value.upper()
+        frame = _FRAMES.get(target.name, _ISO)
+        self.before, self.behind = ([line.format(unit=unit) for line in lines] for lines in frame[:2])
 
     def state(self, unit: Length) -> State:
         """The state behind its opening."""
@@ -49,29 +75,82 @@ class SmallProgram:
             state = advance(state, parse_block(line, 1, self.target.modes.syntax), self.target.modes)
         return state
 
-    def assemble(
-        self, blocks: Sequence[WrittenBlock], lines: Iterable[str], start: Sequence[str], *, needs_side: bool
-    ) -> tuple[list[str], int]:
-        """All lines, and the number of the first one of the contour, from 1; `start` are the words of its begin."""
-        before, behind = self.frame
-        codes = self.target.modes.codes
-        opening = [*self.opening]
-        if self.is_numbered:
-            first = " ".join(("L", *start, "R0 FMAX"))
-        else:
-            first = " ".join((codes[0].text, *sorted(start)))
-            if self.around is not None:
-                opening[-1] += f" {self.around.side}"
-                first += f"\n{codes[91].text}" if self.around.form.is_incremental else ""
-            elif needs_side:
-                opening[-1] += f" {codes[_LEFT].text} D0"
-        told = comment_out(_RAPID, self.target.modes.syntax) if self.around is None else ()
-        head = [*before, *self.told, *opening, *told, *first.split("\n")]
-        closing = [codes[_NO_SIDE].text] if needs_side and self.around is None else []
+    def read(
+        self,
+        drawn: ContourDrawing,
+        start: Sequence[str],
+        blocks: Sequence[WrittenBlock],
+        *,
+        is_exact: bool,
+        needs_side: bool = False,
+        is_part: bool = False,
+    ) -> Reading:
+        """Read the program with these blocks, which begins at the words of `start`, as its control does, and compare
+        its cuts with a contour. It has no error; unless it is there already, no finding at all, and if the contour is
+        no `is_part`, no doubt about what is meant."""
+        lines, head = self._assemble(start, blocks, needs_side=needs_side)
+        own = slice(len(head), len(head) + len(blocks))
+        written = Reading("\n".join(lines) + "\n", tuple(lines[own]))
+        found = self._read_at(Depth.VERDICT, written, drawn, is_exact=is_exact)
+        # Doubts take longer, and repairs of what is wrong anyway much longer.
+        if found.deviation is not None and not is_part and self.around is None:
+            found = self._read_at(Depth.FINDINGS, written, drawn, is_exact=is_exact)
+        return found if found.deviation is not None else replace(found, block=found.block - len(head))
+
+    def _assemble(
+        self, start: Sequence[str], blocks: Sequence[WrittenBlock], *, needs_side: bool
+    ) -> tuple[list[str], list[str]]:
+        """All lines, and those before the contour."""
+        codes, around, opening, closing = self.target.modes.codes, self.around, [*self.opening], []
+        told = comment_out(_RAPID, self.target.modes.syntax) if around is None else []
+        if around is not None:
+            form = around.form
+            places = (at / form.mm * scale for at, scale in zip(around.here, form.scales, strict=True))
+            start = [f"{axis}{at:.9f}" for axis, at in zip(form.plane.axes, places, strict=True)]
+        first = [" ".join(("L", *start, "R0 FMAX") if self.is_numbered else (codes[0].text, *sorted(start)))]
+        if around is not None:
+            opening[-1] += f" {around.side}"
+            first += [codes[91].text] if around.form.is_incremental else []
+        elif needs_side:
+            opening[-1] += f" {codes[_LEFT].text} D0"
+            closing = [codes[_NO_SIDE].text]
+        head = [*self.before, *self.told, *opening, *told, *first]
         numbers = {block.place: len(head) + n for n, block in enumerate(blocks) if block.place >= 0}
-        own = [_REFERENCE.sub(lambda found: str(numbers.get(int(found[1]), "")), line) for line in lines]
-        text = [*head, *own, *closing, *behind]
-        return [f"{n} {line}" for n, line in enumerate(text)] if self.is_numbered else text, len(head) + 1
+        own = [_REFERENCE.sub(lambda found: str(numbers.get(int(found[1]), "")), line) for line in said(blocks)[0]]
+        text = [*head, *own, *closing, *self.behind]
+        return [f"{n} {line}" for n, line in enumerate(text)] if self.is_numbered else text, head
+
+    def _read_at(self, depth: Depth, written: Reading, drawn: ContourDrawing, *, is_exact: bool) -> Reading:
+        """What is read with some depth; the `block` to blame is that of the program."""
+        modes, axes, is_strict = self.target.modes, drawn.plane.axes, self.around is None
+        asked = Request(self.target, drawn.unit, depth=depth, is_strict=is_strict)
+        result = run(parse(written.text, syntax=modes.syntax), asked)
+        for finding in result.diagnostics:
+            if finding.is_error or (is_strict and finding.about is not ReadIssue.NO_CONTOUR):
+                span = finding.span
+                text = written.text.split("\n")[span.line - 1] if span.line > 0 else ""
+                word = text[span.column - 1 : span.end_column - 1]
+                return replace(written, block=span.line - 1, word=word, reason=f"{finding.code}: {finding.message}")
+        path = follow(result, self.target, drawn.unit, axes)
+        # The first move leads to where the contour begins, from a place that is not known.
+        steps = tuple(
+            replace(each, compensation=_NO_SIDE) if isinstance(each, Travel) else each
+            for each in path.steps
+            if not (isinstance(each, Travel) and None in each.start)
+        )
+        last = steps[-1] if steps else None
+        if not isinstance(last, Travel):
+            return replace(written, reason="rounded numbers lead elsewhere: no motion")
+        motion = Motion.RAPID if self.around is not None and self.around.is_rapid else Motion.FEED
+        meant = tuple(replace(along(last, each, axes), motion=motion) for each in drawn.path)
+        unit = 10.0 ** -SAME.digits(drawn.unit, modes.lexicon.numbers) * float(drawn.unit.in_mm)
+        same = compare(
+            ToolPath("", "", axes, meant), replace(path, steps=steps), _SAME if is_exact else _UNITS_OFF * unit
+        )
+        if same.difference is None:
+            return replace(written, deviation=same.deviation, end=(last.end[0] or 0.0, last.end[1] or 0.0))
+        blamed, reason = same.difference.new or last, same.difference.reason
+        return replace(written, block=blamed.line - 1, reason=f"rounded numbers lead elsewhere: {reason}")
 
 
 _LEFT, _NO_SIDE = 41, 40

@@ -1,6 +1,6 @@
 """Wordings of drawn elements: words with what they rest on, and the plain lines and arcs that all controls have."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal
 from enum import Enum
@@ -50,6 +50,17 @@ class WrittenBlock(Struct, frozen=True):
     words: tuple[WrittenWord, ...]
     place: int = -1
     """The place of its element on the path, where other blocks may speak of it."""
+
+
+def said(blocks: Iterable[WrittenBlock], motion: int | None = 0) -> tuple[tuple[str, ...], int, int | None]:
+    """The lines of blocks where a motion is in force, the number of their codes, and the motion in force behind
+    them."""
+    lines, codes = list[str](), 0
+    for block in blocks:
+        code = [] if block.motion is not None and block.motion == motion else [*filter(None, (block.code,))]
+        lines.append(" ".join((*code, *(word.text for word in block.words))))
+        codes, motion = codes + len(code), motion if block.motion is None else block.motion
+    return tuple(lines), codes, motion
 
 
 class Wording(Struct, frozen=True):
@@ -113,8 +124,8 @@ class Speller:
         self.steps = {row.axis: row.address for row in rows if row.is_increment and row.axis and around is None}
 
     def address_in(self, text: str) -> str:
-        """The address of a word."""
-        return max(filter(text.startswith, self.lexicon.addresses), key=len)
+        """The address with which a word begins; empty for one that is named otherwise."""
+        return max(filter(text.startswith, self.lexicon.addresses), key=len, default="")
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:
         """The word for a value, mm (radius) or degrees: a coordinate along an axis, a length or an angle. Of a text
