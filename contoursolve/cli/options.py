@@ -375,12 +375,13 @@ def follow(program: Program, start: str | None, assignments: Sequence[str], opti
         run = follow_program(program, start=start, settings=settings_of(program, assignments), **options)
     check_start(run.asked)
     if stated and (stated["tool"] is not None or any(each in program.text for each in _NAMED)):
-        from contoursolve.cli.tool import beside_tool  # noqa: PLC0415 - few programs state a tool
+        from contoursolve import tool_radius  # noqa: PLC0415 - few programs state a tool
 
         with naming(program.name):
-            found = beside_tool(run, **stated)
-        if found is not run:
-            return found
+            wanted = tool_radius.wanted_tool(program.name, **stated)
+            if stated["tool"] is not None or any(map(tool_radius.tool_of, run.frame.program.blocks)):
+                report = tool_radius.look_at_tool(result := run.collect(), run.asked, wanted)
+                return Collected(tool_radius.result_beside_tool(result, report), run.is_strict, tool=report)
     check_toolless(stated)
     return run
 

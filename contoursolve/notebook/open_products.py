@@ -59,16 +59,10 @@ def report_on_tool(program: "OpenProgram", path: Path | None, **stated: Any) -> 
     return look_at_tool(program.result(), program.request, _tool_of(path, **stated))
 
 
-def _tool_of(
-    path: Path | None,
-    tool: str | None = None,
-    tip: int | None = None,
-    side: str | None = None,
-    outside: str | None = None,
-) -> "ToolRequest":
+def _tool_of(path: Path | None, **stated: Any) -> "ToolRequest":
     from contoursolve.tool_radius import wanted_tool  # noqa: PLC0415 - as above
 
-    return wanted_tool(str(path) if path is not None else "<program>", tool, tip, side, outside)
+    return wanted_tool(str(path) if path is not None else "<program>", **stated)
 
 
 def expanded(program: "OpenProgram", **options: Any) -> Product:

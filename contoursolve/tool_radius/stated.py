@@ -25,7 +25,9 @@ def result_beside_tool(result: Result, report: ToolReport) -> Result:
     return replace(result, diagnostics=tuple(sorted((*kept, *report.findings), key=rank)))
 
 
-def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | None, outside: str | None) -> ToolRequest:
+def wanted_tool(
+    program: str, tool: str | None = None, tip: int | None = None, side: str | None = None, outside: str | None = None
+) -> ToolRequest:
     """The tool as it is asked for. Raises ToolError, SettingError."""
     folder = Path() if program.startswith("<") else Path(program).parent
     is_own = tool is None or tool.strip().lower() == FROM_PROGRAM

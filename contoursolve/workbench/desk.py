@@ -10,11 +10,13 @@ import logging
 from codecs import BOM_UTF8
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from importlib import import_module
 from pathlib import Path
 from secrets import token_hex
 from threading import Lock
 from typing import Any
 
+from msgspec import ValidationError, convert
 from msgspec.structs import replace
 
 import contoursolve
@@ -28,7 +30,7 @@ from contoursolve.program import for_kind, likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import ActionError, Data, read_field
 from contoursolve.workbench.files import ENCODINGS, FileConflictError, FileText, Folder, mark_of, safe_name, text_of
-from contoursolve.workbench.open_view import ProgramView
+from contoursolve.workbench.open_view import Edit, ProgramView
 
 logger = logging.getLogger(__name__)
 
@@ -231,22 +233,15 @@ def _example(control: str) -> tuple[str, str]:
     return f"example-{control}.nc", f"{next(own)}\n"
 
 
-def _view(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    return desk.program(window, action).view(is_whole=True)
-
-
-def _go_on(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    return desk.program(window, action).view()
-
-
-def _edit(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    program = desk.program(window, action)
+def _edit(program: ProgramView, action: Mapping[str, Any]) -> Data:
     if "text" in action:
         program.replace(read_field(action, "text", str))
     else:
-        edits = action.get("edits")
         _check_seq(program, action)
-        program.edit(_read_edits(edits))
+        try:
+            program.edit(convert(action.get("edits"), list[Edit]))
+        except ValidationError:
+            raise ActionError("edits are a list of {from, to, text}; nothing was changed") from None
     try:
         return program.view()
     except Exception as error:  # the text is the reader's: it stays, whatever cannot be said of it
@@ -256,20 +251,6 @@ def _edit(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
             "trouble": f"this text could not be examined: {type(error).__name__}: {error}; please report it",
             "seq": program.seq,
         }
-
-
-def _read_edits(edits: object) -> list[tuple[int, int, str]]:
-    found = []
-    for each in edits if isinstance(edits, list) else ():
-        begin, end, text = (
-            (each.get(name) for name in ("from", "to", "text")) if isinstance(each, dict) else (None,) * 3
-        )
-        if not (isinstance(begin, int) and isinstance(end, int) and isinstance(text, str)):
-            break
-        found.append((begin, end, text))
-    if not isinstance(edits, list) or len(found) != len(edits):
-        raise ActionError("edits are a list of {from, to, text}; nothing was changed")
-    return found
 
 
 def _check_seq(program: ProgramView, action: Mapping[str, Any]) -> None:
@@ -282,14 +263,12 @@ def _check_seq(program: ProgramView, action: Mapping[str, Any]) -> None:
         )
 
 
-def _set_control(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    program = desk.program(window, action)
+def _set_control(program: ProgramView, action: Mapping[str, Any]) -> Data:
     program.configure(_control_of(action))
     return program.view(is_whole=True)
 
 
-def _fix(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    program = desk.program(window, action)
+def _fix(program: ProgramView, action: Mapping[str, Any]) -> Data:
     _check_seq(program, action)
     finding, lines = program.finding(read_field(action, "finding", int))
     number = read_field(action, "fix", int)
@@ -302,8 +281,8 @@ def _fix(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
 _WAYS = {"safe": safe_fixes, "likely": likely_fixes}
 
 
-def _fix_all(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    program, way = desk.program(window, action), _WAYS.get(read_field(action, "kind", str, "safe"))
+def _fix_all(program: ProgramView, action: Mapping[str, Any]) -> Data:
+    way = _WAYS.get(read_field(action, "kind", str, "safe"))
     if way is None:
         raise ActionError("all fixes are applied by kind: safe, or likely")
     mended = mend_open(program.program, way)
@@ -312,14 +291,12 @@ def _fix_all(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     return {**program.view(), "edits": edits, "applied": len(mended.applied), "left": left}
 
 
-def _look(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    program = desk.program(window, action)
+def _look(program: ProgramView, action: Mapping[str, Any]) -> Data:
     return _explored(program, program.look(read_field(action, "line", int)))
 
 
-def _act(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    program, asked = desk.program(window, action), read_field(action, "action", dict)
-    changed, edits = program.act(asked, read_field(action, "line", int))
+def _act(program: ProgramView, action: Mapping[str, Any]) -> Data:
+    changed, edits = program.act(read_field(action, "action", dict), read_field(action, "line", int))
     return {**_explored(program, program.explored, changed), **({**program.view(), "edits": edits} if edits else {})}
 
 
@@ -356,27 +333,12 @@ def _save_other(desk: Desk, action: Mapping[str, Any]) -> Data:
     return {"saved": name, "base": desk.files().write(name, data, read_field(action, "over", str, base))}
 
 
-def _make(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
-    from contoursolve.workbench.products import answer_with  # noqa: PLC0415 - a page is shown before it asks for one
-
-    return answer_with(action["do"], desk.program(window, action), action)
-
-
-def _sketch(_desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
-    from contoursolve.workbench.sketching import known_of_sketch  # noqa: PLC0415 - as above
-
-    return known_of_sketch(action)
+def _file_of(desk: Desk, action: Mapping[str, Any]) -> bytes:
+    """The file that an action brings, or names in the folder. Raises ActionError and FileRefusedError."""
+    return _bytes(action) if "base64" in action else desk.files().read_bytes(read_field(action, "name", str))
 
 
-def _sketch_words(_desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
-    from contoursolve.workbench.sketching import words_of_sketch  # noqa: PLC0415 - as above
-
-    return words_of_sketch(action)
-
-
-def _sketch_open(desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
-    from contoursolve.workbench.sketching import sketch_in  # noqa: PLC0415 - as above
-
+def _read_sketch(desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
     name, mark = read_field(action, "name", str), ""
     if "text" in action:
         text = read_field(action, "text", str)
@@ -387,18 +349,7 @@ def _sketch_open(desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> 
             text = data.decode("utf-8")
         except UnicodeDecodeError:
             raise ActionError(f"{name} is no sketch: a sketch is TOML or JSON in UTF-8") from None
-    return {**sketch_in(text), "name": name, "base": mark}
-
-
-def _dxf_in(desk: Desk, _window: PageWindow, action: Mapping[str, Any]) -> Data:
-    from contoursolve.workbench.sketching import sketch_in_drawing  # noqa: PLC0415 - as above
-
-    return sketch_in_drawing(_file_of(desk, action), action)
-
-
-def _file_of(desk: Desk, action: Mapping[str, Any]) -> bytes:
-    """The file that an action brings, or names in the folder. Raises ActionError and FileRefusedError."""
-    return _bytes(action) if "base64" in action else desk.files().read_bytes(read_field(action, "name", str))
+    return {**_later("sketching").sketch_in(text), "name": name, "base": mark}
 
 
 def _close(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
@@ -406,33 +357,44 @@ def _close(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
     return {}
 
 
-ACTIONS: dict[str, Callable[[Desk, PageWindow, Mapping[str, Any]], Data]] = {
+def _later(module: str) -> Any:
+    """A module that a page asks for after it is shown."""
+    return import_module(f"contoursolve.workbench.{module}")
+
+
+def _of(answer: Callable[[ProgramView, Mapping[str, Any]], Data]) -> "Answering":
+    """What answers by the program of an action."""
+    return lambda desk, window, action: answer(desk.program(window, action), action)
+
+
+def _made(view: ProgramView, action: Mapping[str, Any]) -> Data:
+    made: Data = _later("products").answer_with(action["do"], view, action)
+    return made
+
+
+Answering = Callable[[Desk, PageWindow, Mapping[str, Any]], Data]
+
+ACTIONS: dict[str, Answering] = {
     "hello": _hello,
     "files": _files,
     "open": _open,
-    "view": _view,
-    "go_on": _go_on,
-    "edit": _edit,
-    "control": _set_control,
-    "fix": _fix,
-    "fix_all": _fix_all,
-    "look": _look,
-    "act": _act,
+    "view": _of(lambda program, _: program.view(is_whole=True)),
+    "go_on": _of(lambda program, _: program.view()),
+    "edit": _of(_edit),
+    "control": _of(_set_control),
+    "fix": _of(_fix),
+    "fix_all": _of(_fix_all),
+    "look": _of(_look),
+    "act": _of(_act),
     "save": _save,
     "close": _close,
-    "drawing": _make,
-    "tool": _make,
-    "variables": _make,
-    "expand": _make,
-    "convert": _make,
-    "report": _make,
-    "dxf": _make,
-    "png": _make,
-    "verify": _make,
-    "sketch": _sketch,
-    "sketch_words": _sketch_words,
-    "sketch_open": _sketch_open,
-    "dxf_in": _dxf_in,
+    **dict.fromkeys(
+        ("drawing", "tool", "variables", "expand", "convert", "report", "dxf", "png", "verify"), _of(_made)
+    ),
+    "sketch": lambda _desk, _window, action: _later("sketching").known_of_sketch(action),
+    "sketch_words": lambda _desk, _window, action: _later("sketching").words_of_sketch(action),
+    "sketch_open": _read_sketch,
+    "dxf_in": lambda desk, _window, action: _later("sketching").sketch_in_drawing(_file_of(desk, action), action),
 }
 """Functions that answer, by the name of the action."""
 

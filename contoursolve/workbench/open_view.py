@@ -10,9 +10,10 @@ from itertools import accumulate
 from pathlib import Path
 from time import monotonic
 
+from msgspec import Struct, to_builtins
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import rank, status_text
+from contoursolve.diagnosis import Answer, rank, status_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity, Span, UserError
 from contoursolve.notebook import project_settings
 from contoursolve.output import effect_of
@@ -24,8 +25,25 @@ from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import Data
 from contoursolve.workbench.files import FileRefusedError, FileText, mark_of
 
-Edit = tuple[int, int, str]
-"""Two offsets in a text as a page counts it, and what stands between them instead."""
+
+class Edit(Struct, frozen=True, rename={"begin": "from", "end": "to"}):
+    """Two offsets in a text as a page counts it, and what stands between them instead."""
+
+    begin: int
+    end: int
+    text: str
+
+
+def contour_row(answer: Answer, first: int, last: int) -> Data:
+    """A contour on some lines as a page lists it."""
+    return {
+        "line": first,
+        "last": last,
+        "status": answer.status.value,
+        "told": status_text(answer.status),
+        "title": answer.claim.form.name,
+    }
+
 
 MOST_FINDINGS = 500
 """Of one program. A program for another control may have some in every line, and no page shows them all."""
@@ -108,15 +126,15 @@ class ProgramView:
         """Follow edits, all of the text as it is. Raises OldEditError where they are not."""
         lines = self.lines()
         starts = [*accumulate((_units(line) + 1 for line in lines), initial=0)]
-        several = sorted(edits, key=lambda each: each[:2], reverse=True)
+        several = sorted(edits, key=lambda each: (each.begin, each.end), reverse=True)
         behind = starts[-1] - 1
-        for begin, end, _ in several:
-            if not 0 <= begin <= end <= behind:
+        for each in several:
+            if not 0 <= each.begin <= each.end <= behind:
                 raise OldEditError("these edits are of another text; nothing was changed")
-            behind = begin
-        for begin, end, text in several:
-            new = text.replace("\r\n", "\n").replace("\r", "\n").replace("\n", self.program.line_end)
-            self.program.edit(_place(lines, starts, begin), _place(lines, starts, end), new)
+            behind = each.begin
+        for each in several:
+            new = self.program.line_end.join(_page_lines(each.text))
+            self.program.edit(_place(lines, starts, each.begin), _place(lines, starts, each.end), new)
         self.seq += 1
 
     def replace(self, text: str) -> None:
@@ -143,7 +161,7 @@ class ProgramView:
         if change is None:
             return []
         self.seq += 1
-        return [{"from": change[0], "to": change[1], "text": change[2]}]
+        return [to_builtins(change)]
 
     # The explorer ------------------------------------------------------------------------------------------------
 
@@ -181,16 +199,7 @@ class ProgramView:
         now: Data = {
             "findings": self._findings(found),
             "more_findings": max(len(found) - MOST_FINDINGS, 0),
-            "contours": [
-                {
-                    "line": each.first,
-                    "last": each.last,
-                    "status": each.answer.status.value,
-                    "told": status_text(each.answer.status),
-                    "title": each.answer.claim.form.name,
-                }
-                for each in contours
-            ],
+            "contours": [contour_row(each.answer, each.first, each.last) for each in contours],
         }
         news = {name: value for name, value in now.items() if is_whole or self._told.get(name) != value}
         self._told = now
@@ -309,7 +318,7 @@ def difference(old: Sequence[str], new: Sequence[str]) -> Edit | None:
     most -= same
     behind = next((at for at in range(most) if one[-1 - at] != other[-1 - at]), most)
     begin = sum(_units(each) + 1 for each in old[:head]) + _units(one[:same])
-    return begin, begin + _units(one[same : len(one) - behind]), other[same : len(other) - behind]
+    return Edit(begin, begin + _units(one[same : len(one) - behind]), other[same : len(other) - behind])
 
 
 def _units(text: str) -> int:

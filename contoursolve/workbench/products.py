@@ -8,7 +8,6 @@ from typing import Any
 import contoursolve
 from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import status_text
 from contoursolve.diagnostics import importing
 from contoursolve.execution import named_variables
 from contoursolve.notebook import (
@@ -26,7 +25,7 @@ from contoursolve.postprocess import ending_of
 from contoursolve.program import CONTROL, Result
 from contoursolve.tool_radius import ToolReport, result_beside_tool, title_of
 from contoursolve.workbench.fields import ActionError, Data, read_field
-from contoursolve.workbench.open_view import ProgramView
+from contoursolve.workbench.open_view import ProgramView, contour_row
 
 MOST_VARIABLES = 200
 """Variables of a program that have fields."""
@@ -109,16 +108,7 @@ def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
         ],
         "left_out": max(len(found) - MOST_VARIABLES, 0),
         "findings": _told(view, result),
-        "contours": [
-            {
-                "line": each.lines[0],
-                "last": each.lines[-1],
-                "status": each.status.value,
-                "told": status_text(each.status),
-                "title": each.claim.form.name,
-            }
-            for each in result.answers
-        ],
+        "contours": [contour_row(each, each.lines[0], each.lines[-1]) for each in result.answers],
     }
 
 
