@@ -2,7 +2,7 @@
 
 Its pages are README.md and the pages of docs/, a page for each control with all its rules, the reference of the public
 names, the notebooks, and one that solves in the browser. All but the first are made here from the tables, docstrings
-and notebooks. Needs the extra `docs`, and pip.
+and notebooks. Needs the packages of the group `docs`, and pip.
 
 Set PYODIDE to the address of a folder with another copy of Pyodide's distribution, of the same version, to load Python
 from there: for a site without other hosts.

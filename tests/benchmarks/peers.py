@@ -3,8 +3,8 @@
     python tests/benchmarks/peers.py 500 7
 
 prints a table for 500 chains of seed 7. A peer is given the facts as its user would give them; what it answers is
-judged by `chains.measure` alone. `pip install -e '.[test,peers]'` has them all but planegcs: `by_planegcs.py` says how
-to install it. What is not installed is named below the others.
+judged by `chains.measure` alone. `pip install -e '.[test]' --group peers` has them all but planegcs:
+`by_planegcs.py` says how to install it. What is not installed is named below the others.
 """
 
 import importlib.util

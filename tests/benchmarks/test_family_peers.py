@@ -3,7 +3,7 @@
 The work is two lines by A, K, B and X with one rounding P, for random A and P: the intersections, the ends and the
 centre of the rounding. contoursolve also makes every check, and says of each row what is wrong with it.
 
-A peer that is not installed has no row, and the test says so. `pip install -e '.[test,peers]'` has them all but
+A peer that is not installed has no row, and the test says so. `pip install -e '.[test]' --group peers` has them all but
 planegcs: `by_planegcs.py` says how to install it.
 """
 

@@ -15,7 +15,7 @@ from contoursolve import Diagnostic, Severity, check_file
 pytestmark = [pytest.mark.editor, pytest.mark.needs("pre_commit")]
 
 ROOT = Path(__file__).parents[2]
-PUBLISHED = ("contoursolve", "pyproject.toml", "README.md", "LICENSE", ".pre-commit-hooks.yaml")
+PUBLISHED = ("contoursolve", "pyproject.toml", "hatch_build.py", "README.md", "LICENSE", ".pre-commit-hooks.yaml")
 """What pip needs of the checkout, which need not be a repository."""
 
 

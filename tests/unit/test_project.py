@@ -15,7 +15,9 @@ import contoursolve
 from contoursolve.__main__ import commands
 
 ROOT = Path(__file__).parents[2]
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT = PYPROJECT["project"]
+OF_USERS = PROJECT["optional-dependencies"].keys() - {"all", "test"}
 PYTHONS = [each.split(" :: ")[-1] for each in PROJECT["classifiers"] if re.search(r":: 3\.\d+$", each)]
 
 
@@ -25,7 +27,8 @@ def read_yaml(name: str):
 
 def test_the_supported_pythons_are_the_same_everywhere() -> None:
     (first, last) = re.findall(r"python3\.\{(\d+)\.\.(\d+)\}", (ROOT / ".ci" / "run").read_text(encoding="utf-8"))[0]
-    assert [f"3.{minor}" for minor in range(int(first), int(last) + 1)] == PYTHONS
+    tried = [f"3.{minor}" for minor in range(int(first), int(last) + 1)]
+    assert tried[: len(PYTHONS)] == PYTHONS  # newer ones are tried where they are, before the package claims them
     assert PROJECT["requires-python"] == f">={PYTHONS[0]}"
     assert read_yaml(".github/workflows/ci.yml")["jobs"]["tests"]["strategy"]["matrix"]["python"] == PYTHONS
 
@@ -42,9 +45,73 @@ def test_the_workflow_runs_ci_run_and_the_tests_of_the_readme_on_every_system() 
     _, *commands = line.split(" && ")
     run = [step["run"] for step in jobs["tests"]["steps"] if "run" in step]
     assert run == [command.replace(".venv/bin/python", "python") for command in commands]
-    for job in [*jobs.values(), *read_yaml(".github/workflows/desktop.yml")["jobs"].values()]:
-        for step in job["steps"]:
-            assert re.fullmatch(r"actions/[\w-]+@v\d+", step.get("uses", "actions/x@v1"))
+    for path in (ROOT / ".github" / "workflows").iterdir():
+        for job in read_yaml(path)["jobs"].values():
+            for step in job["steps"]:
+                allowed = r"actions/[\w-]+@v\d+|pypa/gh-action-pypi-publish@release/v1"
+                assert re.fullmatch(allowed, step.get("uses", "actions/x@v1"))
+
+
+def test_a_tag_publishes_the_package_the_pages_and_the_extension_and_each_job_may_do_no_more() -> None:
+    workflow = read_yaml(".github/workflows/publish.yml")
+    jobs = workflow["jobs"]
+    assert workflow[True]["push"] == {"tags": ["v*"]}
+    assert workflow["permissions"] == {"contents": "read"}
+    may = {"pypi": {"id-token"}, "pages": {"id-token", "pages"}, "marketplaces": {"contents"}}
+    assert {name: {*job["permissions"]} for name, job in jobs.items() if "permissions" in job} == may
+    for name in may:
+        assert (jobs[name]["if"], "pypi" in (name, *jobs[name]["needs"])) == ("github.ref_type == 'tag'", True)
+    (build,) = (step for step in jobs["build"]["steps"] if step.get("run", "").startswith(".ci/release"))
+    assert build["env"] == {"REPOSITORY": "${{ github.server_url }}/${{ github.repository }}"}
+    for command in re.findall(r"\S+\.(?:py|vsix)\b", " ".join(step.get("run", "") for step in jobs["site"]["steps"])):
+        assert (ROOT / command).is_file()
+
+
+def test_what_is_installed_by_name_is_an_extra_or_a_group() -> None:
+    """The commands of the pages, the workflows and the scripts; the extras of users stand in one table."""
+    extras, groups = PROJECT["optional-dependencies"], PYPROJECT["dependency-groups"]
+    files = [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob(".ci/*"), *ROOT.glob(".github/workflows/*")]
+    told = "\n".join(path.read_text(encoding="utf-8") for path in files)
+    assert {*re.findall(r"--group (\w+)", told)} <= groups.keys()
+    named = {name for each in re.findall(r"(?:contoursolve|\")\.?\[([\w,]+)\]", told) for name in each.split(",")}
+    assert {"app", "test"} <= named <= extras.keys()
+    assert extras["all"] == [f"contoursolve[{','.join(sorted(OF_USERS))}]"]
+    page = (ROOT / "docs" / "index.md").read_text(encoding="utf-8").partition("\n## Extras\n")[2].partition("\n## ")[0]
+    assert {*re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE)} == OF_USERS | {"all"}
+
+
+def test_the_recipe_for_conda_needs_what_the_package_needs() -> None:
+    recipe = (ROOT / "conda" / "meta.yaml").read_text(encoding="utf-8")
+    needed = re.findall(r"^    - (.*)$", recipe.partition("  run:\n")[2].partition("\ntest:")[0], re.MULTILINE)
+    assert [each.replace(" ", "") for each in needed] == [
+        f"python{PROJECT['requires-python']}",
+        *PROJECT["dependencies"],
+    ]
+    pattern = re.search(r"regex_pattern='(.*?)'", recipe)[1]
+    assert (
+        re.search(pattern, (ROOT / "contoursolve" / "__init__.py").read_text(encoding="utf-8"))[1]
+        in contoursolve.__version__
+    )
+    entry = f"contoursolve = {PROJECT['scripts']['contoursolve']}"
+    assert {entry, PROJECT["description"]} <= {
+        line.strip().removeprefix("- ").removeprefix("summary: ") for line in recipe.splitlines()
+    }
+
+
+@pytest.mark.slow
+@pytest.mark.needs("hatchling")
+def test_on_an_index_every_link_of_the_readme_leads_to_a_file_of_the_repository(monkeypatch) -> None:
+    monkeypatch.syspath_prepend(str(ROOT))
+    from hatch_build import PAGES, with_addresses  # noqa: PLC0415 - needs a package
+
+    readme, address = (ROOT / "README.md").read_text(encoding="utf-8"), "https://code.example/a/b"
+    found = re.findall(r"(!?)\[[^\]]*\]\(([^)\s]+)\)", with_addresses(readme, address, "v1"))
+    assert len(found) == len(re.findall(r"\]\(", readme))
+    assert {mark for mark, _ in found} == {"", "!"}
+    for mark, target in found:
+        place = target.removeprefix(f"{address}/{'raw' if mark else 'blob'}/v1/")
+        assert (ROOT / place.partition("#")[0]).is_file(), target
+    assert all((ROOT / file).is_file() for file in PAGES.values())
 
 
 def test_the_program_without_python_is_built_on_every_system_and_attached_to_a_tag() -> None:
@@ -58,19 +125,17 @@ def test_the_program_without_python_is_built_on_every_system_and_attached_to_a_t
         assert (ROOT / name).is_file()
     assert (attach["if"], attach["permissions"]) == ("github.ref_type == 'tag'", {"contents": "write"})
     assert workflow["permissions"] == {"contents": "read"}
-    brought = " ".join(PROJECT["optional-dependencies"]["desktop"])
-    (extras,) = re.findall(r"contoursolve\[([\w,]+)\]", brought)
-    assert PROJECT["optional-dependencies"].keys() >= {*extras.split(",")}
     page = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
     (told, without) = re.search(r"It has the extras (.*?)\. It is without (.*?),\s+which", page, re.DOTALL).groups()
-    assert re.findall(r"`(\w+)`", told) == extras.split(",")
-    of_users = PROJECT["optional-dependencies"].keys() - {"ci", "desktop", "docs", "peers", "test"}
-    assert {*re.findall(r"`(\w+)`", without)} == of_users - {*extras.split(",")}
+    spec = (ROOT / "editors" / "desktop" / "contoursolve.spec").read_text(encoding="utf-8")
+    assert re.findall(r"`(\w+)`", told) == re.search(r"\[([\w,]+)\]\" --group desktop", spec)[1].split(",")
+    assert {*re.findall(r"`(\w+)`", told + without)} == OF_USERS
 
 
-def test_the_citation_is_of_this_version() -> None:
+def test_the_version_stands_in_one_place_and_the_citation_is_of_this_project() -> None:
     citation = read_yaml("CITATION.cff")
-    assert citation["version"] == PROJECT["version"] == contoursolve.__version__
+    assert {"version"} <= {*PROJECT["dynamic"]} - citation.keys() - PROJECT.keys()
+    assert PYPROJECT["tool"]["hatch"]["version"]["path"] == "contoursolve/__init__.py"
     assert citation["title"] == PROJECT["name"]
     assert citation["license"] == PROJECT["license"]
     assert [each["name"] for each in citation["authors"]] == [each["name"] for each in PROJECT["authors"]]
