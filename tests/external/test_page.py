@@ -5,7 +5,7 @@ import json
 import shutil
 from base64 import urlsafe_b64decode
 from pathlib import Path
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs, quote, urlencode, urlsplit
 from xml.etree import ElementTree
 
 import pytest
@@ -21,6 +21,7 @@ LOADED = 100_000
 """ms. Python starts in 5 to 15 s; every operation of NumPy is a request here."""
 TEXT = "{http://www.w3.org/2000/svg}text"
 CONTROL = "yasnac-lx3"
+BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +49,7 @@ def program_of(url) -> str:
 
 def begun(page) -> None:
     """Python has come, and the program is examined."""
-    trouble = page.locator(".workbench > .trouble:not(:empty)")
+    trouble = page.locator(".workbench .trouble:not(:empty)").first
     page.locator(".cm-line").first.or_(trouble).wait_for(timeout=LOADED)
     assert not trouble.count(), trouble.inner_text()
 
@@ -104,6 +105,12 @@ def test_an_example_is_mended_in_the_browser_and_its_address_shows_the_same(axe,
     other.page.locator(".workbench").screenshot(path=artefacts / "page-dark.png")
     again = shown(other.page)
     assert {**again, "text": ""} == {**found, "text": ""}
+    # A link of before holds a block and its start.
+    old = urlencode({"block": BLOCK, "start": "X40. Z0.", "control": CONTROL}, quote_via=quote)
+    other.page.goto(f"{address}#{old}")
+    other.page.locator(".programs [role=tab]").nth(1).wait_for(timeout=LOADED)
+    other.page.get_by_role("tab", name="Program", exact=True).click()
+    assert other.page.locator(".cm-line").all_inner_texts() == ["G00 X40. Z0.", BLOCK]
     other.check()
     other.page.close()
 
@@ -129,7 +136,7 @@ def test_without_pyodide_the_page_says_what_to_do_and_may_be_asked_again(browser
     button = page.get_by_role("button", name=DIALECTS[CONTROL].title)
     button.click()
     page.get_by_text("Python could not be loaded").wait_for(timeout=LOADED)
-    assert "online" in page.locator(".workbench > .trouble").inner_text()
+    assert "online" in page.locator(".notice .trouble").inner_text()
     assert button.is_enabled()
     assert page.get_by_role("button", name="Try again").is_visible()
     page.close()

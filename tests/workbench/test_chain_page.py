@@ -252,6 +252,22 @@ def test_an_entry_that_cannot_be_read_marks_picture_and_cards_and_is_not_saved(o
     assert read_sketch((folder / "shaft.toml").read_text(encoding="utf-8")).elements[0].words["X"] == Decimal("30.5")
 
 
+def test_the_keys_stay_in_the_editor_whatever_is_made_anew(opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    (folder / "wrong.toml").write_text(OPEN.replace("AN = 180", "AN = 180\nZ = -30\nLEN = 20"), encoding="utf-8")
+    page = opened()
+    page.get_by_role("button", name="wrong.toml", exact=True).click()
+    page.locator(".chain-findings .fixes button").first.press("Enter")
+    expect(page.locator(".missing")).to_have_text("the contour is finished")
+    for keys in ("Alt+Delete", "Control+z", "Control+z", "Control+y", "Control+Enter", "Alt+ArrowUp", "Alt+Delete"):
+        assert page.evaluate("document.activeElement.closest('.pane.chain') !== null"), keys
+        page.keyboard.press(keys)
+    page.get_by_role("button", name="Guess by touch").press("Enter")
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("button", name="Guess by touch")).to_have_attribute("aria-pressed", "false")
+
+
 def test_the_sense_of_a_new_arc_is_asked_for_and_is_no_error(opened) -> None:
     from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
 

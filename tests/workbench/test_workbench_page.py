@@ -8,6 +8,7 @@ from test_server import Served
 
 from contoursolve.controls import DIALECTS
 from contoursolve.workbench import Desk
+from contoursolve.workbench.desk import MOST_PROGRAMS
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs("starlette", "uvicorn")]
 SHAFT = "%\r\nG00 X40. Z0.\r\nG111 X100. A180. K-30. B120. P6.\r\nG00 X150. Z10.\r\nM30\r\n"
@@ -142,19 +143,19 @@ def test_on_a_full_disk_the_page_says_one_sentence_and_keeps_the_text(opened, sm
     small_disk.fill()
     page.keyboard.press("Control+s")
     full = "part.nc was not saved: it cannot be written: No space left on device; your text is still here"
-    page.locator(".workbench > .trouble", has_text=full).wait_for()
+    page.locator(".notice .trouble", has_text=full).wait_for()
     assert page.locator(".programs button", has_text="•").count() == 1
     # It is still so, whatever else works.
     page.keyboard.type(" M09")
     wait_for_text(page, "G00 X40. Z0. M08 M09")
     show(page, "Contour")
     page.locator('.contour .row[data-word="X"]').wait_for()
-    assert page.locator(".workbench > .trouble").inner_text() == full
+    assert page.locator(".notice .trouble").inner_text() == full
     assert (small_disk.folder / "part.nc").read_bytes() == SHAFT.encode()
     small_disk.make_room()
     page.keyboard.press("Control+s")
     said(page, "Saved as part.nc.")
-    assert page.locator(".workbench > .trouble").inner_text() == ""
+    assert page.locator(".notice .trouble").inner_text() == ""
     assert (small_disk.folder / "part.nc").read_bytes() == SHAFT.replace("Z0.", "Z0. M08 M09").encode()
     server.end()
 
@@ -196,6 +197,21 @@ def test_files_are_chosen_or_dropped_and_keep_their_bytes_when_saved(opened, fol
     page.get_by_label("Name in the folder").press("Enter")
     said(page, "Saved as a.nc.")
     assert (folder / "a.nc").read_bytes() == "(Ø 40)\r\n".encode("latin-1") + SHAFT.encode()
+
+
+def test_a_program_that_the_workbench_forgot_keeps_the_ends_of_its_lines(opened, folder) -> None:
+    page = opened()
+    file = {"mimeType": "text/plain", "buffer": b"M30\r\n"}
+    files = [{"name": f"{each}.nc", **file} for each in range(MOST_PROGRAMS + 1)]
+    page.locator("input[type=file]").set_input_files(files)
+    page.locator(".programs button").nth(MOST_PROGRAMS).wait_for()
+    page.get_by_role("tab", name="0.nc", exact=False).first.click()
+    page.locator(".cm-content").focus()
+    page.keyboard.type("M05\n")
+    page.keyboard.press("Control+s")
+    page.get_by_label("Name in the folder").press("Enter")
+    said(page, "Saved as 0.nc.")
+    assert (folder / "0.nc").read_bytes() == b"M05\r\nM30\r\n"
 
 
 def test_variables_and_the_start_point_are_followed_while_they_are_typed(opened, folder) -> None:
@@ -241,6 +257,14 @@ def test_the_tool_shows_the_contour_before_its_side_is_chosen(opened, folder) ->
     page.locator(".view.tool select").first.select_option("3")
     page.locator(".view.tool [role=status]", has_text="The largest radius").wait_for()
     assert "↙" in page.locator(".view.tool select").first.inner_text()
+    # A cutter has no tip, and another program a tool of its own.
+    (folder / "slot.nc").write_text("G00 X0 Y0\nG01 X30. ,R5.\nX40. Y40.\nM30\n")
+    page.get_by_role("button", name="File").click()
+    page.get_by_role("menuitem", name="Open from the folder").click()
+    page.get_by_role("button", name="slot.nc").click()
+    page.get_by_label("Control").select_option("fanuc-mill")
+    page.get_by_label("Tip of the turning tool").wait_for(state="hidden")
+    assert page.get_by_label("Side").input_value() == page.locator(".view.tool input[type=text]").input_value() == ""
 
 
 def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened) -> None:
@@ -249,9 +273,14 @@ def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened)
     for view in ("Contour", "Tool", "Variables", "Drawing"):
         show(page, view)
     assert not page.locator(".trouble:not(:empty)").count()
+    head = page.locator(".head").bounding_box()
     page.get_by_role("button", name="Do").click()
     page.get_by_role("menuitem", name="Expand").click()
     page.locator(".trouble", has_text="no word tells the control").wait_for()
+    # A message moves nothing, and Escape closes it.
+    assert page.locator(".head").bounding_box() == head
+    page.keyboard.press("Escape")
+    page.locator(".trouble").wait_for(state="hidden")
     page.locator(".cm-content").focus()
     page.keyboard.type("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
     page.locator(".drawing svg").first.wait_for()

@@ -1,44 +1,40 @@
-// The page: programs as tabs, opened, saved and taken along; what goes wrong is said at the top.
-import { button, bytesOf, copyText, dialog, download, type Entry, labelled, make, menu, newId, showTabs } from "./dom";
+// The page: programs as tabs, opened, saved and taken along; what goes wrong is said over its lower edge.
+import { Address } from "./address";
+import { button, base64Of, copyText, decimal, dialog, download, type Entry, labelled, make, menu, newId, numberField, offer, select, showTabs, textField } from "./dom";
 import { ChainPane } from "./chain";
-import { type Chain, chainOf, newChain, type Plain, Sketch } from "./chainSketch";
-import { decimal } from "./forms";
+import { type Chain, chainOf, newChain, PARTS, Sketch, UNITS } from "./chainSketch";
 import { ProgramPane } from "./pane";
 import { Program } from "./program";
-import { type Hello, type Made, type Transport, Trouble, type View } from "./protocol";
+import { type Hello, type Made, orTrouble, type Transport, Trouble, type View } from "./protocol";
 import type { Work } from "./work";
 
-const PAUSE = 300; // ms without a change until the address follows; browsers forbid to write it often
-const LONGEST_LINK = 6000; // characters of a program
+const SAID = 6000; // ms for which is said what was done
 
-interface Opening {
-  name?: string;
-  text?: string;
-  base64?: string;
-  example?: string;
-  control?: string;
-}
+type Opening = { name?: string; text?: string; base64?: string; example?: string; control?: string };
 
 export class App {
   private hello: Hello | null = null;
   private isGreeted = false; // whether the Desk was asked for its hello
   private readonly isEmbedded: boolean;
-  private told = ""; // what the address holds
+  private readonly address = new Address(); // of a page of the documentation
   private works: Work[] = [];
   private active: Work | null = null;
   private readonly pane: ProgramPane;
   private readonly chain: ChainPane;
   private readonly trouble = make("p", { class: "trouble", role: "alert" });
+  private readonly rescue = make("div", { class: "rescue bar" });
+  private readonly notice = make("div", { class: "notice", hidden: true }, this.trouble, this.rescue);
   private isUnsaved = false; // what the trouble says stays true until something is saved
-  private readonly rescue = make("div", { class: "rescue bar", hidden: true });
   private readonly said = make("span", { class: "said", role: "status" });
   private readonly tabs = make("div", { class: "programs", "aria-label": "Open programs" });
-  private readonly control = make("select", { "aria-label": "Control", onchange: () => this.pane.setControl(this.control.value) });
+  private readonly control = select([], { "aria-label": "Control", onchange: () => this.pane.setControl(this.control.value) });
   private readonly facts = make("span", { class: "facts" });
   private readonly save = button("Save", () => void this.saveActive(), { title: "Save (Ctrl+S)" });
   private readonly picker = make("input", { type: "file", multiple: true, hidden: true, "aria-label": "Open files" });
   private readonly start = make("section", { class: "start", "aria-label": "Begin" });
   private readonly host = make("div", { class: "host", role: "tabpanel", id: newId(), "aria-label": "Program" });
+  private readonly ofProgram = [menu("Do", () => this.pane.entries()), labelled("Control", this.control), this.facts]; // no actions of a sketch
+  private readonly actions = make("div", { class: "actions" }, this.save, ...this.ofProgram);
 
   constructor(
     private readonly root: HTMLElement,
@@ -46,86 +42,69 @@ export class App {
     private readonly known: Hello | null,
   ) {
     const isEmbedded = (this.isEmbedded = known !== null);
-    root.classList.add("workbench");
+    const controls = () => this.hello?.controls ?? [];
+    const openText = (name: string, text: string) => void this.open({ name, text });
+    this.pane = new ProgramPane({ root, transport, controls, changed: this.changed, openText, keep: isEmbedded ? null : (made) => void this.keep(made) });
+    this.chain = new ChainPane(() => this.hello?.drawing_words ?? {}, controls, openText);
+    this.host.append(this.pane.node, this.chain.node);
     const title = make(isEmbedded ? "strong" : "h1", { class: "title", text: "contoursolve" });
-    const actions = menu("Do", () => this.pane.entries());
-    this.pane = new ProgramPane({
-      root,
-      transport,
-      controls: () => this.hello?.controls ?? [],
-      changed: (program, why) => this.changed(program, why),
-      openText: (name, text) => void this.open({ name, text }),
-      keep: isEmbedded ? null : (made) => void this.keep(made),
-    });
-    this.chain = new ChainPane(
-      () => this.hello?.drawing_words ?? {},
-      () => this.hello?.controls ?? [],
-      (name, text) => void this.open({ name, text }),
-    );
-    const control = labelled("Control", this.control);
-    this.ofProgram = [actions, control, this.facts];
-    this.actions = make("div", { class: "actions" }, this.save, ...this.ofProgram);
+    root.classList.add("workbench");
     root.replaceChildren(
-      this.trouble,
-      this.rescue,
       make("div", { class: "head" }, title, menu("File", () => this.fileEntries()), this.actions, this.said),
       this.tabs,
       this.start,
       this.host,
+      this.notice,
       this.picker,
     );
-    this.host.append(this.pane.node, this.chain.node);
-    this.picker.addEventListener("change", () => {
-      void this.openFiles(this.picker.files);
-      this.picker.value = "";
-    });
     this.follow();
     this.listen();
   }
 
-  private readonly actions: HTMLElement;
-  private readonly ofProgram: HTMLElement[]; // of the actions, those that a sketch has not
+  private readonly changed = (work: Work, why: Trouble | null): void => {
+    if (why) this.tell(why);
+    else this.answered();
+    if (work === this.active) this.follow();
+  };
 
   private listen(): void {
     const { root } = this;
-    root.addEventListener("dragover", (event) => {
-      event.preventDefault();
-      root.classList.add("dropping");
+    this.picker.addEventListener("change", () => {
+      void this.openFiles(this.picker.files);
+      this.picker.value = "";
     });
-    root.addEventListener("dragleave", (event) => {
-      if (!(event.relatedTarget instanceof Node && root.contains(event.relatedTarget))) root.classList.remove("dropping");
-    });
-    root.addEventListener("drop", (event) => {
-      event.preventDefault();
-      root.classList.remove("dropping");
-      void this.openFiles(event.dataTransfer?.files ?? null);
-    });
-    root.addEventListener("keydown", (event) => {
-      if (!(event.ctrlKey || event.metaKey) || event.altKey || root.querySelector("dialog[open]")) return;
+    for (const name of ["dragover", "dragleave", "drop"] as const) {
+      root.addEventListener(name, (event) => {
+        const isStill = name === "dragover" || (name === "dragleave" && event.relatedTarget instanceof Node && root.contains(event.relatedTarget));
+        root.classList.toggle("dropping", isStill);
+        if (name !== "dragleave") event.preventDefault();
+        if (name === "drop") void this.openFiles(event.dataTransfer?.files ?? null);
+      });
+    }
+    // Before the explorer, which keeps all keys to itself.
+    const pressed = (event: KeyboardEvent) => {
+      if (root.querySelector("dialog[open]") || event.altKey) return;
       const key = event.key.toLowerCase();
+      if (key === "escape") return this.tell(null);
+      if (!event.ctrlKey && !event.metaKey) return;
       if (key === "s" && this.active) void (event.shiftKey ? this.saveAs() : this.saveActive());
       else if (key === "o") this.picker.click();
       else return;
       event.preventDefault();
-    });
+    };
+    root.addEventListener("keydown", pressed, { capture: true });
     addEventListener("beforeunload", (event) => {
       if (!this.isEmbedded && this.works.some((each) => each.isChanged && !each.isEmpty)) event.preventDefault();
     });
   }
 
   async begin(): Promise<void> {
+    if (!this.known) return void ((await this.greeted()) && this.hello?.open && (await this.open({ name: this.hello.open })));
     // In a page of the documentation the Desk is loaded with the first program.
-    if (this.known) {
-      this.greet(this.known);
-      addEventListener("hashchange", () => void this.readAddress());
-      if (location.protocol === "file:") this.trouble.textContent = "Browsers start no Python in a page that is opened as a file. Open this page from a web server.";
-      else await this.readAddress();
-      return;
-    }
-    const hello = await this.asked<Hello>({ do: "hello" });
-    if (!hello) return;
-    this.greet(hello);
-    if (hello.open) await this.open({ name: hello.open });
+    this.greet(this.known);
+    addEventListener("hashchange", () => void this.openLinked());
+    if (location.protocol === "file:") this.tell(new Trouble("Browsers start no Python in a page that is opened as a file. Open this page from a web server.", {}));
+    else await this.openLinked();
   }
 
   private greet(hello: Hello): void {
@@ -137,77 +116,65 @@ export class App {
       const place = this.root.getRootNode() as Document | ShadowRoot;
       place.adoptedStyleSheets = [...place.adoptedStyleSheets, sheet];
     }
-    this.control.replaceChildren(make("option", { value: "", text: "as the words tell" }), ...hello.controls.map((each) => make("option", { value: each.name, text: each.title })));
+    offer(this.control, [["", "as the words tell"], ...hello.controls.map((each) => [each.name, each.title] as const)]);
     if (!this.active) this.showStart();
   }
 
-  // The program and its control stand in the address of a page of the documentation, behind the #.
-  private async readAddress(): Promise<void> {
-    if (location.hash.slice(1) === this.told) return;
-    const told = new URLSearchParams(location.hash.slice(1));
-    const control = told.get("control");
-    const text = unpacked(told.get("program") ?? "");
-    if (text) await this.open({ name: "", text, ...(control && this.hello?.controls.some((each) => each.name === control) ? { control } : {}) });
-  }
-
-  private writeAddress(program: Program): void {
-    const { control } = this.pane;
-    const parts = new URLSearchParams({ program: packed(program.text), ...(control ? { control } : {}) });
-    const told = program.text.length <= LONGEST_LINK ? parts.toString() : "";
-    if (told === this.told) return;
-    this.told = told;
-    clearTimeout(this.writing);
-    this.writing = setTimeout(() => history.replaceState(null, "", `#${told}`), PAUSE);
-  }
-
-  private writing = 0;
-
   // Beginning ------------------------------------------------------------------------------------------------------
+
+  // What begins a work; the page and its menu offer them.
+  private beginnings(): Entry[] {
+    const canDraw = this.hello?.drawing_words || this.isEmbedded;
+    return [
+      { text: "Open a file…", key: "Ctrl+O", act: () => this.picker.click() },
+      { text: "New program", act: () => void this.open({ name: "", text: "" }) },
+      ...(canDraw ? [{ text: "New contour from a drawing", act: () => void this.greeted().then((is) => is && this.addSketch(newChain("turned"), "", "")) }] : []),
+    ];
+  }
 
   private showStart(): void {
     const { examples, folder } = this.hello!;
-    const note = this.isEmbedded && !this.isGreeted ? make("p", { class: "muted", text: "The first program loads Python: about 30 MB, once." }) : null;
-    const files = make("ul", { class: "files", "aria-label": "Programs in the folder" });
-    const choices = examples.map((each) => make("li", {}, button(each.title, () => void this.open({ example: each.control }))));
+    const list = (label: string, kind: string) => make("ul", { class: kind, "aria-label": label });
+    const item = (text: string, what: Opening) => make("li", {}, button(text, () => void this.open(what)));
+    const files = list("Programs in the folder", "files");
+    const own = list("Examples", "examples");
+    own.append(...examples.map(({ title, control }) => item(title, { example: control })));
+    const steps = [
+      "Drop a program on this page, or choose one below.",
+      "What is wrong is underlined and listed with its fixes. Touch a fix, and the text changes.",
+      "The drawing shows every contour. Touch one to see its words and to drag its points.",
+    ];
     this.start.replaceChildren(
       make("h2", { text: "Open a program, or build a contour" }),
-      make(
-        "ol",
-        {},
-        make("li", { text: "Drop a program on this page, or choose one below." }),
-        make("li", { text: "What is wrong is underlined and listed with its fixes. Touch a fix, and the text changes." }),
-        make("li", { text: "The drawing shows every contour. Touch one to see its words and to drag its points." }),
-      ),
-      make("div", { class: "bar" }, button("Open a file…", () => this.picker.click(), { class: "main" }), button("New program", () => void this.open({ name: "", text: "" })), ...this.newContour()),
-      ...(note ? [note] : []),
+      make("ol", {}, ...steps.map((text) => make("li", { text }))),
+      make("div", { class: "bar" }, ...this.beginnings().map(({ text, act }, place) => button(text, act, { class: place ? null : "main" }))),
+      this.isEmbedded && !this.isGreeted ? make("p", { class: "muted", text: "The first program loads Python: about 30 MB, once." }) : "",
       ...(folder ? [make("h2", { text: `In the folder ${folder}` }), files] : []),
       make("h2", { text: "An example for each control" }),
-      make("ul", { class: "examples", "aria-label": "Examples" }, ...choices),
+      own,
     );
-    if (folder) void this.listFiles(files);
-  }
-
-  private async listFiles(list: HTMLElement): Promise<void> {
-    const found = await this.asked<{ files: { name: string; size: number }[]; left_out?: number }>({ do: "files" });
-    if (!found) return;
-    list.replaceChildren(...found.files.map((each) => make("li", {}, button(each.name, () => void this.open({ name: each.name })))));
-    if (!found.files.length) list.append(make("li", { class: "muted", text: "There is no program in it yet." }));
-    if (found.left_out) list.append(make("li", { class: "muted", text: `and ${found.left_out} more` }));
+    if (!folder) return;
+    void this.asked<{ files: { name: string }[]; left_out?: number }>({ do: "files" }).then((found) => {
+      const note = found && (!found.files.length ? "There is no program in it yet." : found.left_out ? `and ${found.left_out} more` : "");
+      files.append(...(found?.files ?? []).map(({ name }) => item(name, { name })), note ? make("li", { class: "muted", text: note }) : "");
+    });
   }
 
   private fileEntries(): Entry[] {
     const { active, hello } = this;
+    const isOff = !active;
+    const [file, ...others] = this.beginnings();
+    const saving = [{ text: "Save", key: "Ctrl+S", act: () => void this.saveActive(), isOff }, { text: "Save as…", key: "Ctrl+Shift+S", act: () => void this.saveAs(), isOff }];
     return [
-      { text: "Open a file…", key: "Ctrl+O", act: () => this.picker.click() },
+      file!,
       { text: hello?.folder ? "Open from the folder, or an example…" : "Open an example…", act: () => this.choose(null) },
-      { text: "New program", act: () => void this.open({ name: "", text: "" }) },
-      ...(hello?.drawing_words || this.isEmbedded ? [{ text: "New contour from a drawing", act: () => void this.newSketch() }] : []),
-      ...(hello?.may_write ? [{ text: "Save", key: "Ctrl+S", act: () => void this.saveActive(), isOff: !active }, { text: "Save as…", key: "Ctrl+Shift+S", act: () => void this.saveAs(), isOff: !active }] : []),
-      { text: "Download", act: () => this.downloadActive(), isOff: !active },
-      ...(this.isEmbedded ? [{ text: "Copy a link to this program", act: () => void this.copyLink(), isOff: !active || !this.told }] : []),
-      { text: "Copy the text", act: () => void this.copyActive(), isOff: !active },
+      ...others,
+      ...(hello?.may_write ? saving : []),
+      { text: "Download", act: () => this.downloadActive(), isOff },
+      ...(this.isEmbedded ? [{ text: "Copy a link to this program", act: () => void this.copyLink(), isOff: isOff || !this.address.told }] : []),
+      { text: "Copy the text", act: () => void this.copyActive(), isOff },
       ...(hello?.can_unlock && !hello.may_write ? [{ text: "Allow saving: enter the password…", act: () => void this.unlock() }] : []),
-      { text: "Close", act: () => void this.close(active!), isOff: !active },
+      { text: "Close", act: () => void this.close(active!), isOff },
     ];
   }
 
@@ -225,27 +192,34 @@ export class App {
     const known = isNew && what.name && this.works.find((each) => each.name === what.name && each.base);
     if (known) return this.choose(known);
     if (!(await this.greeted())) return;
-    if (/\.(toml|json)$/i.test(what.name ?? "")) return this.openSketch(what);
+    if (/\.(toml|json)$/i.test(what.name ?? "")) {
+      const read = await this.asked<{ sketch: Partial<Chain>; name: string; base: string }>({ do: "sketch_open", ...what });
+      return read ? this.addSketch(chainOf(read.sketch), read.name, read.base) : undefined;
+    }
     if (/\.dxf$/i.test(what.name ?? "")) return this.openDrawing(what);
     const view = await this.asked<View>({ do: "open", ...what });
-    if (!view) return;
-    const program = this.pane.make(view);
-    this.add(program);
-    this.choose(program);
-    this.pane.focus();
+    if (view) this.add(this.pane.make(view));
   }
 
   private add(work: Work): void {
-    numbered(work, this.works);
+    const taken = new Set(this.works.filter((each) => !each.name && each.noun === work.noun).map((each) => each.number));
+    while (taken.has(work.number)) work.number += 1;
     this.works.push(work);
+    this.choose(work);
+    this.focus();
   }
 
-  private newContour(): HTMLElement[] {
-    return this.hello?.drawing_words || this.isEmbedded ? [button("New contour from a drawing", () => void this.newSketch())] : [];
+  private focus(): void {
+    if (this.active instanceof Program) this.pane.focus();
+    else if (this.active) this.chain.focus();
+    else this.start.querySelector("button")?.focus();
   }
 
-  private async newSketch(): Promise<void> {
-    if (await this.greeted()) this.addSketch(newChain("turned"), "", "");
+  private async openLinked(): Promise<void> {
+    const linked = this.address.read();
+    if (!linked) return;
+    const { text, control } = linked;
+    await this.open({ name: "", text, ...(this.hello?.controls.some((each) => each.name === control) ? { control } : {}) });
   }
 
   private addSketch(chain: Chain, name: string, base: string, measured: Record<string, string>[] = []): void {
@@ -255,56 +229,33 @@ export class App {
     });
     sketch.measured = measured;
     this.add(sketch);
-    this.choose(sketch);
-    this.chain.focus();
-  }
-
-  private async openSketch(file: Opening): Promise<void> {
-    const read = await this.asked<{ sketch: Plain; name: string; base: string }>({ do: "sketch_open", ...file });
-    if (read) this.addSketch(chainOf(read.sketch), read.name, read.base);
   }
 
   // The contour of a CAD drawing: what the file does not tell is asked.
   private async openDrawing(file: Opening): Promise<void> {
-    const options = (all: [string, string][]) => make("select", {}, ...all.map(([value, text]) => make("option", { value, text })));
-    const part = options([["turned", "Turned part"], ["milled", "Milled part"]]);
-    const unit = options([["", "as the drawing says"], ["mm", "mm"], ["inch", "inch"]]);
-    const layer = make("input", { type: "text", autocomplete: "off", placeholder: "all layers" });
-    const chain = make("input", { type: "text", inputmode: "numeric", autocomplete: "off", placeholder: "the only one" });
-    const zero = ["Zero point, first axis of the drawing", "Zero point, second axis"].map((text) => [text, make("input", { type: "text", inputmode: "decimal", autocomplete: "off" })] as const);
+    const part = select(PARTS);
+    const unit = select([["", "as the drawing says"], ...UNITS]);
+    const layer = textField({ placeholder: "all layers" });
+    const chain = numberField({ placeholder: "the only one" });
+    const zero = [numberField(), numberField()];
     const reverse = make("input", { type: "checkbox" });
     const said = make("p", { class: "wrong", role: "alert" });
-    const fields = [labelled("Kind of part", part), labelled("Unit", unit), labelled("Layer", layer), labelled("Number of the contour, the largest is 1", chain), ...zero.map(([text, input]) => labelled(text, input)), make("label", { class: "check" }, reverse, "the other way round"), said];
-    while (await dialog(this.root, `Contour of ${file.name ?? "the drawing"}`, fields, "Open")) {
-      const place = zero.map(([, input]) => decimal(input.value));
-      const request = {
-        ...file,
-        part: part.value,
-        unit: unit.value,
-        layer: layer.value.trim(),
-        reverse: reverse.checked,
-        ...(chain.value.trim() ? { chain: Number(chain.value) } : {}),
-        ...(place.every((each) => each && Number.isFinite(Number(each))) ? { zero: place.map(Number) } : {}),
-      };
-      try {
-        const read = await this.transport.ask<{ sketch: Plain; notes: string[]; measured: Record<string, string>[] }>({ do: "dxf_in", ...request });
-        this.addSketch(chainOf(read.sketch), (file.name ?? "").replace(/\.dxf$/i, ".toml"), "", read.measured);
-        if (read.notes.length) await dialog(this.root, "What the drawing says", read.notes.map((text) => make("p", { text })), "Go on");
-        return;
-      } catch (error) {
-        if (!(error instanceof Trouble) || !error.reply) return this.tell(error);
-        said.textContent = error.message;
-      }
+    const titles = ["Kind of part", "Unit", "Layer", "Number of the contour, the largest is 1", "Zero point, first axis of the drawing", "Zero point, second axis"];
+    const fields = [part, unit, layer, chain, ...zero].map((each, place) => labelled(titles[place]!, each));
+    while (await dialog(this.root, `Contour of ${file.name ?? "the drawing"}`, [...fields, make("label", { class: "check" }, reverse, "the other way round"), said], "Open")) {
+      const place = zero.map((each) => decimal(each.value));
+      const chosen = { part: part.value, unit: unit.value, layer: layer.value.trim(), reverse: reverse.checked, chain: chain.value.trim() ? Number(chain.value) : null };
+      const request = { do: "dxf_in", ...file, ...chosen, zero: place.every((each) => each && Number.isFinite(Number(each))) ? place.map(Number) : null };
+      const read = await orTrouble(this.transport.ask<{ sketch: Partial<Chain>; notes: string[]; measured: Record<string, string>[] }>(request), (why) => (said.textContent = why.message));
+      if (!read) continue;
+      this.addSketch(chainOf(read.sketch), (file.name ?? "").replace(/\.dxf$/i, ".toml"), "", read.measured);
+      if (read.notes.length) await dialog(this.root, "What the drawing says", read.notes.map((text) => make("p", { text })), "Go on");
+      return;
     }
   }
 
   private async openFiles(files: FileList | null): Promise<void> {
-    for (const file of [...(files ?? [])]) {
-      const bytes = new Uint8Array(await file.arrayBuffer());
-      let text = "";
-      for (let at = 0; at < bytes.length; at += 0x8000) text += String.fromCharCode(...bytes.subarray(at, at + 0x8000));
-      await this.open({ name: file.name, base64: btoa(text) });
-    }
+    for (const file of [...(files ?? [])]) await this.open({ name: file.name, base64: base64Of(new Uint8Array(await file.arrayBuffer())) });
   }
 
   private choose(work: Work | null): void {
@@ -329,33 +280,22 @@ export class App {
     this.choose(this.works[Math.min(at, this.works.length - 1)] ?? null);
   }
 
-  private changed(work: Work, why: Trouble | null): void {
-    if (why) this.tell(why);
-    else this.answered();
-    if (work === this.active) this.follow();
-  }
-
   private follow(): void {
-    const { active } = this;
+    const { active, works } = this;
+    const isProgram = active instanceof Program;
     this.start.hidden = active !== null;
     this.host.hidden = this.actions.hidden = active === null;
-    this.tabs.hidden = !this.works.length;
-    // A file may be open twice, as it was and as it is now.
-    const again = (work: Work, number: number) => {
-      const same = this.works.slice(0, number).filter((each) => each.name && each.name === work.name).length;
-      return same ? ` (${same + 1})` : "";
+    this.tabs.hidden = !works.length;
+    const tab = (each: Work, number: number) => {
+      // A file may be open twice, as it was and as it is now.
+      const same = works.slice(0, number).filter((other) => other.name && other.name === each.name).length;
+      const mark = each.isChanged && !each.isEmpty ? " •" : "";
+      const title = `${titleOf(each)}${each.isChanged ? ": changes are not saved" : ""}`;
+      return { name: String(number), text: `${titleOf(each)}${same ? ` (${same + 1})` : ""}${mark}`, title, panel: this.host.id };
     };
-    const names = this.works.map((each, number) => ({
-      name: String(number),
-      text: `${titleOf(each)}${again(each, number)}${each.isChanged && !each.isEmpty ? " •" : ""}`,
-      title: each.isChanged ? `${titleOf(each)}: changes are not saved` : titleOf(each),
-      panel: this.host.id,
-    }));
-    showTabs(this.tabs, names, String(active ? this.works.indexOf(active) : -1), (name) => this.choose(this.works[Number(name)]!));
+    showTabs(this.tabs, works.map(tab), String(active ? works.indexOf(active) : -1), (name) => this.choose(works[Number(name)]!));
     if (!active) return;
-    const isProgram = active instanceof Program;
-    for (const each of this.ofProgram) each.hidden = !isProgram;
-    this.pane.node.hidden = !isProgram;
+    for (const each of [...this.ofProgram, this.pane.node]) each.hidden = !isProgram;
     this.chain.node.hidden = isProgram;
     this.save.textContent = this.hello?.may_write ? "Save" : "Download";
     this.save.setAttribute("aria-disabled", String(Boolean(this.hello?.may_write) && !active.isChanged));
@@ -363,13 +303,13 @@ export class App {
     if (isProgram) this.followProgram(active);
   }
 
-  private followProgram(active: Program): void {
-    const { view } = active;
+  private followProgram({ view, text }: Program): void {
     const open = this.control.options[0];
-    if (open) open.text = view.control && view.control_from !== "choice" ? `${view.control.title} (the ${view.control_from === "program" ? "words" : view.control_from} say so)` : "as the words tell";
-    if (this.control !== (this.root.getRootNode() as Document).activeElement) this.control.value = this.pane.control;
+    const from = view.control_from === "program" ? "words" : view.control_from;
+    if (open) open.text = view.control && from !== "choice" ? `${view.control.title} (the ${from} say${from === "words" ? "" : "s"} so)` : "as the words tell";
+    if (!this.control.matches(":focus")) this.control.value = this.pane.control;
     this.facts.textContent = [view.unit, view.trouble_control].filter(Boolean).join(" · ");
-    if (this.isEmbedded) this.writeAddress(active);
+    if (this.isEmbedded) this.address.write(text, this.pane.control);
   }
 
   // Saving ---------------------------------------------------------------------------------------------------------
@@ -377,23 +317,17 @@ export class App {
   private async saveActive(): Promise<boolean> {
     const { active } = this;
     if (!active) return false;
-    if (!this.hello?.may_write) {
-      this.downloadActive();
-      return true;
-    }
-    if (!active.base) return this.saveAs();
-    return this.write(active, {});
+    if (this.hello?.may_write) return active.base ? this.write(active, {}) : this.saveAs();
+    this.downloadActive();
+    return true;
   }
 
   private async saveAs(): Promise<boolean> {
     const { active } = this;
     if (!active) return false;
-    const why = await active.refusal?.();
-    if (why) {
-      this.tell(new Trouble(`Not saved. ${why}`, {}));
-      return false;
-    }
-    const name = make("input", { type: "text", value: active.name || fileOf(active), autocomplete: "off" });
+    const why = await active.refusal();
+    if (why) return this.tell(new Trouble(`Not saved. ${why}`, {})), false;
+    const name = textField({ value: active.name || fileOf(active) });
     const folder = this.hello?.folder;
     const answer = await dialog(this.root, "Save as", [labelled(folder ? `Name in the folder ${folder}` : "Name", name)], "Save");
     return answer !== null && name.value.trim() !== "" && this.write(active, { name: name.value.trim() });
@@ -401,35 +335,29 @@ export class App {
 
   private async write(work: Work, options: { name?: string; over?: string }): Promise<boolean> {
     let conflict = "";
-    const saved = await work.save(options, (why) => {
+    const saved = await orTrouble(work.save(options), (why) => {
       conflict = String(why.reply?.["conflict"] ?? "");
-      return conflict !== "";
+      if (!conflict) this.tell(why, true);
     });
-    if (conflict) {
-      const what = make("p", { text: options.name ? "There is a file with this name already. Your text is still here." : "This file was changed since it was opened: by another program, or in another window. Your text is still here." });
-      const answer = await dialog(this.root, options.name ? `${options.name} exists` : `${work.name} has changed`, [what], "Save under another name", ["Replace it", "Open that file beside"]);
-      if (answer === "Open that file beside") return this.openBeside(options.name ?? work.name);
-      if (answer === "Replace it") return this.write(work, { ...options, over: conflict });
-      return answer !== null && this.saveAs();
+    if (saved) {
+      this.tell(null);
+      work.wasSaved(saved.saved, saved.base);
+      this.say(`Saved as ${saved.saved}.`);
+      this.follow();
     }
-    this.isUnsaved = !saved;
-    if (!saved) return false;
-    this.tell(null);
-    work.wasSaved(saved.saved, saved.base);
-    this.say(`Saved as ${saved.saved}.`);
-    this.follow();
-    return true;
-  }
-
-  // What is in the folder now, in a tab of its own: nothing is lost, and nothing saved.
-  private async openBeside(name: string): Promise<boolean> {
-    await this.open({ name }, true);
+    if (!conflict) return saved !== null;
+    const name = options.name ?? work.name;
+    const what = options.name ? "There is a file with this name already." : "This file was changed since it was opened: by another program, or in another window.";
+    const answer = await dialog(this.root, `${name} ${options.name ? "exists" : "has changed"}`, [make("p", { text: `${what} Your text is still here.` })], "Save under another name", ["Replace it", "Open that file beside"]);
+    if (answer === "Replace it") return this.write(work, { ...options, over: conflict });
+    if (answer === "Save under another name") return this.saveAs();
+    // What is in the folder now, in a tab of its own: nothing is lost, and nothing saved.
+    if (answer) await this.open({ name }, true);
     return false;
   }
 
-  private async keep(made: Made): Promise<void> {
-    const content = made.base64 === undefined ? { text: made.text ?? "" } : { base64: made.base64 };
-    const saved = await this.asked<{ saved: string }>({ do: "save", name: made.name, ...content });
+  private async keep({ name, text = "", base64 }: Made): Promise<void> {
+    const saved = await this.asked<{ saved: string }>({ do: "save", name, ...(base64 === undefined ? { text } : { base64 }) });
     if (saved) this.say(`Saved as ${saved.saved}.`);
   }
 
@@ -438,7 +366,7 @@ export class App {
     if (!active) return;
     download(active.name || fileOf(active), active.text);
     this.say("Downloaded.");
-    void active.refusal?.().then((why) => why && this.tell(new Trouble(`Downloaded, but it cannot be opened as it is. ${why}`, {})));
+    void active.refusal().then((why) => why && this.tell(new Trouble(`Downloaded, but it cannot be opened as it is. ${why}`, {})));
   }
 
   private async copyActive(): Promise<void> {
@@ -446,7 +374,7 @@ export class App {
   }
 
   private async copyLink(): Promise<void> {
-    history.replaceState(null, "", `#${this.told}`);
+    this.address.show();
     this.say((await copyText(location.href)) ? "The link is copied." : "The link stands in the address bar: copy it there.");
   }
 
@@ -462,67 +390,33 @@ export class App {
   // What is said -----------------------------------------------------------------------------------------------------
 
   private async asked<Reply>(request: Record<string, unknown>): Promise<Reply | null> {
-    try {
-      const reply = await this.transport.ask<Reply>(request);
-      this.answered();
-      return reply;
-    } catch (error) {
-      this.tell(error);
-      return null;
-    }
+    const reply = await orTrouble(this.transport.ask<Reply>(request), (why) => this.tell(why));
+    if (reply) this.answered();
+    return reply;
   }
+
+  progress = (text: string): void => void (this.said.textContent = text);
 
   private say(text: string): void {
-    this.said.textContent = text;
-    setTimeout(() => this.said.textContent === text && (this.said.textContent = ""), 6000);
+    this.progress(text);
+    setTimeout(() => this.said.textContent === text && this.progress(""), SAID);
   }
 
-  progress(text: string): void {
-    this.said.textContent = text;
-  }
-
-  private answered(): void {
-    if (this.trouble.textContent && !this.isUnsaved) this.tell(null);
-  }
-
-  // One sentence at the top; where nobody answers, the text can be taken along.
-  private tell(error: unknown): void {
-    if (error !== null && !(error instanceof Trouble)) throw error;
-    this.isUnsaved = false;
-    this.trouble.textContent = error?.message ?? "";
-    this.rescue.hidden = !error || error.reply !== null;
-    if (this.rescue.hidden) return;
-    this.rescue.replaceChildren(
-      button("Try again", () => void (this.hello ? (this.active?.again() ?? this.asked({ do: "hello" })) : this.begin())),
-      ...(this.active ? [button("Copy the text", () => void this.copyActive()), button("Download the text", () => this.downloadActive())] : []),
-    );
+  private answered = (): void => (this.isUnsaved ? undefined : this.tell(null));
+  // One sentence, over the page, so that nothing moves; where nobody answers, the text can be taken along.
+  private tell(why: Trouble | null, isUnsaved = false): void {
+    this.isUnsaved = isUnsaved;
+    if (!why && this.notice.hidden) return;
+    const isFocused = this.notice.matches(":focus-within");
+    this.notice.hidden = !why;
+    this.trouble.textContent = why?.message ?? "";
+    const again = () => void (this.hello ? (this.active?.again() ?? this.asked({ do: "hello" })) : this.begin());
+    const taking = this.active ? [button("Copy the text", () => void this.copyActive()), button("Download the text", () => this.downloadActive())] : [];
+    this.rescue.replaceChildren(...(why?.reply === null ? [button("Try again", again), ...taking] : []), button("Close this message", () => this.tell(null), { title: "Escape" }));
+    if (isFocused) why ? this.rescue.querySelector("button")?.focus() : this.focus();
   }
 }
 
-// A text as it can stand in an address, whatever characters it has.
-function packed(text: string): string {
-  return btoa(String.fromCharCode(...new TextEncoder().encode(text))).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-}
-
-function unpacked(text: string): string {
-  try {
-    return new TextDecoder().decode(bytesOf(text.replaceAll("-", "+").replaceAll("_", "/")));
-  } catch {
-    return ""; // a link that was cut off, or that means a place on the page
-  }
-}
-
-// Those without a name are told apart by numbers, as long as they are open.
-const numbers = new WeakMap<Work, number>();
-
-function numbered(work: Work, works: Work[]): void {
-  const taken = new Set(works.filter((each) => each !== work && !each.name && each.ending === work.ending).map((each) => numbers.get(each)));
-  let number = 1;
-  while (taken.has(number)) number += 1;
-  numbers.set(work, number);
-}
-
-const nounOf = (work: Work): string => (work instanceof Sketch ? "contour" : "program");
-const numberOf = (work: Work, before: string): string => ((numbers.get(work) ?? 1) > 1 ? `${before}${numbers.get(work)}` : "");
-const titleOf = (work: Work): string => work.name || `new ${nounOf(work)}${numberOf(work, " ")}`;
-const fileOf = (work: Work): string => `${nounOf(work)}${numberOf(work, "-")}.${work.ending}`;
+const numberOf = ({ number }: Work, before: string): string => (number > 1 ? `${before}${number}` : "");
+const titleOf = (work: Work): string => work.name || `new ${work.noun}${numberOf(work, " ")}`;
+const fileOf = (work: Work): string => `${work.noun}${numberOf(work, "-")}.${work.ending}`;

@@ -1,34 +1,30 @@
 // The picture of a sketch: what is known of it, the ghost of a solution, and guesses, which a touch sets.
-import { button, make, picture, zoomBar } from "./dom";
-import { AXES, type Chain, type ChainView, type Frame, type Piece } from "./chainSketch";
+import { button, make, picture, renew, scroller, zoomBar } from "./dom";
+import { type Chain, type ChainView, type Frame, guessesOf, type Piece } from "./chainSketch";
 
 const SVG = "http://www.w3.org/2000/svg";
-const INCH = 25.4;
 
-export interface ChainPicture {
-  node: HTMLElement;
-  show(chain: Chain, view: ChainView | null, chosen: number, isBehind: boolean): void;
-  ghost(pieces: Piece[] | null): void;
+function mark(kind: string, attributes: Record<string, string>): SVGElement {
+  const element = document.createElementNS(SVG, kind);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  return element;
 }
 
-export function chainPicture(select: (number: number) => void, guess: (number: number, place: [number, number]) => void): ChainPicture {
+type Shown = { chain: Chain; view: ChainView | null; chosen: number; isBehind: boolean };
+
+export function chainPicture(select: (number: number) => void, guess: (number: number, place: [number, number]) => void) {
   let isGuessing = false;
+  let now: Shown | null = null;
   let frame: Frame | null = null;
-  let now = 0;
-  let shown: string | null = null;
-  const over = document.createElementNS(SVG, "svg");
-  over.setAttribute("class", "over");
-  over.setAttribute("aria-hidden", "true");
+  const over = mark("svg", { class: "over", "aria-hidden": "true" });
   const drawn = make("div", { class: "drawn" });
-  const paper = make("div", { class: "canvas contoursolve", tabindex: 0, role: "group", "aria-label": "Picture of the contour; arrow keys move it" }, drawn);
+  const paper = scroller("div", "Picture of the contour; arrow keys move it", { class: "canvas contoursolve" }, drawn);
   const toggle = button("Guess by touch", () => set(!isGuessing), { "aria-pressed": "false" });
   const told = make("span", { class: "muted" });
   const stale = make("p", { class: "wrong note", role: "status", hidden: true, text: "Not up to date: this picture is older than what is entered." });
   const zoom = zoomBar((times) => drawn.style.setProperty("--times", String(times)), paper, "the picture");
   const node = make("div", { class: "chain-picture" }, make("div", { class: "bar" }, toggle, zoom, told), make("div", { class: "framed" }, paper, stale));
-  let elements: ChainView["elements"] = [];
-  let ghostly: Piece[] | null = null;
-  let guesses: [number, number][] = [];
+  let ghostly: Piece[] = [];
 
   function set(wanted: boolean): void {
     isGuessing = wanted;
@@ -46,10 +42,10 @@ export function chainPicture(select: (number: number) => void, guess: (number: n
       return;
     }
     const box = drawn.getBoundingClientRect();
-    if (!frame || !now || !box.width || !stale.hidden) return;
+    if (!frame || !now?.chosen || !box.width || !stale.hidden) return;
     const x = ((event.clientX - box.left) / box.width) * frame.width;
     const y = ((event.clientY - box.top) / box.height) * frame.height;
-    guess(now, [(x - frame.origin[0]) / frame.scale, (frame.origin[1] - y) / frame.scale]);
+    guess(now.chosen, [(x - frame.origin[0]) / frame.scale, (frame.origin[1] - y) / frame.scale]);
     set(false);
   });
 
@@ -64,51 +60,41 @@ export function chainPicture(select: (number: number) => void, guess: (number: n
     return `M${start}A${radius},${radius} 0 ${swept > Math.PI ? 1 : 0} ${turn > 0 ? 0 : 1} ${end}`;
   }
 
-  function mark(kind: string, attributes: Record<string, string>): SVGElement {
-    const element = document.createElementNS(SVG, kind);
-    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-    return element;
-  }
-
   function overlay(): void {
     over.replaceChildren();
-    if (!frame) return;
+    if (!frame || !now) return;
     over.setAttribute("viewBox", `0 0 ${frame.width} ${frame.height}`);
-    for (const { number, segment } of elements) {
-      if (segment) over.append(mark("path", { d: path(segment), class: number === now ? "hit lit" : "hit", "data-number": String(number) }));
+    for (const { number, segment } of now.view?.elements ?? []) {
+      if (segment) over.append(mark("path", { d: path(segment), class: number === now.chosen ? "hit lit" : "hit", "data-number": String(number) }));
     }
-    for (const piece of ghostly ?? []) over.append(mark("path", { d: path(piece), class: "ghost" }));
-    for (const each of guesses) {
-      const [x, y] = at(each).map((value) => value.toFixed(2)) as [string, string];
-      over.append(mark("circle", { cx: x, cy: y, r: "9", class: "guess" }), mark("circle", { cx: x, cy: y, r: "2.5", class: "guess dot" }));
+    for (const piece of ghostly) over.append(mark("path", { d: path(piece), class: "ghost" }));
+    for (const each of guessesOf(now.chain)) {
+      const [cx, cy] = at(each).map((value) => value.toFixed(2)) as [string, string];
+      over.append(mark("circle", { cx, cy, r: "9", class: "guess" }), mark("circle", { cx, cy, r: "2.5", class: "guess dot" }));
     }
   }
 
   return {
     node,
-    ghost(pieces) {
+    // Guess no more; whether that was so.
+    end(): boolean {
+      const before = isGuessing;
+      set(false);
+      return before;
+    },
+    ghost(pieces: Piece[]) {
       ghostly = pieces;
       overlay();
     },
-    show(chain, view, chosen, isBehind) {
+    show(wanted: Shown) {
+      const { chain, view, chosen, isBehind } = (now = wanted);
       node.classList.toggle("stale", isBehind);
       stale.hidden = !isBehind || !view?.picture;
-      now = chosen;
       toggle.setAttribute("aria-disabled", String(isBehind || !chosen || !view?.picture));
-      toggle.textContent = chosen ? `Guess by touch: end of ${chain.elements[chosen - 1]?.kind ?? "line"} ${chosen}` : "Guess by touch";
+      toggle.textContent = chosen ? `Guess by touch: end of ${chain.element[chosen - 1]?.kind ?? "line"} ${chosen}` : "Guess by touch";
       frame = view?.picture?.frame.scale ? view.picture.frame : null;
-      elements = view?.elements ?? [];
       const svg = view?.picture?.svg ?? "";
-      if (svg !== shown) {
-        shown = svg;
-        const made = svg ? picture(svg) : null;
-        drawn.replaceChildren(...(made ? [made, over] : []));
-      }
-      const scale = chain.unit === "inch" ? INCH : 1;
-      guesses = chain.elements.flatMap((each) => {
-        const place = AXES[chain.part].map((axis, number) => (Number((each.guess[axis] ?? "").replace(",", ".") || NaN) * scale) / (chain.part === "turned" && number === 1 ? 2 : 1));
-        return place.every(Number.isFinite) ? [place as [number, number]] : [];
-      });
+      renew(drawn, svg, () => [...picture(svg), ...(svg ? [over] : [])]);
       overlay();
     },
   };

@@ -1,142 +1,100 @@
 // The sketch of a contour: what the drawing gives, every change with its undo, and what Python says of it.
-import { type Transport, Trouble } from "./protocol";
-import type { Work } from "./work";
+import { decimal, type Option } from "./dom";
+import { orTrouble, type Transport, Trouble } from "./protocol";
+import type { Saved, Work } from "./work";
 
 const PAUSE = 60; // ms in which keys are gathered
 const REST = 300; // ms without a key after which ranges are asked for
 const MOST_PAST = 500;
+const INCH = 25.4; // mm
 
+export const KINDS = [["line", "Line"], ["arc", "Arc"]] as const;
+export const TURNS = [["", "Sense not given"], ["cw", "Clockwise"], ["ccw", "Counter-clockwise"]] as const;
+export const CORNERS = [["", "none"], ["rounding", "Rounding"], ["chamfer", "Chamfer"]] as const;
+export const PARTS = [["turned", "Turned part: Z and X"], ["milled", "Milled part: X and Y"]] as const;
+export const UNITS: readonly Option[] = [["mm", "mm"], ["inch", "inch"]];
+export const AXES = { turned: ["Z", "X"], milled: ["X", "Y"] } as const;
+
+export type Kind = "line" | "arc";
 export type Values = Record<string, string>;
+type Point = [number, number];
 
+// A sketch as its file has it, with texts for numbers: what is being typed is not trimmed, and empty where it was erased.
 export interface ChainElement {
-  kind: "line" | "arc";
-  turn: string; // cw, ccw, or empty where the drawing does not say it
-  tangent: boolean;
-  words: Values;
-  corner: string; // rounding, chamfer, or empty
-  size: string; // of the corner
-  guess: Values;
-  facts: string;
+  kind: Kind; turn?: string; tangent?: boolean;
+  corner?: Values; // its size, by its shape
+  guess?: Values; facts?: string[];
+  [word: string]: string | boolean | Values | string[] | undefined;
 }
 
 export interface Chain {
-  part: "turned" | "milled";
-  unit: string;
-  closed: boolean;
-  start: Values;
-  pole: Values;
-  facts: string;
-  elements: ChainElement[];
+  sketch: 1; part: "turned" | "milled"; unit: string; closed: boolean;
+  start: Values; pole: Values; facts: string[];
+  element: ChainElement[];
 }
 
-export interface Piece {
-  kind: string;
-  start: [number, number];
-  end: [number, number];
-  center?: [number, number];
-  radius?: number;
-  turn?: string;
-}
-
-export interface Frame {
-  width: number;
-  height: number;
-  scale: number; // px for each mm
-  origin: [number, number];
-}
-
-export interface ChainEntry {
-  number: number;
-  field: string;
-  meaning: string;
-  example: string;
-  ranges: { low: string; high: string }[];
-  is_complete: boolean;
-}
+export type Piece = { kind: string; start: Point; end: Point; center?: Point; radius?: number; turn?: string };
+export type Frame = { width: number; height: number; scale: number; origin: Point }; // px for each mm
+export type ChainEntry = { number: number; field: string; meaning: string; example: string; ranges: { low: string; high: string }[] };
 
 export interface ChainView {
-  status: string;
   is_finished: boolean;
-  text: string; // of its file, as TOML and as JSON
-  json: string;
+  text: string; json: string; // of its file
   elements: { name: string; number: number; state: string; told: string; off_mm: number | null; segment: Piece | null }[];
-  missing: string;
   said: string; // its state in one line
   entries: ChainEntry[];
-  findings: { code: string; severity: string; message: string; help: string; fields: [number, string][]; fixes: { title: string; elements: Record<string, Plain> }[] }[];
+  findings: { code: string; severity: string; message: string; help: string; fields: [number, string][]; fixes: { title: string; elements: Record<string, ChainElement> }[] }[];
   solutions: { name: string; segments: Piece[]; is_chosen: boolean; guess: { number: number; place: Values } }[];
   remarks: string[];
   picture: { svg: string; frame: Frame } | null;
 }
 
-export type Plain = Record<string, unknown>;
-
-export const AXES = { turned: ["Z", "X"], milled: ["X", "Y"] } as const;
-
 const OWN = new Set(["kind", "turn", "tangent", "corner", "guess", "facts"]);
-const filled = (values: Values): Values => Object.fromEntries(Object.entries(values).flatMap(([name, value]) => (value.trim() ? [[name, value.trim()]] : [])));
-const listed = (facts: string): string[] => facts.split("\n").map((each) => each.trim()).filter(Boolean);
-const texts = (table: unknown): Values => Object.fromEntries(Object.entries((table ?? {}) as Plain).map(([name, value]) => [name, String(value)]));
-const joined = (facts: unknown): string => ((facts ?? []) as string[]).join("\n");
 
-export function newElement(kind: "line" | "arc"): ChainElement {
-  return { kind, turn: "", tangent: false, words: {}, corner: "", size: "", guess: {}, facts: "" };
+export const kept = (values: Values, names: readonly string[]): Values => Object.fromEntries(Object.entries(values).filter(([name]) => names.includes(name)));
+
+// Of a line or arc, no other words than these.
+export function keepWords(element: ChainElement, words: object): void {
+  for (const name of Object.keys(element)) if (!OWN.has(name) && !(name in words)) delete element[name];
 }
 
-export function newChain(part: "turned" | "milled"): Chain {
-  return { part, unit: "mm", closed: false, start: Object.fromEntries(AXES[part].map((axis) => [axis, "0"])), pole: {}, facts: "", elements: [] };
+// Of a place, what an axis has of it as it is written: X of a turned part is a diameter.
+const scaleOf = (chain: Chain, axis: number): number => (chain.part === "turned" && axis === 1 ? 2 : 1) / (chain.unit === "inch" ? INCH : 1);
+
+export function guessAt(chain: Chain, place: Point): Values {
+  return Object.fromEntries(AXES[chain.part].map((name, axis) => [name, (place[axis]! * scaleOf(chain, axis)).toFixed(chain.unit === "inch" ? 3 : 2)]));
 }
 
-export function elementOf(plain: Plain): ChainElement {
-  const [corner] = Object.entries((plain["corner"] ?? {}) as Plain);
-  return {
-    kind: plain["kind"] === "arc" ? "arc" : "line",
-    turn: String(plain["turn"] ?? ""),
-    tangent: plain["tangent"] === true,
-    words: texts(Object.fromEntries(Object.entries(plain).filter(([name]) => !OWN.has(name)))),
-    corner: corner?.[0] ?? "",
-    size: corner ? String(corner[1]) : "",
-    guess: texts(plain["guess"]),
-    facts: joined(plain["facts"]),
-  };
+// The places of all guesses, in mm.
+export function guessesOf(chain: Chain): Point[] {
+  return chain.element.flatMap(({ guess = {} }) => {
+    const place = AXES[chain.part].map((name, axis) => Number(decimal(guess[name] ?? "") || NaN) / scaleOf(chain, axis));
+    return place.every(Number.isFinite) ? [place as Point] : [];
+  });
 }
 
-export function chainOf(plain: Plain): Chain {
-  return {
-    part: plain["part"] === "milled" ? "milled" : "turned",
-    unit: String(plain["unit"] ?? "mm"),
-    closed: plain["closed"] === true,
-    start: texts(plain["start"]),
-    pole: texts(plain["pole"]),
-    facts: joined(plain["facts"]),
-    elements: ((plain["element"] ?? []) as Plain[]).map(elementOf),
-  };
+export function newChain(part: Chain["part"]): Chain {
+  return { sketch: 1, part, unit: "mm", closed: false, start: Object.fromEntries(AXES[part].map((axis) => [axis, "0"])), pole: {}, facts: [], element: [] };
 }
 
-// As the file has it; numbers stay as they were typed.
-export function plainOf(chain: Chain): Plain {
-  return {
-    sketch: 1,
-    part: chain.part,
-    unit: chain.unit,
-    closed: chain.closed,
-    start: filled(chain.start),
-    pole: filled(chain.pole),
-    facts: listed(chain.facts),
-    element: chain.elements.map((each) => ({
-      kind: each.kind,
-      ...(each.kind === "arc" && each.turn ? { turn: each.turn } : {}),
-      ...(each.tangent ? { tangent: true } : {}),
-      ...filled(each.words),
-      ...(each.corner && each.size.trim() ? { corner: { [each.corner]: each.size.trim() } } : {}),
-      ...(Object.keys(filled(each.guess)).length ? { guess: filled(each.guess) } : {}),
-      ...(listed(each.facts).length ? { facts: listed(each.facts) } : {}),
-    })),
-  };
+// A file need not have all of it.
+export const chainOf = (plain: Partial<Chain>): Chain => ({ ...newChain(plain.part ?? "turned"), ...plain });
+
+// Without what is empty: so it is asked about, and saved.
+export const plainOf = (chain: Chain): object => ({ start: {}, element: [], ...(pruned(chain) as Partial<Chain>) });
+
+function pruned(value: unknown): unknown {
+  if (typeof value === "string") return value.trim();
+  if (typeof value !== "object" || value === null) return value;
+  const all = Object.entries(value).map(([name, each]) => [name, pruned(each)] as const);
+  const filled = all.filter(([, each]) => each !== "" && each !== undefined && !(typeof each === "object" && each && !Object.keys(each).length));
+  return Array.isArray(value) ? filled.map(([, each]) => each) : Object.fromEntries(filled);
 }
 
 export class Sketch implements Work {
+  readonly noun = "contour";
   readonly ending = "toml";
+  number = 1;
   view: ChainView | null = null;
   trouble = ""; // about what was typed
   place: [number, string] | null = null; // of the field that makes it
@@ -157,33 +115,25 @@ export class Sketch implements Work {
     public base: string,
     private readonly shown: (sketch: Sketch, why: Trouble | null) => void,
   ) {
-    this.saved = base ? JSON.stringify(chain) : "";
+    this.saved = base ? this.state : "";
     void this.ask();
   }
 
-  get isChanged(): boolean {
-    return JSON.stringify(this.chain) !== this.saved;
-  }
+  private get state() { return JSON.stringify(plainOf(this.chain)); }
+  get isChanged() { return this.state !== this.saved; }
+  get isEmpty() { return !this.chain.element.length; }
+  get text() { return this.textFor(this.name); }
+  get canUndo() { return this.past.length > 0; }
+  get canRedo() { return this.future.length > 0; }
 
-  get isEmpty(): boolean {
-    return !this.chain.elements.length;
-  }
-
-  get text(): string {
-    return this.textFor(this.name);
-  }
+  undo = () => this.step(this.past, this.future);
+  redo = () => this.step(this.future, this.past);
+  again = () => this.ask();
+  close = () => Promise.resolve();
 
   private textFor(name: string): string {
     const seen = this.seen === this.chain ? this.view : null;
     return (/\.json$/i.test(name) ? seen?.json : seen?.text) ?? JSON.stringify(plainOf(this.chain), null, 1);
-  }
-
-  get canUndo(): boolean {
-    return this.past.length > 0;
-  }
-
-  get canRedo(): boolean {
-    return this.future.length > 0;
   }
 
   // One change; those with the same mark, one after another, are one.
@@ -194,16 +144,8 @@ export class Sketch implements Work {
     if (!mark || mark !== this.mark) this.past = [...this.past.slice(-MOST_PAST), this.chain];
     this.mark = mark;
     this.future = [];
-    if (now.elements.length !== this.chain.elements.length) this.measured = [];
+    if (now.element.length !== this.chain.element.length) this.measured = [];
     this.become(now);
-  }
-
-  undo(): void {
-    this.step(this.past, this.future);
-  }
-
-  redo(): void {
-    this.step(this.future, this.past);
   }
 
   private step(from: Chain[], to: Chain[]): void {
@@ -224,47 +166,36 @@ export class Sketch implements Work {
   // What is known of it, and when its user rests, ranges and fixes, too. Of several answers under way, the last counts.
   async ask(): Promise<void> {
     clearTimeout(this.timer);
-    this.asked += 1;
-    const number = this.asked;
+    const number = (this.asked += 1);
     await this.askedFor(number, false);
     if (number === this.asked && !this.trouble) this.timer = setTimeout(() => void this.askedFor(number, true), REST);
   }
 
   private async askedFor(number: number, ranges: boolean): Promise<void> {
     const { chain } = this;
-    try {
-      const view = await this.transport.ask<ChainView>({ do: "sketch", sketch: plainOf(chain), ranges, ...(ranges ? { window: "ranges" } : {}) });
-      if (number !== this.asked) return;
-      [this.view, this.seen, this.trouble, this.place, this.isBehind] = [view, chain, "", null, false];
-      this.shown(this, null);
-    } catch (error) {
-      if (!(error instanceof Trouble)) throw error;
+    const question = { do: "sketch", sketch: plainOf(chain), ranges, ...(ranges ? { window: "ranges" } : {}) };
+    const fell = (why: Trouble) => {
       if (number !== this.asked) return;
       this.isBehind = true;
-      if (error.reply) {
-        // "element 2: X is ..." names the field.
-        const [, number, field] = /^(?:element (\d+): )?([\w.]+) /.exec(error.message) ?? [];
-        this.place = [Number(number ?? 0), field ?? ""];
-        this.trouble = this.named(error.message);
-      }
-      this.shown(this, error.reply ? null : error);
-    }
+      // "element 2: X is ..." names the field.
+      const [, at, field] = /^(?:element (\d+): )?([\w.]+) /.exec(why.message) ?? [];
+      if (why.reply) [this.place, this.trouble] = [[Number(at ?? 0), field ?? ""], this.named(why.message)];
+      this.shown(this, why.reply ? null : why);
+    };
+    const view = await orTrouble(this.transport.ask<ChainView>(question), fell);
+    if (!view || number !== this.asked) return;
+    [this.view, this.seen, this.trouble, this.place, this.isBehind] = [view, chain, "", null, false];
+    this.shown(this, null);
   }
 
-  private named(message: string): string {
-    return message.replace(/^element (\d+)/, (whole, at) => (this.chain.elements[at - 1] ? `${this.chain.elements[at - 1]!.kind} ${at}` : whole));
+  // A message as it names its elements.
+  named(message: string): string {
+    return message.replace(/^element (\d+)/, (whole, at) => (this.chain.element[at - 1] ? `${this.chain.element[at - 1]!.kind} ${at}` : whole));
   }
 
-  // Where there are none, the reason.
-  async words<Reply>(control: string | null): Promise<Reply | null> {
-    try {
-      return await this.transport.ask<Reply>({ do: "sketch_words", sketch: plainOf(this.chain), control });
-    } catch (error) {
-      if (!(error instanceof Trouble)) throw error;
-      if (error.reply) return { reason: this.named(error.message), candidates: [], rows: [] } as Reply;
-      this.shown(this, error);
-      return null;
-    }
+  // Raises Trouble: the reason where there are none.
+  words<Reply>(control: string | null): Promise<Reply> {
+    return this.transport.ask<Reply>({ do: "sketch_words", sketch: plainOf(this.chain), control });
   }
 
   // What makes no sense cannot be read again.
@@ -274,28 +205,12 @@ export class Sketch implements Work {
   }
 
   wasSaved(name: string, base: string): void {
-    [this.name, this.base] = [name, base];
-    this.saved = JSON.stringify(this.chain);
+    [this.name, this.base, this.saved] = [name, base, this.state];
   }
 
-  async save(options: { name?: string; over?: string }, isKnown: (why: Trouble) => boolean): Promise<{ saved: string; base: string } | null> {
+  async save(options: { name?: string; over?: string }): Promise<Saved> {
     const why = await this.refusal();
-    if (why) {
-      this.shown(this, new Trouble(`Not saved. ${why}`, {}));
-      return null;
-    }
-    try {
-      return await this.transport.ask({ do: "save", name: this.name, text: this.textFor(options.name ?? this.name), base: options.name ? "" : this.base, ...options });
-    } catch (error) {
-      if (!(error instanceof Trouble)) throw error;
-      if (!isKnown(error)) this.shown(this, error);
-      return null;
-    }
+    if (why) throw new Trouble(`Not saved. ${why}`, {});
+    return this.transport.ask({ do: "save", name: this.name, text: this.textFor(options.name ?? this.name), base: options.name ? "" : this.base, ...options });
   }
-
-  again(): Promise<void> {
-    return this.ask();
-  }
-
-  async close(): Promise<void> {}
 }

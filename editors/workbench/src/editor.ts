@@ -1,20 +1,8 @@
 // The text of a program: findings underlined, contours marked at the edge, fixes at the word.
 import { defaultKeymap, history, historyKeymap, isolateHistory } from "@codemirror/commands";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, type ChangeDesc, ChangeSet, EditorState, type Extension, RangeSetBuilder, StateEffect, StateField, type Text, Transaction, type TransactionSpec } from "@codemirror/state";
-import {
-  Decoration,
-  type DecorationSet,
-  drawSelection,
-  EditorView,
-  highlightActiveLine,
-  keymap,
-  lineNumbers,
-  showTooltip,
-  type Tooltip,
-  ViewPlugin,
-  type ViewUpdate,
-} from "@codemirror/view";
+import { Annotation, type ChangeDesc, ChangeSet, EditorState, type Extension, StateEffect, StateField, type Text, Transaction, type TransactionSpec } from "@codemirror/state";
+import { Decoration, type DecorationSet, drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers, MatchDecorator, showTooltip, type Tooltip, ViewPlugin, type ViewUpdate } from "@codemirror/view";
 
 import { button, make } from "./dom";
 import type { Change, ContourRow, Finding, Fix } from "./protocol";
@@ -22,23 +10,13 @@ import type { Change, ContourRow, Finding, Fix } from "./protocol";
 // What Python changed: the Desk has it already.
 export const fromPython = Annotation.define<boolean>();
 
-export interface Placed {
-  finding: Finding;
-  begin: number;
-  end: number;
-}
+export type Placed = { finding: Finding; begin: number; end: number };
+export type Marks = { findings: Placed[]; contours: ContourRow[] };
 
-export interface Marks {
-  findings: Placed[];
-  contours: ContourRow[];
-}
-
-const setMarks = StateEffect.define<Marks>();
-const setLit = StateEffect.define<readonly [number, number] | null>();
+export const markEffect = StateEffect.define<Marks>();
+export const litEffect = StateEffect.define<readonly [number, number] | null>();
 const openFixes = StateEffect.define<boolean>();
 
-const REMARK = /\([^)\n]*\)?|;.*/g;
-const greyed = Decoration.mark({ class: "cm-remark" });
 const lit = Decoration.mark({ class: "cm-lit" });
 
 export function moveMarks<Kind extends Marks>(all: Kind, changes: ChangeDesc): Kind {
@@ -55,82 +33,53 @@ export function placed(findings: Finding[], doc: Text): Placed[] {
   });
 }
 
-interface Shown extends Marks {
-  underlined: DecorationSet;
+// Of no width, it stands at the whole line.
+function stretchOf({ begin, end }: Placed, { doc }: EditorState): [number, number] {
+  if (end > begin) return [begin, Math.min(end, doc.length)];
+  const line = doc.lineAt(Math.min(begin, doc.length));
+  return [line.from, line.to];
 }
 
+// Drawn are findings underlined, lines of contours with a mark, and the word that is pointed at elsewhere.
+type Shown = Marks & { drawn: DecorationSet[] };
+
 function underlined(findings: Placed[], state: EditorState): DecorationSet {
-  const { length } = state.doc;
-  const ranges = findings.flatMap(({ begin, end, finding }) => {
-    const line = state.doc.lineAt(Math.min(begin, length));
-    // A finding of no width stands at the whole line.
-    const [first, last] = end > begin ? [begin, Math.min(end, length)] : [line.from, line.to];
-    return last > first ? [Decoration.mark({ class: `cm-finding cm-${finding.severity}` }).range(first, last)] : [];
+  const ranges = findings.flatMap((each) => {
+    const [first, last] = stretchOf(each, state);
+    return last > first ? [Decoration.mark({ class: `cm-finding ${each.finding.severity}` }).range(first, last)] : [];
+  });
+  return Decoration.set(ranges, true);
+}
+
+function marked(contours: ContourRow[], { doc }: EditorState): DecorationSet {
+  const ranges = contours.flatMap(({ line, last, status }) => {
+    const mark = Decoration.line({ class: `cm-contour ${kindOf(status)}` });
+    return Array.from({ length: Math.max(0, Math.min(last, doc.lines) - line + 1) }, (_, place) => mark.range(doc.line(line + place).from));
   });
   return Decoration.set(ranges, true);
 }
 
 const marks = StateField.define<Shown>({
-  create: () => ({ findings: [], contours: [], underlined: Decoration.none }),
-  update(shown, transaction) {
-    let now = shown;
-    if (transaction.docChanged) {
-      now = { ...moveMarks(now, transaction.changes), underlined: now.underlined.map(transaction.changes) };
-    }
-    for (const effect of transaction.effects) {
-      if (effect.is(setMarks)) now = { ...effect.value, underlined: underlined(effect.value.findings, transaction.state) };
-    }
-    return now;
-  },
-  provide: (field) => EditorView.decorations.from(field, (shown) => shown.underlined),
-});
-
-const litField = StateField.define<DecorationSet>({
-  create: () => Decoration.none,
-  update(shown, transaction) {
-    let now = transaction.docChanged ? shown.map(transaction.changes) : shown;
-    for (const effect of transaction.effects) {
-      if (!effect.is(setLit)) continue;
+  create: () => ({ findings: [], contours: [], drawn: [Decoration.none, Decoration.none, Decoration.none] }),
+  update(shown, { docChanged, changes, effects, state }) {
+    let now = docChanged ? { ...moveMarks(shown, changes), drawn: shown.drawn.map((each) => each.map(changes)) } : shown;
+    for (const effect of effects) {
+      const [findings, contours, word] = now.drawn as [DecorationSet, DecorationSet, DecorationSet];
+      if (effect.is(markEffect)) now = { ...effect.value, drawn: [underlined(effect.value.findings, state), marked(effect.value.contours, state), word] };
+      if (!effect.is(litEffect)) continue;
       const [from, to] = effect.value ?? [0, 0];
-      now = to > from && to <= transaction.state.doc.length ? Decoration.set([lit.range(from, to)]) : Decoration.none;
+      now = { ...now, drawn: [findings, contours, to > from && to <= state.doc.length ? Decoration.set([lit.range(from, to)]) : Decoration.none] };
     }
     return now;
   },
-  provide: (field) => EditorView.decorations.from(field),
+  provide: (field) => [0, 1, 2].map((which) => EditorView.decorations.from(field, (shown) => shown.drawn[which]!)),
 });
 
-// Remarks are grey, lines of contours have a mark: only those in sight.
-const inSight = ViewPlugin.fromClass(
-  class {
-    decorations: DecorationSet;
-
-    constructor(view: EditorView) {
-      this.decorations = this.made(view);
-    }
-
-    update(update: ViewUpdate): void {
-      const isMarked = update.startState.field(marks) !== update.state.field(marks);
-      if (update.docChanged || update.viewportChanged || isMarked) this.decorations = this.made(update.view);
-    }
-
-    private made(view: EditorView): DecorationSet {
-      const builder = new RangeSetBuilder<Decoration>();
-      const { contours } = view.state.field(marks);
-      for (const { from, to } of view.visibleRanges) {
-        for (let at = from; at <= to; ) {
-          const line = view.state.doc.lineAt(at);
-          const own = contourAt(contours, line.number);
-          if (own) builder.add(line.from, line.from, Decoration.line({ class: `cm-contour cm-${kindOf(own.status)}` }));
-          for (const match of line.text.matchAll(REMARK)) {
-            if (match[0]) builder.add(line.from + match.index, line.from + match.index + match[0].length, greyed);
-          }
-          at = line.to + 1;
-        }
-      }
-      return builder.finish();
-    }
-  },
-  { decorations: (plugin) => plugin.decorations },
+// Remarks are grey: those in sight.
+const remarks = new MatchDecorator({ regexp: /\([^)\n]*\)?|;.*/g, decoration: Decoration.mark({ class: "cm-remark" }) });
+const greyed = ViewPlugin.define(
+  (view) => ({ shown: remarks.createDeco(view), update(update: ViewUpdate) { this.shown = remarks.updateDeco(update, this.shown); } }),
+  { decorations: (plugin) => plugin.shown },
 );
 
 export const kindOf = (status: string): string => (status === "solved" ? "fine" : status === "ambiguous" ? "several" : "unsolved");
@@ -152,12 +101,10 @@ export const fixText = (fix: Fix): string => (fix.effect ? `${fix.title} [${fix.
 function fixesAtWord(apply: (finding: number, fix: number) => void): Extension {
   const field = StateField.define<Tooltip | null>({
     create: () => null,
-    update(shown, transaction) {
-      for (const effect of transaction.effects) {
-        if (!effect.is(openFixes)) continue;
-        return effect.value ? tooltipAt(transaction.state, transaction.state.selection.main.head) : null;
-      }
-      return transaction.docChanged || transaction.selection ? null : shown;
+    update(shown, { effects, docChanged, selection, state }) {
+      const opened = effects.find((effect) => effect.is(openFixes));
+      if (opened) return opened.value ? tooltipAt(state, state.selection.main.head) : null;
+      return docChanged || selection ? null : shown;
     },
     provide: (own) => showTooltip.from(own),
   });
@@ -171,25 +118,16 @@ function fixesAtWord(apply: (finding: number, fix: number) => void): Extension {
       above: false,
       arrow: false,
       create: (view) => {
-        const close = (event: KeyboardEvent) => {
-          if (event.key !== "Escape") return;
-          view.dispatch({ effects: openFixes.of(false) });
-          view.focus();
-        };
-        const told = here.map(({ finding, number }) =>
-          make(
-            "div",
-            { class: `told ${finding.severity}` },
-            make("p", { text: finding.message }),
-            ...finding.fixes.map((fix, place) =>
-              button(fixText(fix), () => {
-                view.focus();
-                apply(number, place);
-              }),
-            ),
-          ),
-        );
-        return { dom: make("div", { class: "at-word", role: "dialog", "aria-label": "Finding and its fixes", onkeydown: close }, ...told) };
+        const told = here.map(({ finding, number }) => {
+          const fixed = (place: number) => () => {
+            view.focus();
+            apply(number, place);
+          };
+          const fixes = finding.fixes.map((fix, place) => button(fixText(fix), fixed(place)));
+          return make("div", { class: `told ${finding.severity}` }, make("p", { text: finding.message }), ...fixes);
+        });
+        const pressed = (event: KeyboardEvent) => event.key === "Escape" && hide(view);
+        return { dom: make("div", { class: "at-word", role: "dialog", "aria-label": "Finding and its fixes", onkeydown: pressed }, ...told) };
       },
     };
   }
@@ -200,9 +138,15 @@ function fixesAtWord(apply: (finding: number, fix: number) => void): Extension {
     requestAnimationFrame(() => view.dom.querySelector<HTMLElement>(".at-word button")?.focus());
     return true;
   };
+  const hide = (view: EditorView) => {
+    if (!view.state.field(field)) return false;
+    view.dispatch({ effects: openFixes.of(false) });
+    view.focus();
+    return true;
+  };
   return [
     field,
-    keymap.of([{ key: "Mod-.", run: show }, { key: "Alt-Enter", run: show }, { key: "Escape", run: (view) => hide(view, field) }]),
+    keymap.of([{ key: "Mod-.", run: show }, { key: "Alt-Enter", run: show }, { key: "Escape", run: hide }]),
     EditorView.domEventHandlers({
       click: (event, view) => {
         const at = view.posAtCoords({ x: event.clientX, y: event.clientY });
@@ -212,16 +156,9 @@ function fixesAtWord(apply: (finding: number, fix: number) => void): Extension {
   ];
 }
 
-function hide(view: EditorView, field: StateField<Tooltip | null>): boolean {
-  if (!view.state.field(field)) return false;
-  view.dispatch({ effects: openFixes.of(false) });
-  return true;
-}
-
-export function touches({ begin, end }: Placed, at: number, state: EditorState): boolean {
-  if (end > begin) return begin <= at && at <= end;
-  const line = state.doc.lineAt(Math.min(begin, state.doc.length));
-  return line.from <= at && at <= line.to;
+export function touches(placed: Placed, at: number, state: EditorState): boolean {
+  const [begin, end] = stretchOf(placed, state);
+  return begin <= at && at <= end;
 }
 
 function toFinding(way: 1 | -1): (view: EditorView) => boolean {
@@ -235,19 +172,14 @@ function toFinding(way: 1 | -1): (view: EditorView) => boolean {
   };
 }
 
-export interface Heard {
-  changed: (changes: ChangeSet) => void;
-  selected: () => void;
-  fix: (finding: number, fix: number) => void;
-}
+export type Heard = { changed: (changes: ChangeSet) => void; selected: () => void; fix: (finding: number, fix: number) => void };
 
 export function newState(text: string, heard: Heard, isReadOnly = false): EditorState {
   return EditorState.create({
     doc: text,
     extensions: [
       marks,
-      litField,
-      inSight,
+      greyed,
       lineNumbers(),
       history(),
       drawSelection(),
@@ -255,12 +187,7 @@ export function newState(text: string, heard: Heard, isReadOnly = false): Editor
       highlightSelectionMatches(),
       search({ top: true }),
       fixesAtWord(heard.fix),
-      keymap.of([
-        { key: "F8", run: toFinding(1), shift: toFinding(-1) },
-        ...searchKeymap,
-        ...historyKeymap,
-        ...defaultKeymap,
-      ]),
+      keymap.of([{ key: "F8", run: toFinding(1), shift: toFinding(-1) }, ...searchKeymap, ...historyKeymap, ...defaultKeymap]),
       EditorView.contentAttributes.of({ "aria-label": "Program", tabindex: "0", spellcheck: "false", autocapitalize: "off", autocorrect: "off" }),
       EditorState.readOnly.of(isReadOnly),
       EditorView.updateListener.of((update) => {
@@ -275,22 +202,15 @@ export function newState(text: string, heard: Heard, isReadOnly = false): Editor
   });
 }
 
-export const markEffect = (found: Marks): StateEffect<Marks> => setMarks.of(found);
-export const litEffect = (range: readonly [number, number] | null): StateEffect<readonly [number, number] | null> => setLit.of(range);
 export const marksOf = (state: EditorState): Marks => state.field(marks);
 
 // Edits of Python: one step of undo, or none.
-export function pythonEdits(changes: ChangeSet, isStep = true): TransactionSpec {
-  const annotations = isStep ? [fromPython.of(true), isolateHistory.of("full")] : [fromPython.of(true), Transaction.addToHistory.of(false)];
-  return { changes, annotations };
-}
+export const pythonEdits = (changes: ChangeSet, isStep = true): TransactionSpec => ({
+  changes,
+  annotations: [fromPython.of(true), isStep ? isolateHistory.of("full") : Transaction.addToHistory.of(false)],
+});
 
-export function changesOf(edits: Change[], length: number): ChangeSet {
-  return ChangeSet.of(
-    edits.map(({ from, to, text }) => ({ from, to, insert: text })),
-    length,
-  );
-}
+export const changesOf = (edits: Change[], length: number): ChangeSet => ChangeSet.of(edits.map(({ from, to, text }) => ({ from, to, insert: text })), length);
 
 export function editsOf(changes: ChangeSet): Change[] {
   const edits: Change[] = [];

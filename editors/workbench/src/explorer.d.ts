@@ -1,6 +1,6 @@
 // What the explorer's front end takes for the widget of a notebook.
 declare module "*/notebook/explorer.js" {
-  interface Model {
+  export interface Model {
     get(name: string): unknown;
     set(name: string, value: unknown): void;
     save_changes(): void;

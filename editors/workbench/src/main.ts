@@ -7,8 +7,13 @@ import "./workbench.css";
 const place = document.getElementById("workbench")!;
 const { worker, hello } = place.dataset;
 
-if (worker === undefined || hello === undefined) void new App(place, new ServerTransport(), null).begin();
-else embed(worker, JSON.parse(hello));
+if (worker === undefined || hello === undefined) {
+  const asked = matchMedia("(prefers-color-scheme: dark)");
+  const follow = () => (place.dataset["theme"] = asked.matches ? "dark" : "light");
+  asked.addEventListener("change", follow);
+  follow();
+  void new App(place, new ServerTransport(), null).begin();
+} else embed(worker, JSON.parse(hello));
 
 // In a page that has styles of its own: a shadow keeps both apart.
 function embed(address: string, known: Hello): void {
@@ -20,13 +25,10 @@ function embed(address: string, known: Hello): void {
   root.classList.add("embedded");
   shadow.append(sheet, root);
 
-  const followTheme = () => {
-    const theme = document.body.dataset["mdColorScheme"] === "slate" ? "dark" : "light";
-    root.dataset["theme"] = theme;
-    document.body.dataset["theme"] = theme; // the explorer looks at the theme again when this changes
-  };
-  new MutationObserver(followTheme).observe(document.body, { attributes: true, attributeFilter: ["data-md-color-scheme"] });
-  followTheme();
+  // The explorer looks at the theme again when that of the body changes.
+  const follow = () => (root.dataset["theme"] = document.body.dataset["theme"] = document.body.dataset["mdColorScheme"] === "slate" ? "dark" : "light");
+  new MutationObserver(follow).observe(document.body, { attributes: true, attributeFilter: ["data-md-color-scheme"] });
+  follow();
 
   const app: App = new App(root, new WorkerTransport(new URL(address, import.meta.url).href, (progress) => app.progress(progress)), known);
   void app.begin();

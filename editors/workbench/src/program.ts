@@ -3,15 +3,17 @@ import type { ChangeSet, EditorState, Text, TransactionSpec } from "@codemirror/
 import type { EditorView } from "@codemirror/view";
 
 import { changesOf, editsOf, type Heard, markEffect, moveMarks, newState, placed, pythonEdits } from "./editor";
-import { type Change, type ContourRow, type Finding, type Transport, Trouble, type View } from "./protocol";
-import type { Work } from "./work";
+import { type Change, type ContourRow, type Finding, orTrouble, type Transport, Trouble, type View } from "./protocol";
+import type { Saved, Work } from "./work";
 
 const PAUSE = 40; // ms in which keys are gathered
 
 export type Question = Record<string, unknown>;
 
 export class Program implements Work {
+  readonly noun = "program";
   readonly ending = "nc";
+  number = 1;
   view: View;
   findings: Finding[] = []; // as they came last
   contours: ContourRow[] = [];
@@ -40,45 +42,26 @@ export class Program implements Work {
     if (view.examined < view.lines) void this.ask(() => null);
   }
 
-  get name(): string {
-    return this.view.name;
-  }
+  get name() { return this.view.name; }
+  get base() { return this.view.base; }
+  get text() { return this.state.doc.toString(); }
+  get isEmpty() { return this.state.doc.length === 0; }
+  get isChanged() { return this.saved === null || !this.state.doc.eq(this.saved); }
 
-  get text(): string {
-    return this.state.doc.toString();
-  }
+  refusal = () => Promise.resolve("");
+  again = () => this.ask(() => ({ do: "view" }));
+  close = () => this.transport.ask({ do: "close", program: this.view.id }).catch(() => null);
 
-  get base(): string {
-    return this.view.base;
-  }
-
-  get isEmpty(): boolean {
-    return this.state.doc.length === 0;
-  }
-
-  get isChanged(): boolean {
-    return this.saved === null || !this.state.doc.eq(this.saved);
-  }
-
-  async save(options: { name?: string; over?: string }, isKnown: (why: Trouble) => boolean): Promise<{ saved: string; base: string } | null> {
-    const asked = () => {
+  save(options: { name?: string; over?: string }): Promise<Saved> {
+    return this.answer<Saved>(() => {
       this.saving = this.state.doc;
       return { do: "save", ...options };
-    };
-    return this.ask(asked, false, isKnown);
+    }) as Promise<Saved>;
   }
 
   wasSaved(name: string, base: string): void {
     this.view = { ...this.view, name, base };
     this.saved = this.saving;
-  }
-
-  again(): Promise<unknown> {
-    return this.ask(() => ({ do: "view" }));
-  }
-
-  close(): Promise<unknown> {
-    return this.transport.ask({ do: "close", program: this.view.id }).catch(() => null);
   }
 
   // The editor shows one program at a time.
@@ -102,33 +85,41 @@ export class Program implements Work {
     this.timer = setTimeout(() => void this.ask(() => null), PAUSE);
   }
 
-  // Ask about the text as it is now; null where that failed, which is said at the top. What is asked is made when its
-  // turn comes; null asks nothing more than the findings. Trouble that `isKnown` takes is not said at the top.
-  ask<Reply extends object>(question: () => Question | null, isHeld = false, isKnown?: (why: Trouble) => boolean): Promise<Reply | null> {
-    const next = this.last.then(() => this.asked<Reply>(question, isHeld, isKnown));
+  // Ask about the text as it is now; null where that failed, which is said at the top.
+  ask<Reply extends object>(question: () => Question | null, isHeld = false): Promise<Reply | null> {
+    return orTrouble(this.answer<Reply>(question, isHeld), (why) => this.shown(this, why));
+  }
+
+  // The same, with its Trouble for whoever asks. What is asked is made when its turn comes; null asks nothing more than
+  // the findings.
+  answer<Reply extends object>(question: () => Question | null, isHeld = false): Promise<Reply | null> {
+    const next = this.last.then(() => this.asked<Reply>(question, isHeld));
     this.last = next.catch(() => null);
     return next;
   }
 
-  private async asked<Reply extends object>(question: () => Question | null, isHeld: boolean, isKnown?: (why: Trouble) => boolean): Promise<Reply | null> {
-    try {
-      await this.send();
-      const what = question();
-      const reply = what && (await this.tell<Reply & { edits?: Change[] } & Partial<View>>(what));
-      if (reply?.edits?.length) this.take(reply.edits, isHeld || (this.held !== null && what?.["do"] === "act"));
-      if (!isHeld && what?.["do"] === "act") this.letGo();
-      if (reply?.seq !== undefined && reply.counts) this.adopt(reply as View);
-      this.shown(this, null);
-      return reply;
-    } catch (error) {
-      if (!(error instanceof Trouble)) throw error;
-      if (!isKnown?.(error)) this.shown(this, error);
-      return null;
-    }
+  private async asked<Reply extends object>(question: () => Question | null, isHeld: boolean): Promise<Reply | null> {
+    await this.send();
+    const what = question();
+    const reply = what && (await this.tell<Reply & { edits?: Change[] } & Partial<View>>(what));
+    const isAct = what?.["do"] === "act";
+    if (reply?.edits?.length) this.take(reply.edits, isHeld || (this.held !== null && isAct));
+    if (!isHeld && isAct) this.letGo();
+    if (reply?.seq !== undefined && reply.counts) this.adopt(reply as View);
+    this.shown(this, null);
+    return reply;
   }
 
-  private tell<Reply>(what: Question): Promise<Reply> {
-    return this.transport.ask<Reply>({ program: this.view.id, seq: this.view.seq, ...what });
+  // A Desk that was away, or has forgotten this program, has it again before it answers.
+  private async tell<Reply>(what: Question): Promise<Reply> {
+    const ask = () => this.transport.ask<Reply>({ program: this.view.id, seq: this.view.seq, ...what });
+    try {
+      return await ask();
+    } catch (error) {
+      if (!(error instanceof Trouble) || !error.reply?.["is_gone"]) throw error;
+      await this.openAnew();
+      return what["do"] === "edit" ? (this.view as Reply) : ask();
+    }
   }
 
   // Bring the Desk's text up to what stands here, and let it examine all of it.
@@ -142,10 +133,8 @@ export class Program implements Work {
         this.adopt(await this.tell<View>({ do: "edit", ...what }));
       } catch (error) {
         this.isWhole = true; // whether it came there is not known
-        if (!(error instanceof Trouble)) throw error;
-        if (error.reply?.["is_gone"]) await this.openAnew();
-        else if (error.reply?.["is_old"]) this.adopt(await this.tell<View>({ do: "edit", text: this.whole() }));
-        else throw error;
+        if (!(error instanceof Trouble) || !error.reply?.["is_old"]) throw error;
+        this.adopt(await this.tell<View>({ do: "edit", text: this.whole() }));
       }
       this.isWhole = false;
     }
@@ -164,9 +153,9 @@ export class Program implements Work {
   }
 
   private async openAnew(): Promise<void> {
-    const { name, base, encoding, control, control_from } = this.view;
+    const { name, base, encoding, has_order_mark, line_end, control, control_from } = this.view;
     const chosen = control_from === "choice" && control ? { control: control.name } : {};
-    this.adopt(await this.transport.ask<View>({ do: "open", name, text: this.whole(), base, encoding, ...chosen }));
+    this.adopt(await this.transport.ask<View>({ do: "open", name, text: this.whole(), base, encoding, has_order_mark, line_end, ...chosen }));
   }
 
   private take(edits: Change[], isHeld: boolean): void {
@@ -194,7 +183,7 @@ export class Program implements Work {
 
   private mark(): void {
     const marks = { findings: placed(this.findings, this.acknowledged), contours: this.contours };
-    this.update({ effects: markEffect(this.pending ? moveMarks(marks, this.pending) : marks) });
+    this.update({ effects: markEffect.of(this.pending ? moveMarks(marks, this.pending) : marks) });
   }
 
   // The findings are about the text that the Desk has; what was typed since moves them.

@@ -5,6 +5,8 @@ const GONE = "The workbench does not answer: its program was ended. Start it aga
 
 const asWindow = Array.from(crypto.getRandomValues(new Uint8Array(8)), (each) => each.toString(16).padStart(2, "0")).join("");
 
+const asked = (request: Record<string, unknown>): string => JSON.stringify({ window: asWindow, ...request });
+
 function checked<Reply>(reply: Record<string, unknown>): Reply {
   if (typeof reply["trouble"] === "string") throw new Trouble(reply["trouble"] || "This did not work, and nobody said why.", reply);
   return reply as Reply;
@@ -16,26 +18,16 @@ export class ServerTransport implements Transport {
   private key = ""; // where a password has unlocked writing
 
   async ask<Reply>(request: Record<string, unknown>): Promise<Reply> {
-    let answer: Response;
-    try {
-      answer = await fetch("ask", {
-        method: "POST",
-        headers: { "Content-Type": "application/json", "X-Token": this.token, ...(this.key ? { "X-Key": this.key } : {}) },
-        body: JSON.stringify({ window: asWindow, ...request }),
-      });
-    } catch {
+    const headers = { "Content-Type": "application/json", "X-Token": this.token, ...(this.key ? { "X-Key": this.key } : {}) };
+    const answer = await fetch("ask", { method: "POST", headers, body: asked(request) }).catch(() => {
       throw new Trouble(GONE);
-    }
-    let reply: Record<string, unknown>;
-    try {
-      reply = await answer.json();
-    } catch {
-      throw new Trouble(`The workbench answers ${answer.status}. Load this page again.`);
-    }
-    if (!answer.ok && !reply["trouble"]) throw new Trouble(`The workbench answers ${answer.status}. Load this page again.`);
-    if (request["do"] === "unlock" && typeof reply["key"] === "string") this.key = reply["key"];
+    });
+    const reply: Record<string, unknown> | null = await answer.json().catch(() => null);
+    if (!reply || (!answer.ok && !reply["trouble"])) throw new Trouble(`The workbench answers ${answer.status}. Load this page again.`);
+    const isUnlocking = request["do"] === "unlock";
+    if (isUnlocking && typeof reply["key"] === "string") this.key = reply["key"];
     // Another token: the workbench was started anew, and this page belongs to an older one.
-    if (answer.status === 403 && request["do"] !== "unlock") throw new Trouble(`${String(reply["trouble"])}. The text here stays: copy it or download it.`);
+    if (answer.status === 403 && !isUnlocking) throw new Trouble(`${String(reply["trouble"])}. The text here stays: copy it or download it.`);
     return checked<Reply>(reply);
   }
 }
@@ -44,7 +36,7 @@ export class ServerTransport implements Transport {
 export class WorkerTransport implements Transport {
   private worker: Worker | null = null;
   private readonly waiting = new Map<number, { done: (reply: Record<string, unknown>) => void; failed: (why: Trouble) => void }>();
-  private asked = 0;
+  private number = 0; // of the last question
 
   constructor(
     private readonly address: string,
@@ -53,11 +45,10 @@ export class WorkerTransport implements Transport {
 
   ask<Reply>(request: Record<string, unknown>): Promise<Reply> {
     const worker = (this.worker ??= this.start());
-    this.asked += 1;
-    const number = this.asked;
+    const number = (this.number += 1);
     return new Promise<Record<string, unknown>>((done, failed) => {
       this.waiting.set(number, { done, failed });
-      worker.postMessage({ number, request: JSON.stringify({ window: asWindow, ...request }) });
+      worker.postMessage({ number, request: asked(request) });
     }).then((reply) => checked<Reply>(reply));
   }
 

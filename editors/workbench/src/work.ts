@@ -1,7 +1,10 @@
 // What a tab of the page holds: a program, or the sketch of a contour.
-import type { Trouble } from "./protocol";
+export type Saved = { saved: string; base: string };
 
 export interface Work {
+  readonly noun: string;
+  /** Tells those without a name apart, as long as they are open. */
+  number: number;
   readonly name: string;
   readonly isChanged: boolean;
   readonly isEmpty: boolean;
@@ -13,8 +16,9 @@ export interface Work {
   /** Its file is this now. */
   wasSaved(name: string, base: string): void;
   /** Why it cannot be saved, in one sentence; empty where it can. */
-  refusal?(): Promise<string>;
-  save(options: { name?: string; over?: string }, isKnown: (why: Trouble) => boolean): Promise<{ saved: string; base: string } | null>;
+  refusal(): Promise<string>;
+  /** Save it; raises Trouble. */
+  save(options: { name?: string; over?: string }): Promise<Saved>;
   /** Ask for all of it again, after the Desk was away. */
   again(): Promise<unknown>;
   close(): Promise<unknown>;
