@@ -274,6 +274,7 @@ def status_text(status: Status) -> str:
 
 
 _STATUSES = {
+    Status.REJECTED: "refused",
     Status.NO_SOLUTION: "without a solution",
     Status.UNDERDETERMINED: "incomplete",
     Status.OVERDETERMINED: "with too many words",

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, status_text
 from contoursolve.diagnostics import UserError
 from contoursolve.postprocess import Written, write_contour
 from contoursolve.program import Result, configure, find_dialect
@@ -62,5 +62,5 @@ def _answer_of(contour: Answer | Result | ContourSketch) -> Answer:
             raise ValueError(f"one contour is written; the program has {len(contour.answers)}")
         contour = contour.answers[0]
     if contour.contour is None:
-        raise UnfinishedError(f"the contour is {contour.status.value}: solve it first")
+        raise UnfinishedError(f"the contour is {status_text(contour.status)}: solve it first")
     return contour

@@ -326,7 +326,7 @@ def test_no_two_ways_differ_in_increments_alone(path: Path):
 
 def test_an_open_contour_has_no_words():
     open_ = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. B120.")
-    with pytest.raises(contoursolve.UnfinishedError, match="the contour is rejected: solve it first"):
+    with pytest.raises(contoursolve.UnfinishedError, match="the contour is refused: solve it first"):
         contoursolve.write(open_, "fanuc-lathe")
 
 
