@@ -251,7 +251,7 @@ def test_the_tool_shows_the_contour_before_its_side_is_chosen(opened, folder) ->
     show(page, "Tool")
     page.locator(".view.tool input[type=text]").fill("0,8")
     page.keyboard.press("Tab")
-    page.locator(".view.tool [role=status]", has_text="choose the side here").wait_for()
+    page.locator(".view.tool [role=status]", has_text="state the side: left or right").wait_for()
     page.locator(".view.tool svg").first.wait_for()
     page.locator(".view.tool select").nth(1).select_option("right")
     page.locator(".view.tool select").first.select_option("3")
@@ -275,7 +275,7 @@ def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened)
     assert not page.locator(".trouble:not(:empty)").count()
     head = page.locator(".head").bounding_box()
     page.get_by_role("button", name="Do").click()
-    page.get_by_role("menuitem", name="Expand").click()
+    page.get_by_role("menuitem", name="Expand into").click()
     page.locator(".trouble", has_text="no word tells the control").wait_for()
     # A message moves nothing, and Escape closes it.
     assert page.locator(".head").bounding_box() == head

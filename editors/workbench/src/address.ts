@@ -5,10 +5,7 @@ const PAUSE = 300; // ms without a change until the address follows; browsers fo
 const LONGEST = 6000; // characters of a program
 const KLARTEXT = /^\s*\d*\s*F?[LC]\b/im;
 
-export interface Linked {
-  text: string;
-  control: string;
-}
+export type Linked = { text: string; control: string };
 
 export class Address {
   told = ""; // what it holds, or is about to

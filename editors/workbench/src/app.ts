@@ -218,8 +218,7 @@ export class App {
   private async openLinked(): Promise<void> {
     const linked = this.address.read();
     if (!linked) return;
-    const { text, control } = linked;
-    await this.open({ name: "", text, ...(this.hello?.controls.some((each) => each.name === control) ? { control } : {}) });
+    await this.open({ name: "", text: linked.text, ...(this.hello?.controls.some((each) => each.name === linked.control) ? { control: linked.control } : {}) });
   }
 
   private addSketch(chain: Chain, name: string, base: string, measured: Record<string, string>[] = []): void {

@@ -50,11 +50,9 @@ export const scroller = (kind: "div" | "pre", label: string, properties: Propert
 
 export const activeIn = (node: Node): Element | null => (node.getRootNode() as Document).activeElement;
 
-const FOCUSED = "button, input, select, textarea, summary";
-
 // What is shown anew would lose the keys that follow to the page: what stands in the same place has them then.
 export function keepFocus(host: HTMLElement, change: () => void): void {
-  const all = () => [...host.querySelectorAll<HTMLElement>(FOCUSED)].filter((each) => each.getClientRects().length);
+  const all = () => [...host.querySelectorAll<HTMLElement>("button, input, select, textarea, summary")].filter((each) => each.getClientRects().length);
   const at = all().indexOf(activeIn(host) as HTMLElement);
   change();
   if (at >= 0) (all()[at] ?? all().at(-1) ?? host.closest<HTMLElement>("[tabindex]"))?.focus();

@@ -17,7 +17,6 @@ export const markEffect = StateEffect.define<Marks>();
 export const litEffect = StateEffect.define<readonly [number, number] | null>();
 const openFixes = StateEffect.define<boolean>();
 
-const lit = Decoration.mark({ class: "cm-lit" });
 
 export function moveMarks<Kind extends Marks>(all: Kind, changes: ChangeDesc): Kind {
   const findings = all.findings.map((each) => ({ ...each, begin: changes.mapPos(each.begin, 1), end: changes.mapPos(each.end, -1) }));
@@ -65,10 +64,15 @@ const marks = StateField.define<Shown>({
     let now = docChanged ? { ...moveMarks(shown, changes), drawn: shown.drawn.map((each) => each.map(changes)) } : shown;
     for (const effect of effects) {
       const [findings, contours, word] = now.drawn as [DecorationSet, DecorationSet, DecorationSet];
-      if (effect.is(markEffect)) now = { ...effect.value, drawn: [underlined(effect.value.findings, state), marked(effect.value.contours, state), word] };
+      if (effect.is(markEffect)) {
+        const { value } = effect;
+        // The same contours moved with their lines, if none of these was put in anew.
+        const isSame = value.contours === now.contours && contours.size === value.contours.reduce((sum, each) => sum + each.last - each.line + 1, 0);
+        now = { ...value, drawn: [underlined(value.findings, state), isSame ? contours : marked(value.contours, state), word] };
+      }
       if (!effect.is(litEffect)) continue;
       const [from, to] = effect.value ?? [0, 0];
-      now = { ...now, drawn: [findings, contours, to > from && to <= state.doc.length ? Decoration.set([lit.range(from, to)]) : Decoration.none] };
+      now = { ...now, drawn: [findings, contours, to > from && to <= state.doc.length ? Decoration.set([Decoration.mark({ class: "cm-lit" }).range(from, to)]) : Decoration.none] };
     }
     return now;
   },
