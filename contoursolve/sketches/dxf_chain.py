@@ -204,6 +204,8 @@ class Net:
                 found[key] = replace(curve, segment=replace(curve.segment, start=start, end=head))
         self.curves = [*found.values()]
         self.edges = [make_edge(*each.ends, payload=each) for each in self.curves]
+        # Lines first, in the order of the drawing.
+        self.rank = {each.id: (isinstance(each.payload.segment, ArcSegment), n) for n, each in enumerate(self.edges)}
         open_ = [each for each in self.edges if each.start != each.end]
         self.deposit = Deposit(open_, gap_tol=near) if open_ else None
         self.notes = [f"ends are joined that lie up to {off:.3g} apart"] if off > _FLAT else []
@@ -233,13 +235,12 @@ class Net:
     def _ordered(self, edges: Sequence[Any]) -> tuple[int, list[Any]]:
         """A chain in the direction of the first line that the drawing has of it, and begun there if it is closed: arcs
         of DXF have no direction; and the place of that line in the drawing."""
-        rank = {each.id: (isinstance(each.payload.segment, ArcSegment), n) for n, each in enumerate(self.edges)}
-        first = min(edges, key=lambda each: rank[each.id])
+        first = min(edges, key=lambda each: self.rank[each.id])
         ordered = [each.reversed() for each in reversed(edges)] if first.is_reverse else [*edges]
         if edges[0].start == edges[-1].end:
             place = ordered.index(first)
             ordered = ordered[place:] + ordered[:place]
-        return min(rank[each.id][1] for each in edges), ordered
+        return min(self.rank[each.id][1] for each in edges), ordered
 
 
 def _chain(edges: Sequence[Any]) -> DxfChain:
