@@ -114,8 +114,10 @@ def tried_entries(sketch: ContourSketch, answer: Answer, fields: Iterable[Field]
     """The fields that help, with the numbers that findings have tried."""
     fixes = (fix.numbers for finding in answer.diagnostics for fix in finding.fixes if fix.numbers)
     tried = dict[Field, Sequence[OpenNumber]]()
-    for numbers in sorted(fixes, key=lambda each: not each[0].example):
-        tried.setdefault(_place_of(numbers[0]), numbers)
+    for numbers in fixes:
+        place = _place_of(numbers[0])
+        if place not in tried or not tried[place][0].example:
+            tried[place] = numbers
     entries = [_entry(sketch, *field, tried.get(field, ())) for field in dict.fromkeys((*fields, *tried))]
     return tuple(sorted(entries, key=lambda each: not each.example))
 

@@ -206,7 +206,9 @@ def _simplified(way: Sequence[Point]) -> Sequence[Point]:
     if max(across, default=0.0) > SAME:
         return way
     along = steps @ right[0]
-    return [way[each] for each in sorted({int(along.argmin()), int(along.argmax())})]
+    # Toward what is farthest from its begin.
+    along *= -1 if -along.min() > along.max() else 1
+    return [way[each] for each in dict.fromkeys((int(along.argmin()), int(along.argmax())))]
 
 
 class _Layout:
