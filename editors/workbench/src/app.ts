@@ -342,8 +342,8 @@ export class App {
       this.tell(null);
       work.wasSaved(saved.saved, saved.base);
       this.say(`Saved as ${saved.saved}.`);
-      this.follow();
     }
+    this.follow();
     if (!conflict) return saved !== null;
     const name = options.name ?? work.name;
     const what = options.name ? "There is a file with this name already." : "This file was changed since it was opened: by another program, or in another window.";
