@@ -106,7 +106,7 @@ def test_a_tool_is_in_the_unit_of_the_block():
     assert (found["unit"], found["ranges"][0]["high"]["value"]) == ("inch", pytest.approx(0.2))
 
 
-@few_and_many(8, 160)
+@few_and_many(8, 80)
 def test_random_contours_end_where_check_says(count: int, tmp_path: Path):
     """What fits at the largest radius fits at smaller ones, and does not at larger ones, contour by contour."""
     random, ended = numpy.random.default_rng(41), 0

@@ -178,7 +178,7 @@ def draw_jumps(rng: random.Random, control: str) -> Drawn:
     return Drawn(lines, own, [line for line, (_, words) in enumerate(kinds, 1) if words is WORDS or line in own])
 
 
-@few_and_many(40, 800)
+@few_and_many(20, 400)
 @pytest.mark.parametrize("control", JUMPS)
 def test_jumps_lead_to_the_same_blocks(control: str, count: int) -> None:
     rng = random.Random(count)

@@ -168,7 +168,7 @@ def test_an_edit_of_a_program_that_runs_solves_what_depends_on_it_alone(
         compare(program, program.text, "yasnac-lx3")
 
 
-@some_of("path", PROGRAMS, only=PROGRAMS[::3], ids=lambda path: path.name)
+@some_of("path", PROGRAMS, only=PROGRAMS[::6], ids=lambda path: path.name)
 def test_random_edits(path: Path) -> None:
     edit_at_random(decode(path.read_bytes(), path.name), path.name, CONTROLS.get(path.name), 1, 3)
 

@@ -76,9 +76,10 @@ def test_g112_is_the_drawing_it_was_written_from(count):
             assert answer.certificate.proof.value in ("exact", "unique")
 
 
-def test_g11_g12_and_g01_are_the_drawings_they_were_written_from():
+@few_and_many(15, 60)
+def test_g11_g12_and_g01_are_the_drawings_they_were_written_from(count):
     rng = random.Random(11)
-    for _ in range(60):
+    for _ in range(count):
         drawn = random_g11(rng, 4)
         answers = solve(drawn.text).answers
         elements = [each for answer in answers for each in answer.contour.elements]

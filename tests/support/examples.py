@@ -9,7 +9,7 @@ import pytest
 from _pytest.mark import ParameterSet
 from hypothesis import example, given, settings, strategies as st
 
-THINNED = 30
+THINNED = 60
 """One of so many of the sampled cases is run, so that the command of the README ends in two minutes, and all of CI in
 twenty."""
 

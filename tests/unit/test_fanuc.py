@@ -224,7 +224,7 @@ def judge(program: Sequence[str], control: str, machine: Machine, settings: dict
 
 
 @pytest.mark.parametrize("control", MACHINES)
-@few_and_many(24, 250)
+@few_and_many(12, 120)
 def test_random_chains_come_out_where_they_were_drawn(control, count):
     rng = Random(f"{control}{count}")
     for _ in range(count):
@@ -232,7 +232,7 @@ def test_random_chains_come_out_where_they_were_drawn(control, count):
 
 
 @pytest.mark.parametrize("kinds", PAIRS)
-@few_and_many(24, 250)
+@few_and_many(12, 120)
 def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
     rng = Random(f"{kinds}{count}")
     for _ in range(count):
@@ -240,7 +240,7 @@ def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
 
 
 @pytest.mark.parametrize("control", MACHINES)
-@few_and_many(24, 250)
+@few_and_many(12, 120)
 @pytest.mark.slow
 def test_no_program_with_a_word_lost_too_many_or_wrong_is_solved_wrongly(control, count):
     rng, verdicts = Random(f"wrong {control}{count}"), Counter[str]()

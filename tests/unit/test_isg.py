@@ -18,10 +18,9 @@ ISG = "isg"
 MILL = "G17 G90 G0 X0 Y0\n"
 
 
-def isg(text: str, **settings: str):
-    return solve(
-        text, control=ISG, settings={f"isg.{name.replace('_', '-')}": value for name, value in settings.items()}
-    )
+def isg(text: str, depth: str = "full", **settings: str):
+    named = {f"isg.{name.replace('_', '-')}": value for name, value in settings.items()}
+    return solve(text, control=ISG, settings=named, depth=depth)
 
 
 def path(text: str, **settings: str) -> list[Element]:
@@ -44,7 +43,7 @@ def ends(text: str, **settings: str) -> list[complex]:
 
 def refused(text: str, code: str, number: str | None = None, **settings: str) -> None:
     """That the error is found first, with its ID, and no contour of its blocks called solved."""
-    result = isg(text, **settings)
+    result = isg(text, "verdict", **settings)
     errors = [each for each in result.diagnostics if each.severity.value == "error"]
     assert [each.code for each in errors][:1] == [code], [each.message for each in errors]
     assert (errors[0].alarm.number.split()[0] if errors[0].alarm else None) == number
