@@ -91,7 +91,7 @@ def machine_of(control: str, plane: int | None) -> Machine:
 
 @pytest.mark.parametrize("plane", MACHINES)
 @pytest.mark.parametrize("control", [SINUMERIK, ISG])
-@few_and_many(6, 40)
+@few_and_many(12, 40)
 def test_random_contours_come_out_where_they_were_drawn(control, plane, count):
     rng, verdicts = Random(f"{control}{plane}{count}"), Counter[str]()
     for _ in range(count):
@@ -105,7 +105,7 @@ def test_random_contours_come_out_where_they_were_drawn(control, plane, count):
 
 @pytest.mark.parametrize("plane", MACHINES)
 @pytest.mark.parametrize("control", [SINUMERIK, ISG])
-@few_and_many(6, 40)
+@few_and_many(12, 40)
 def test_no_program_with_a_word_lost_too_many_or_wrong_is_solved_wrongly(control, plane, count):
     rng, verdicts = Random(f"wrong {control}{plane}{count}"), Counter[str]()
     for _ in range(count):

@@ -208,7 +208,7 @@ def test_a_circle_moves_through_another_and_has_4_3_2_1_and_0_tangents_with_it(t
 
 
 @pytest.mark.parametrize("kinds", ["CC", "CP"])
-@few_and_many(8, 30)
+@few_and_many(15, 60)
 def test_as_many_lines_touch_two_things_as_there_are(kinds: str, count: int) -> None:
     random = Random(f"lines {kinds}")
     counts = Counter(compare_lines(written(oracle.random_things(random, kinds))) for _ in range(count))
