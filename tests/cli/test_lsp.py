@@ -166,6 +166,7 @@ def test_places_count_as_the_protocol_does(served):
     served(use)
 
 
+@pytest.mark.slow
 def test_a_client_may_count_otherwise():
     async def use(editor: Editor) -> None:
         editor.open(SHAFT, "(粗 😀) G00 X40. Z0.\n(粗 😀) G111 X100. A180. K-30. B120. P60.")
@@ -225,7 +226,8 @@ IGNORED, COOLANT, TOO_LARGE = (
 )
 
 
-@pytest.mark.parametrize("later", [True, pytest.param(False, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("later", [True, False])
 def test_fix_all_keeps_contours_and_line_ends(later):
     """Of all findings, or of all of one kind; the edit comes when the action is chosen, if the client can wait."""
     text = IGNORED + TOO_LARGE + COOLANT + IGNORED + TOO_LARGE + COOLANT.strip()

@@ -553,6 +553,7 @@ def test_the_traits_of_the_widget_are_observed_and_set():
         assert widget.values["A"] == 180
 
 
+@pytest.mark.slow
 def test_sympy_is_imported_when_a_section_is_opened_and_not_before():
     program = (
         "import sys, contoursolve\n"

@@ -89,10 +89,8 @@ def test_the_lines_beside_the_contour_are_shown_and_written(case, tmp_path):
     assert program.read_text() == MENDED[case]
 
 
-@pytest.mark.parametrize(
-    "case",
-    [pytest.param(FUNCTION, id="a function between", marks=pytest.mark.slow), pytest.param(PLANE, id="another plane")],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("case", [FUNCTION, PLANE], ids=["a function between", "another plane"])
 def test_an_editor_changes_the_lines_beside_the_contour(case):
     control, text, _ = case
 
