@@ -1,6 +1,6 @@
 """The words of a control whose blocks are lines and arcs in a row: every set that the tables of its language have."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from itertools import pairwise, product
 
 from msgspec.structs import replace
@@ -54,7 +54,7 @@ class ChainWordings(GCodeSpeller):
         """The pairs of elements between which an intersection or a contact is computed: lines or arcs."""
         self.longest = _LONGEST if any(pair[1].is_followed for pair in pairs) else 2
 
-    def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
+    def special(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
         is_incremental = self.around is not None and self.around.form.is_incremental
         for kinds in self._kinds(index) if not is_incremental else ():
             yield from self._of_kinds(kinds, index, is_cut=is_cut)

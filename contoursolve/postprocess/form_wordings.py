@@ -16,7 +16,7 @@ from contoursolve.solving import LineSegment, Point
 class FormWordings(GCodeSpeller):
     """The words of a control's forms for elements of a contour."""
 
-    def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
+    def special(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
         for form, names in _uses(self.dialect):
             path = form.outline.path
             row = self.drawn.elements[index : index + len(path)]

@@ -1,7 +1,7 @@
 """The words with which HEIDENHAIN says elements of a drawn contour: conventional moves, and free elements in a row that
 are solved together."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from itertools import islice
 
 from msgspec.structs import replace
@@ -56,12 +56,13 @@ class KlartextWordings(Speller):
         found = super().word(address, value, axis, text)
         return replace(found, text=_signed(found.text, address))
 
-    def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
+    def special(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
         element = self.drawn.elements[index]
         if index and isinstance(element.segment, ArcSegment) and self._goes_on_smoothly(index):
             smooth = (WrittenBlock(None, "CT", self.place(element.segment.end)),)
             yield from (self.closed(1, smooth, way) for way in self.corners(element) if not way.behind)
-        is_rounded = all(any(word.ground is NumberGround.COMPUTED for word in each.words) for each in _plain)
+        plain = self.plain(index, is_cut=is_cut)
+        is_rounded = all(any(word.ground is NumberGround.COMPUTED for word in each.words) for each in plain)
         if is_cut or not (is_rounded or not index):
             return
         for way in self.corners(element):

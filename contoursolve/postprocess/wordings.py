@@ -150,12 +150,11 @@ class Speller:
     def at(self, index: int, *, is_cut: bool, is_plain: bool = False) -> Iterator[Wording]:
         """All wordings of the elements from one on, which begins behind a corner that is cut or at its virtual end; or
         only lines and arcs by their ends."""
-        own = tuple(self.plain(index, is_cut=is_cut))
-        yield from (each for each in own if each.is_plain or not is_plain)
-        yield from () if is_plain else self.special(index, own, is_cut=is_cut)
+        yield from (each for each in self.plain(index, is_cut=is_cut) if each.is_plain or not is_plain)
+        yield from () if is_plain else self.special(index, is_cut=is_cut)
 
-    def special(self, index: int, _plain: Sequence[Wording], *, is_cut: bool) -> Iterator[Wording]:
-        """The wordings that only this kind of control has, beside these plain ones."""
+    def special(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
+        """The wordings that only this kind of control has, beside the plain ones."""
         raise NotImplementedError
 
     def begin(self, index: int, *, is_cut: bool) -> Point:
