@@ -65,21 +65,14 @@ class KlartextWordings(Speller):
         is_rounded = all(any(word.ground is NumberGround.COMPUTED for word in each.words) for each in plain)
         if is_cut or not (is_rounded or not index):
             return
-        for way in self.corners(element):
-            for line in self._by_angle(replace(element.segment, end=way.end)):
-                if element.corner or self._is_solved(index, 1, line):
-                    yield self.closed(1, line, way)
-        whole = len(self.drawn.elements) - index
-        for count in range(1, min(_LONGEST, whole) + 1):
-            found = [each for each in self._run(index, count) if self._is_solved(index, count, each)]
-            corner = islice(self.corner_words(self.drawn.elements[index + count - 1]), 1)
-            yield from (Wording(count, self.attach(each, tuple(corner))) for each in found[:1])
-            if found and not self._goes_on_smoothly(index + count):
-                break
-        for blocks in self._run(index, whole) if not index and count < whole else ():
-            if self._is_solved(index, whole, blocks):
-                yield Wording(whole, blocks)
-                return
+        whole, is_done = len(self.drawn.elements) - index, False
+        for count in dict.fromkeys((*range(1, min(_LONGEST, whole) + 1), *([] if index else [whole]))):
+            tried = self._run(index, count) if count == whole or not is_done else ()
+            blocks = next((each for each in tried if self._is_solved(index, count, each)), None)
+            if blocks is not None:
+                corner = islice(self.corner_words(self.drawn.elements[index + count - 1]), 1)
+                yield Wording(count, self.attach(blocks, tuple(corner)))
+                is_done |= not self._goes_on_smoothly(index + count)
 
     def _is_solved(self, index: int, count: int, blocks: tuple[WrittenBlock, ...]) -> bool:
         """Whether blocks alone make some elements in a row, as far as their number allows to try."""
@@ -92,14 +85,6 @@ class KlartextWordings(Speller):
         part, mm = replace(self.drawn, elements=tuple(row)), float(self.unit.in_mm)
         start = [f"{axis}{at / mm:+.9f}" for axis, at in zip(self.plane.axes, part.start, strict=True)]
         return self.program.read(part, start, blocks, is_exact=True, is_part=True).deviation is not None
-
-    def _by_angle(self, segment: Segment) -> Iterator[tuple[WrittenBlock, ...]]:
-        """A free line by its angle, and a coordinate of its end or its length, without rounding."""
-        if isinstance(segment, LineSegment):
-            angle = self.word("AN", segment.angle)
-            for word in (*self.place(segment.end), self.word("LEN", segment.length)):
-                if NumberGround.COMPUTED not in (word.ground, angle.ground):
-                    yield (WrittenBlock(None, "FL", (word, angle)),)
 
     def _goes_on_smoothly(self, index: int) -> bool:
         elements = self.drawn.elements
