@@ -38,12 +38,7 @@ class ChainWordings(GCodeSpeller):
     """The words of a language for elements of a contour."""
 
     def __init__(
-        self,
-        drawn: ContourDrawing,
-        dialect: Dialect,
-        state: State,
-        language: Language,
-        around: HostProgram | None = None,
+        self, drawn: ContourDrawing, dialect: Dialect, state: State, language: Language, around: HostProgram | None
     ) -> None:
         super().__init__(drawn, dialect, state, around)
         self.language = language

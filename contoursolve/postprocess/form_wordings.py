@@ -8,9 +8,9 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import legal_samples
 from contoursolve.geometry import Arc, Line
 from contoursolve.postprocess.contour_drawing import DrawnElement, size_as
-from contoursolve.postprocess.wordings import CornerWay, GCodeSpeller, Wording, WrittenBlock
+from contoursolve.postprocess.wordings import CornerWay, GCodeSpeller, Wording, WrittenBlock, WrittenWord
 from contoursolve.reading import ContourForm, Dialect, check, stated_sets
-from contoursolve.solving import LineSegment, Point
+from contoursolve.solving import LineSegment
 
 
 class FormWordings(GCodeSpeller):
@@ -22,8 +22,12 @@ class FormWordings(GCodeSpeller):
             row = self.drawn.elements[index : index + len(path)]
             if [isinstance(each, Line) for each in path] == [isinstance(each.segment, LineSegment) for each in row]:
                 for ways in product(*(self._ways(form, *each) for each in zip(path, row, strict=True))):
-                    if not any(way.behind for way in ways[:-1]):
-                        yield from self._of_form(form, names, row, self.begin(index, is_cut=is_cut), ways)
+                    values = self.laid(form, row, self.begin(index, is_cut=is_cut), ways)
+                    if names <= values.keys() and not any(way.behind for way in ways[:-1]):
+                        words = [self.word(name, *values[name]) for name in sorted(names)]
+                        words += [word for way in ways for word in way.words]
+                        found = self._stated(form, tuple(words), len(row), ways[-1])
+                        yield from (replace(each, is_cut=row[-1].corner is not None) for each in found)
 
     def _ways(self, form: ContourForm, line: Line | Arc, element: DrawnElement) -> Iterator[CornerWay]:
         """The ways in which a form makes the corner behind an element: by its words (none where another one makes it),
@@ -36,24 +40,14 @@ class FormWordings(GCodeSpeller):
             yield CornerWay(words, element.segment.end)
         yield from () if said else islice(self.corners(element), 1)
 
-    def _of_form(
-        self,
-        form: ContourForm,
-        names: frozenset[str],
-        row: Sequence[DrawnElement],
-        begin: Point,
-        ways: tuple[CornerWay, ...],
+    def _stated(
+        self, form: ContourForm, words: tuple[WrittenWord, ...], count: int, way: CornerWay
     ) -> Iterator[Wording]:
-        values = self.laid(form, row, begin, ways)
-        if not names <= values.keys():
-            return
-        own = (self.word(name, *values[name]) for name in sorted(names))
-        words = (*own, *(word for way in ways for word in way.words))
+        """The block of a form with some words, if its rules allow them."""
         if not check(self.dialect.rules, form.roles, {word.text[:1]: None for word in words}):
             number = int(form.name.removeprefix("G"))
             block = WrittenBlock(number if number in _MODAL else None, form.name, words)
-            found = self.closed(len(row), (block,), replace(ways[-1], words=()))
-            yield replace(found, is_cut=row[-1].corner is not None)
+            yield self.closed(count, (block,), replace(way, words=()))
 
 
 _MODAL = (1, 11, 12)

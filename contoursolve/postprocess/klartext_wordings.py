@@ -42,12 +42,7 @@ class KlartextWordings(Speller):
     corner_shapes = CORNERS
 
     def __init__(
-        self,
-        drawn: ContourDrawing,
-        dialect: Dialect,
-        state: State,
-        answer: Answer,
-        program: SmallProgram,
+        self, drawn: ContourDrawing, dialect: Dialect, state: State, answer: Answer, program: SmallProgram
     ) -> None:
         super().__init__(drawn, dialect, state)
         self.answer, self.program, self.tries = answer, program, MOST_TRIED
@@ -96,8 +91,7 @@ class KlartextWordings(Speller):
         corners = [tuple(islice(self.corner_words(each), 1)) for each in row]
         if any(each.corner and not words for each, words in zip(row, corners, strict=True)):
             return
-        is_closed = [False, True] if count == len(self.drawn.elements) else [False]
-        for is_whole in is_closed:
+        for is_whole in (False, True)[: 1 + (count == len(self.drawn.elements))]:
             blocks = tuple[WrittenBlock, ...]()
             for place, words in enumerate((*corners[:-1], ()), index):
                 free = self._free(place, is_whole=is_whole)
@@ -112,10 +106,8 @@ class KlartextWordings(Speller):
         if isinstance(segment, ArcSegment):
             yield from self._arc(segment)
             return
-        ends = self.place(segment.end)
-        words = tuple(ends[axis] for axis in changed_axes(segment))
-        if words:
-            yield (WrittenBlock(None, "L", words),)
+        words = tuple(self.place(segment.end)[axis] for axis in changed_axes(segment))
+        yield from [(WrittenBlock(None, "L", words),)] if words else []
 
     def _arc(self, arc: ArcSegment) -> Iterator[tuple[WrittenBlock, ...]]:
         sense = WrittenWord(_SENSES[arc.turn])
@@ -151,7 +143,7 @@ class KlartextWordings(Speller):
             return WrittenWord(spell(address, f"{REFERENCE}{place}{REFERENCE}"))
         if given is None or given.unit is Unit.SIGN:
             return WrittenWord(spell(address, f"{word.number}"))
-        is_coordinate = address.removeprefix("CC") in ("X", "Y")
+        is_coordinate = address[-1] in "XY" and not address.startswith("I")
         return self.word(address, float(given.value), "XY".index(address[-1]) if is_coordinate else None)
 
     def _pole(self, own: Mapping[str, Word]) -> Iterator[WrittenBlock]:
