@@ -1,8 +1,9 @@
 """contoursolve: why is this contour block refused, and where does it go?
 
-It reads the contour blocks of CNC programs (Fanuc, Haas, Mitsubishi `,A ,C ,R`, HEIDENHAIN `FL FC`, SINUMERIK `ANG`,
-ISG `#ANG`, NCT 99M, YASNAC LX3 `G111`), turns each into a small system of equations, and says what is missing, what is
-said twice, and what the path is. Lengths are in mm, X of a lathe is a radius, angles are in degrees.
+It reads the contour blocks of CNC programs (Fanuc, Haas, Mitsubishi `,A ,C ,R`, HEIDENHAIN `FL FC` and DIN
+PLUS, SINUMERIK `ANG`, ISG `#ANG`, NCT 99M, YASNAC LX3 `G111`), turns each into a small system of equations, and says
+what is missing, what is said twice, and what the path is. Lengths are in mm, X of a lathe is a radius, angles are in
+degrees.
 
 >>> import contoursolve
 >>> result = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.")

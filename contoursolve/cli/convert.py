@@ -25,7 +25,7 @@ _TARGETS = tuple(name for name, dialect in DIALECTS.items() if isinstance(dialec
 
 @click.command(short_help="Write a program's contours in another control's own words.")
 @click.argument("program", metavar="OLD")
-@control_option("For which control; convert writes nothing for yasnac-lx3 and heidenhain.", "--to", _TARGETS)
+@control_option("For which control; convert writes nothing for yasnac-lx3, cnc-pilot and heidenhain.", "--to", _TARGETS)
 @control_option("The control of OLD. Without it, found from OLD where that is clear.")
 @units_option
 @rules_option

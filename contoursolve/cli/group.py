@@ -112,8 +112,8 @@ def main() -> None:
     """Solve CNC contour blocks, or say why they cannot be solved.
 
     Reads the contour blocks of Fanuc, Haas and Mitsubishi controls (,A ,C ,R), of HEIDENHAIN TNC (free contours FL FLT
-    FC FCT), of SINUMERIK (ANG RND CHR CT), of the ISG kernel (#ANG #RND), of the NCT 99M (chapter 16) and of the YASNAC
-    LX3 (G111, G112, G11, G12), with any further facts.
+    FC FCT) and CNC PILOT (DIN PLUS), of SINUMERIK (ANG RND CHR CT), of the ISG kernel (#ANG #RND), of the NCT 99M
+    (chapter 16) and of the YASNAC LX3 (G111, G112, G11, G12), with any further facts.
 
     contoursolve reads words such as X40. as the control does, in a program and in options (--block, --start, --bring).
     On most lathes a number without a decimal point counts least increments, so X40 is 0.040 mm. Numbers alone

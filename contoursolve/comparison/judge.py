@@ -582,7 +582,8 @@ def _check_path(of: ContourEvidence, ledger: Ledger) -> None:
         ledger.require("every word and fact can be read", (), not why, why)
         pairs = zip(of.case.profile.choices, of.own.sides, strict=True) if of.own else ()
         shown, band = of.case.profile.intersections, ROUNDING * of.case.size
-        told = [(one, side[1]) for one, side in pairs if one.given and one.point in shown and side]
+        words = of.case.claim.words
+        told = [(one, side[1]) for one, side in pairs if one.given in words and one.point in shown and side]
         # In a band, it is left open whether both places are one.
         sure, maybe = ({(one.point, one.side.value) for one, gap in told if gap > band * by} for by in (8, 1 / 8))
         is_right = sure <= {*claimed.branches.items()} <= maybe

@@ -19,6 +19,9 @@ from .chain.language import (
     Language as Language,
     LanguageBasis as LanguageBasis,
 )
+from .cnc_pilot import (
+    CNC_PILOT as CNC_PILOT,
+)
 from .common import (
     COMMON_RULES as COMMON_RULES,
 )

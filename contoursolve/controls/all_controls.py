@@ -17,6 +17,7 @@ _CONTROLS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "siemens-808d": ("siemens", ("ANG =", "RND =", "CHR =", "CHF =")),
     "isg": ("isg", ("ANG #", "RND #", "CHR #", "CHF #", "G 301", "G 302")),
     "heidenhain": ("heidenhain", ("BEG", "FL", "FC", "F AN", "F LEN", "F CC")),
+    "cnc-pilot": ("cnc_pilot", ("FERTIGTEIL", "FINISHED", "HILFSKONTUR", "AUXIL", "BEARBEITUNG")),
 }
 """The folder that has the record of each, under its name in capitals; and what a line has, in upper case, that shows
 the control: all parts of one of these texts, anywhere. What else it needs for that the control's own `signs` say."""

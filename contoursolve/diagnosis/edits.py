@@ -291,9 +291,9 @@ def edit_facts(facts: Iterable[Directive], edits: Iterable[Edit]) -> tuple[Direc
 
 def _tidy(text: str) -> str:
     """Comments without the separators that a dropped fact leaves, or without the comment that it leaves empty."""
-    text = re.sub(r"(\(\s*+contoursolve\s*+:)\s*+(?>(?:;\s*+)+)", r"\1 ", text, flags=re.IGNORECASE)
-    text = re.sub(r"(?<!\s)\s*+\(\s*+contoursolve\s*+:\s*+\)", "", text, flags=re.IGNORECASE)
-    return re.sub(r"(?<!\s)\s*+;(?:\s*+;)*(\s*+[);])", r"\1", text)
+    text = re.sub(r"([(\[]\s*+contoursolve\s*+:)\s*+(?>(?:;\s*+)+)", r"\1 ", text, flags=re.IGNORECASE)
+    text = re.sub(r"(?<!\s)\s*+[(\[]\s*+contoursolve\s*+:\s*+[)\]]", "", text, flags=re.IGNORECASE)
+    return re.sub(r"(?<!\s)\s*+;(?:\s*+;)*(\s*+[);\]])", r"\1", text)
 
 
 def _with_code(text: str, code: str, syntax: Syntax) -> str:
@@ -317,6 +317,7 @@ def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, round
     """A word for a value in mm (radius) or degrees, rounded to the control's least increment: a limit (`AT_MOST`,
     `AT_LEAST`) to what is within it."""
     row = lexicon.addresses[address]
+    value = value if row.clockwise_from is None else float(row.clockwise_from) - value
     number = rounded(value, row.unit, lexicon, unit, is_diameter=row.is_diameter, rounding=rounding)
     text = f"{number:f}".rstrip("0")
     if text.endswith(".") and (lexicon.numbers.without_point is WithoutPoint.AS_WRITTEN or number == 0):

@@ -310,7 +310,9 @@ class EquationSystem(Shown):
             scale = profile.unit.in_mm / (2 if profile.plane.diameters[axis] else 1)
             found[self._names[scalar(self._system.figure.start, axis)]] = nan if value is None else float(value / scale)
         for given in self._typed_words():
-            found[self._names[given.name]] = float(self._read(given) / self._scale_of(given))
+            found[self._names[given.name]] = float(
+                (self._read(given) - (given.clockwise_from or 0)) / self._scale_of(given)
+            )
         return found
 
     @property
@@ -530,8 +532,10 @@ class EquationSystem(Shown):
         read, scale = self._read(given), self._scale_of(given)
         if read and given.unit is Unit.MM and given.value == -read and given.name not in axes_of(self._system):
             return -scale, Decimal(0)
-        return scale, given.value - read
+        return scale, given.value - read + (given.clockwise_from or 0)
 
     def _scale_of(self, given: Given) -> Decimal:
         """The mm (radius) or degrees of one unit of a word with a decimal point."""
-        return self.profile.unit.in_mm / (2 if given.is_diameter else 1) if given.unit is Unit.MM else Decimal(1)
+        if given.unit is not Unit.MM:
+            return Decimal(1 if given.clockwise_from is None else -1)
+        return self.profile.unit.in_mm / (1 + given.is_diameter)

@@ -429,8 +429,8 @@ def explain_result(
     }
     is_word = event.kind in OF_A_WORD
     compared = [name for name in ("limit", "expected", "actual") if name in values]
-    if is_word and givens[0].is_diameter:
-        values |= {name: 2 * values[name] for name in compared}
+    if is_word:
+        values |= {name: givens[0].as_typed(values[name]) for name in compared}
     in_degrees = event.kind.event.in_degrees or (is_word and givens[0].unit is Unit.DEGREE)
     write = angle_text if in_degrees else lambda value, more: length_text(value, context.unit, more)
     fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
@@ -705,6 +705,7 @@ def _explain_opposite(context: Context, name: str, expected: float, profile: Pro
     given = profile.givens[name]
     tails = {fact.heading[0] for fact in profile.facts if fact.heading and fact.given == name}
     line = next(each for each in profile.figure.path if each.tail in tails)
-    values = {"actual": float(given.value), "expected": expected}
+    values = {"actual": given.as_typed(float(given.value)), "expected": given.as_typed(expected)}
+    expected = values["expected"]
     shown, about = angle_text(expected), ReadIssue.ANGLE_OPPOSITE
     return report(context, about, Basis.NUMERICAL, [given.word], values, subject=line.name, expected=shown)

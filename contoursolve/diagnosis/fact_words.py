@@ -24,7 +24,7 @@ def fact_text(fact: Fact, sought: Collection[str], profile: Profile) -> str:
     if given is not None and fact.heading is not None:
         tail, head = fact.heading
         other = tail if f"{head}.0" in sought or f"{head}.1" in sought else head
-        return f"on the line through {other} at {angle_text(float(given.value))}{word}"
+        return f"on the line through {other} at {angle_text(given.as_typed(float(given.value)))}{word}"
     if given is not None and fact.sizes:
         return f"radius {length_text(float(given.value), unit)}{word}"
     return fact.phrase(axes, sought)

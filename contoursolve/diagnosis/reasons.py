@@ -117,7 +117,7 @@ def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fac
     value, given = fact.implied(at), profile.givens[fact.given]
     if value is None or given.word is None:
         return ""
-    shown, stated = (each * (2 if given.is_diameter else 1) for each in (value, float(given.value)))
+    shown, stated = (given.as_typed(each) for each in (value, float(given.value)))
     is_same = number_text(shown, given.unit, profile.unit) == number_text(stated, given.unit, profile.unit)
     return "" if is_same else statement_text(given, shown, profile)
 
@@ -139,9 +139,13 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
     yield from _placed_before(profile, finding)
     if "angle_from" in values:
         known = "start" if _ends_on_arc(profile, finding) else "end"
+        stated = (each for each in profile.givens.values() if each.word and each.word.address == finding.addresses[0])
+        given = next(stated, None)
+        both = (values[name] for name in ("angle_from", "angle_to"))
+        low, high = sorted(both if given is None else map(given.as_typed, both))
         yield (
             f"a line through the same {known} point meets the circle with {finding.addresses[0]} between "
-            f"{limit_text(values['angle_from'], 'deg', -1)} and {limit_text(values['angle_to'], 'deg', 1)}"
+            f"{limit_text(low, 'deg', -1)} and {limit_text(high, 'deg', 1)}"
         )
     if affine is not None and finding.about in refusals_about(Topic.DIRECTION):
         fixed = affine.fixed_by(affine.facts)

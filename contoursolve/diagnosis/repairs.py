@@ -478,7 +478,7 @@ def _asked(findings: Iterable[Diagnostic], given: Given) -> Iterator[tuple[str, 
         if given.unit is Unit.DEGREE and key == "limit":
             yield from ((ROUND_HALF_EVEN, angle) for angle in _meeting(finding, given))
         elif key in finding.values and abs(finding.values[key]) < float("inf"):
-            value = finding.values[key] * (0.5 if given.is_diameter else 1.0)
+            value = given.of_typed(finding.values[key])
             rounding = AT_LEAST if key == "limit" else ROUND_HALF_EVEN
             # A limit is a size; what the sign of the word says is not in question.
             yield rounding, copysign(value, given.value) if key == "limit" else value

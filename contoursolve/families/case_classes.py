@@ -315,7 +315,10 @@ def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
         if not stated and status is None:
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
         number = Decimal(repr(values[word]))
-        free |= {given.name: Linear(word, factor_of(answer, typed, given, number)) for given in stated}
+        free |= {
+            given.name: Linear(word, factor_of(answer, typed, given, number), given.clockwise_from or Decimal(0))
+            for given in stated
+        }
     is_closed = status is not None or has_one_function(profile)
     return CaseClass(profile, status, free, is_closed=is_closed, premises=answer.premises)
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer, join
 from contoursolve.diagnostics import Basis
-from contoursolve.families.block_template import Template, called, errors_of, first_error, is_same, unit_word
+from contoursolve.families.block_template import Template, called, errors_of, first_error, is_same
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.traced_reading import Alike, Reading, place_of_contour, read_alone, trace_reading
 from contoursolve.families.word_values import LONGEST, Places, Ranges, stretches
@@ -32,8 +32,8 @@ def value_of(word: Word, answer: Answer) -> float:
     lexicon = answer.claim.lexicon
     if word.address not in lexicon.addresses:
         return float(word.number or 0)
-    one = lexicon.value(unit_word(word, has_point=True), answer.unit) or Decimal(1)
-    return float((lexicon.value(word, answer.unit) or Decimal(0)) / one)
+    one, origin = lexicon.factor(word, answer.unit, has_point=True), lexicon.addresses[word.address].clockwise_from
+    return float(((lexicon.value(word, answer.unit) or Decimal(0)) - (origin or 0)) / one)
 
 
 def kind_of(word: Word, answer: Answer) -> tuple[Unit, bool]:
@@ -55,13 +55,13 @@ def stated_by(typed: Word, profile: Profile) -> list[Given]:
 
 def factor_of(answer: Answer, typed: Word, given: Given, number: Decimal) -> Decimal:
     """The mm or degrees of a value for each unit of the word that states it with this number."""
-    if number:
+    if number and given.clockwise_from is None:
         return given.value / number
     if typed.address == FACT:
         half = Decimal("0.5") if given.is_diameter else Decimal(1)
         return half * answer.unit.in_mm if given.unit is Unit.MM else Decimal(1)
-    one = unit_word(typed, has_point=given.word is None or given.word.has_point)
-    return answer.claim.lexicon.value(one, answer.unit) or Decimal(1)
+    has_point = given.word is None or given.word.has_point
+    return answer.claim.lexicon.factor(replace(typed, has_point=has_point), answer.unit)
 
 
 WIDE = 256
@@ -108,7 +108,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
         one: Decimal | None = None
         if word.address in claim.lexicon.addresses:
             limits |= set(limits_beside(template.asked.rules, claim, word))
-            one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
+            one = claim.lexicon.factor(word, answer.unit, has_point=True)
         elif word.address != FACT:
             raise FamilyError(f"{word.text} is no word of the contour")
         elif stated:

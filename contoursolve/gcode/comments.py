@@ -5,9 +5,10 @@ import re
 from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.word import Block
 
-_DIRECTIVE = re.compile(r"[(;]\s*contoursolve\s*:", re.IGNORECASE)
+_DIRECTIVE = re.compile(r"[(;\[]\s*contoursolve\s*:", re.IGNORECASE)
 _NOT_PRINTED = re.compile(r"[\x00-\x1f\x7f\ufeff%]")
-_BRACKETS = str.maketrans("()", "[]")
+_BRACKETS = {")": str.maketrans("()", "[]"), "]": str.maketrans("[]", "()")}
+"""Brackets that stand for those that would end a comment, by these."""
 _LONGEST_COMMENT = 200
 """Characters; LinuxCNC reads lines of up to 255."""
 
@@ -17,8 +18,7 @@ LEFT_MARK = "NOT EXPANDED: "
 
 def comment_out(text: str, syntax: Syntax = ISO) -> list[str]:
     """A text as comments, without what would end them or be read on a tape."""
-    if syntax.remark.endswith(")"):
-        text = text.translate(_BRACKETS)
+    text = text.translate(_BRACKETS.get(syntax.remark[-1], {}))
     text = _NOT_PRINTED.sub(" ", text).strip()
     parts = (text[at : at + _LONGEST_COMMENT] for at in range(0, len(text), _LONGEST_COMMENT))
     return [syntax.remark.format(part) for part in parts]
@@ -41,7 +41,7 @@ def with_comments_of(text: str, syntax: Syntax, other: Syntax) -> str:
     unread = [match for match in found if other.comment.fullmatch(match[0]) is None]
     if not unread:
         return text
-    inner = [match[0][1:].removesuffix(")" if match[0].startswith("(") else "").strip() for match in found]
+    inner = [match[0][1:].removesuffix({"(": ")", "[": "]"}.get(match[0][0], "")).strip() for match in found]
     bare = syntax.comment.sub("", text).rstrip()
     return " ".join([*([bare] if bare else []), *(comment_out("; ".join(inner), other))])
 

@@ -248,7 +248,7 @@ def _directives(comment: str, line: int, offset: int, syntax: Syntax) -> list[Di
     if match is None or _NAMED.match(comment) or not comment.startswith(syntax.remark[0]):
         return []
     found, at = [], match.end()
-    told = comment[at:].removesuffix(")") if "(" in match[0] else comment[at:]
+    told = _without_end(comment[at:], match[0])
     for part in told.split(";"):
         if part.strip():
             found.append(read_directive(part, line, offset + at + 1))
@@ -261,16 +261,22 @@ def _named(comment: str, line: int, offset: int, syntax: Syntax) -> list[Named]:
     match = _NAMED.match(comment)
     if match is None:
         return []
-    text = comment[match.end() :].removesuffix(")") if "(" in match[0] else comment[match.end() :]
+    text = _without_end(comment[match.end() :], match[0])
     return [read_named(NamedAs(match["role"].lower()), text, syntax, line, offset + match.end() + 1)]
+
+
+def _without_end(text: str, mark: str) -> str:
+    """The text of a comment behind its mark, without the bracket that ends it."""
+    return text.removesuffix("]" if "[" in mark else ")" if "(" in mark else "")
 
 
 _BETWEEN_WORDS = late_pattern(r";|,(?=\s)|,$")
 _NAMED = late_pattern(
-    r"(?:\(|;\s*+\(?+)\s*+contoursolve\s*+:?+\s*+(?P<role>trust|reference)(?:ed|d|s)?+(?:\s*+:|(?=\s))", re.IGNORECASE
+    r"(?:[(\[]|;\s*+\(?+)\s*+contoursolve\s*+:?+\s*+(?P<role>trust|reference)(?:ed|d|s)?+(?:\s*+:|(?=\s))",
+    re.IGNORECASE,
 )
-_DIRECTIVE = late_pattern(r"(?:\(|;\s*+\(?+)\s*+contoursolve\s*+:", re.IGNORECASE)
-_UNMARKED = late_pattern(r"[(;]\s*+c\w*tour[\s_-]*+sol\w*+(?P<gap>[\s:;.,=-]*+)(?P<fact>[^)]*+)", re.IGNORECASE)
+_DIRECTIVE = late_pattern(r"(?:[(\[]|;\s*+\(?+)\s*+contoursolve\s*+:", re.IGNORECASE)
+_UNMARKED = late_pattern(r"[(;\[]\s*+c\w*tour[\s_-]*+sol\w*+(?P<gap>[\s:;.,=-]*+)(?P<fact>[^)]*+)", re.IGNORECASE)
 _STATES = late_pattern(r"=|passes\s++through|tangent\s++to|meets", re.IGNORECASE)
 
 
@@ -286,7 +292,7 @@ def _unmarked(comment: str, line: int, offset: int, syntax: Syntax) -> list[Dire
         if not sign:
             return []
         fact = sign + behind + fact
-    text = syntax.remark.format(f"contoursolve: {fact.strip()}")
+    text = syntax.remark.format(f"contoursolve: {fact.removesuffix(']' if comment[0] == '[' else '').strip()}")
     return [Directive(text, Span(line, offset + 1, offset + 1 + len(comment)))]
 
 

@@ -52,7 +52,8 @@ class Given(Struct, frozen=True):
     """A value that the block states: `name` is its name in the equations, `value` is in mm (radius)
     or degrees. `word` is None for a value that the control supplies by itself. `is_diameter` tells that
     the word is written as twice the value. `follows` is the name of another value from which the control makes it, by
-    adding the same whatever that is."""
+    adding the same whatever that is. An angle that the word counts clockwise from a direction (degrees) has that as
+    `clockwise_from`."""
 
     name: str
     value: Decimal
@@ -60,6 +61,15 @@ class Given(Struct, frozen=True):
     word: Word | None
     is_diameter: bool = False
     follows: str = ""
+    clockwise_from: Decimal | None = None
+
+    def as_typed(self, value: float) -> float:
+        """A value, mm or degrees, as the word counts it: a diameter, or an angle from another direction."""
+        return float(self.clockwise_from) - value if self.clockwise_from is not None else value * (1 + self.is_diameter)
+
+    def of_typed(self, value: float) -> float:
+        """The value, mm or degrees, of what is as the word counts it."""
+        return float(self.clockwise_from) - value if self.clockwise_from is not None else value / (1 + self.is_diameter)
 
 
 class Question(Struct, frozen=True):
@@ -116,11 +126,13 @@ class Choice(Struct, frozen=True):
 
 class Pick(Struct, frozen=True):
     """The solution that is meant at an element of the path: the number of the element and of the solution there, from
-    1, in the order of travel; and the given that says so, empty for one that nothing says."""
+    1, in the order of travel; and the given that says so, empty for one that nothing says. One of `most` chooses by
+    where the element ends, whichever block determines that, and among no more than so many."""
 
     element: int
     number: int
     given: str
+    most: int = 0
 
 
 class Layout(Struct, frozen=True, eq=False):

@@ -89,7 +89,8 @@ def stated_value(word: Word, answer: Answer) -> tuple[float | None, str]:
     """The value of a word as it is written, and its unit: mm, in, deg, or empty where only the sign counts."""
     lexicon = answer.claim.lexicon
     row = lexicon.addresses[word.address]
-    return _as_written(lexicon.value(word, answer.unit), row.unit, answer.unit, is_diameter=row.is_diameter)
+    value = word.number if row.clockwise_from is not None else lexicon.value(word, answer.unit)
+    return _as_written(value, row.unit, answer.unit, is_diameter=row.is_diameter)
 
 
 def found_value(asked: AskedValue, answer: Answer) -> tuple[float | None, str]:

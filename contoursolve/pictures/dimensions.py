@@ -104,8 +104,9 @@ def dimension_of(subject: PartialDrawing, fact: Fact, text: str, role: Role, val
         return _along_axis(subject, fact.placed, text, role)
     if fact.heading is not None:
         tail, head = fact.heading
-        at = subject.known.points.get(tail, subject.at(head))
-        return Angle(at, value, text, role) if at is not None else None
+        at, given = subject.known.points.get(tail, subject.at(head)), subject.profile.givens.get(fact.given)
+        base = float((given and given.clockwise_from) or 0)
+        return Angle(at, value - base, text, role, base=base) if at is not None else None
     if fact.sizes:
         return _radius(subject, fact.sizes, text, role)
     if fact.span is not None:

@@ -26,7 +26,7 @@ def counted(answer: Answer) -> dict[Span, str]:
 
 
 def _reading(given: Given, answer: Answer) -> str:
-    value = float(given.value * 2 if given.is_diameter else given.value)
+    value = given.as_typed(float(given.value))
     return length_text(value, answer.unit) if given.unit is Unit.MM else angle_text(value)
 
 

@@ -22,6 +22,7 @@ _ISO = ("%", "O0001"), ("M30", "%"), ".nc"
 _FRAMES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...], str]] = {
     **dict.fromkeys(("siemens-840d", "siemens-808d"), ((), ("M30",), ".mpf")),
     "isg": (("%CONTOUR",), ("M30",), ".nc"),
+    "cnc-pilot": (("FERTIGTEIL",), ("ENDE",), ".nc"),
     "heidenhain": (("BEGIN PGM CONTOUR {unit}",), ("M30", "END PGM CONTOUR {unit}"), ".h"),
 }
 """The lines with which a program begins and ends, and the end of its file's name, where that is not as ISO 6983 has
@@ -62,7 +63,7 @@ class SmallProgram:
 
     def __init__(self, target: Dialect, drawn: ContourDrawing, around: HostProgram | None = None) -> None:
         self.target, self.is_numbered, self.around = target, target.writing is not None, around
-        self.opening = () if self.is_numbered else (_opening(target, drawn),)
+        self.opening = () if self.is_numbered else (*filter(None, (_opening(target, drawn),)),)
         self.told = () if around is not None else (*_stated(target), *comment_out(_MISSING, target.modes.syntax))
         unit = drawn.unit.value.upper()
         frame = _FRAMES.get(target.name, _ISO)
@@ -161,7 +162,7 @@ def _opening(target: Dialect, drawn: ContourDrawing) -> str:
     """The block that says how the words of a program are read."""
     modes = target.modes
     rows, is_mill = modes.codes.values(), machine_of(target) is MachineKind.MILL
-    codes = [next(each.text for each in rows if each.unit is drawn.unit)]
+    codes = [each.text for each in rows if each.unit is drawn.unit][:1]
     if is_mill or target.diameter is not None:
         codes += [each.text for each in rows if each.plane and each.plane.code == drawn.plane.code]
     if 91 in modes.codes:  # noqa: PLR2004 - its code

@@ -27,7 +27,7 @@ _CENTERS = frozenset("IJKR")
 
 
 _NOT_KNOWN = Other("is not known")
-_LONG = re.compile(r"=|^[ \t]*#|\d,")
+_LONG = re.compile(r"=|^[ \t]*#|\d,|^[ \t]*[A-Za-z]{2}")
 """Words that are no letter with a plain number."""
 _PATH_WITHOUT_POINT = "path without point"
 

@@ -137,6 +137,8 @@ class Speller:
         number = Decimal(number_of(text, address) or 0)
         if row.unit is not Unit.DEGREE:
             number *= self.unit.in_mm / (2 if row.is_diameter else 1)
+        elif row.clockwise_from is not None:
+            number = row.clockwise_from - number
         off = abs(float(number) - exact)
         ground = NumberGround.COMPUTED if off > EXACT else NumberGround.ROUND if own is None else NumberGround.DRAWING
         is_turned = row.unit is Unit.DEGREE and ground is NumberGround.COMPUTED
@@ -217,7 +219,8 @@ class GCodeSpeller(Speller):
             words = [self.word(axes[axis], end, axis), *([self.word(step, end - segment.start[axis])] if step else [])]
             ways.append([word for n, word in enumerate(words) if not n or word.ground is not NumberGround.COMPUTED])
         yield from (
-            (WrittenBlock(self.line, self.code(self.line), words),) if words else () for words in product(*ways)
+            (WrittenBlock(self.kept(self.line), self.code(self.line), words),) if words else ()
+            for words in product(*ways)
         )
 
     def _formats(self) -> Iterator[Format]:
@@ -242,7 +245,11 @@ class GCodeSpeller(Speller):
                 axis = self.plane.axes.index(address) if address in self.plane.axes else None
                 words.append(self.word(address, exact[address], axis, text))
             if words:
-                yield WrittenBlock(move.code, self.code(move.code), tuple(words))
+                yield WrittenBlock(self.kept(move.code), self.code(move.code), tuple(words))
+
+    def kept(self, motion: int) -> int | None:
+        """The motion that a block of it leaves in force; None on a control that has each block say it."""
+        return motion if self.dialect.has_modal_motions else None
 
     def code(self, motion: int) -> str:
         """The code of a motion."""

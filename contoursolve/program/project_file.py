@@ -88,7 +88,7 @@ def _find(folder: Path) -> tuple[dict[str, Any], Path] | None:
     return None
 
 
-_STATED = late_pattern(r"[(;]\s*+contoursolve\s++control\s*+:(?P<stated>[^()\r\n]*+)", re.IGNORECASE)
+_STATED = late_pattern(r"[(;\[]\s*+contoursolve\s++control\s*+:(?P<stated>[^()\[\]\r\n]*+)", re.IGNORECASE)
 FIRST_LINES = 10
 """Of a program, among which it may state its control: an editor looks there, too, for what is meant for it."""
 

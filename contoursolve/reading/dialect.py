@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from msgspec import Struct
 
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry import Length, Plane
+from contoursolve.geometry import CornerShape, Length, Plane
 from contoursolve.reading.contour_form import Assumption, ContourForm, Setting
 from contoursolve.reading.follow import Finder
 from contoursolve.reading.lexicon import Diameter
@@ -92,8 +92,13 @@ class Dialect:
     """The words of X that are diameters at first, where codes switch that."""
     motion: int | None = None
     """The motion that is in force before the program states one."""
+    has_modal_motions: bool = True
+    """Whether a motion stays in force, so that the next block need not say it."""
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
+    corners: tuple[tuple[str, int, CornerShape], ...] = ()
+    """The words that make the corner behind their block, each with the sign of its number and the shape; of a control
+    whose words are no `Language`."""
     follow: Follower | None = None
     """Finds what is wrong with the block behind a contour, though it is no part of it."""
     writing: Writing | None = None

@@ -91,6 +91,8 @@ class Address:
     is_diameter: bool = False
     is_absolute: bool = False
     """Always a coordinate, whatever G90 and G91 say."""
+    clockwise_from: Decimal | None = None
+    """Of an angle that counts clockwise: the direction from which, degrees from the plane's first axis."""
 
     def is_step(self, *, is_incremental: bool) -> bool:
         """Whether it states an increment where increments are in force, or where they are not."""
@@ -227,11 +229,16 @@ class Lexicon:
         """The value of a word in mm (diameters halved) or degrees; None for a variable."""
         if word.number is None:
             return None
-        key = word.address, word.has_point, unit is Length.INCH
+        value, origin = word.number * self.factor(word, unit), self.addresses[word.address].clockwise_from
+        return value if origin is None else value + origin
+
+    def factor(self, word: Word, unit: Length, *, has_point: bool = False) -> Decimal:
+        """The mm (diameters halved) or degrees for each unit of a word as it is written, or as if it had a point."""
+        key = word.address, word.has_point or has_point, unit is Length.INCH
         factor = self.factors.get(key)
         if factor is None:
-            factor = self.factors[key] = self._factor(self.addresses[word.address], word.has_point, unit)
-        return word.number * factor
+            factor = self.factors[key] = self._factor(self.addresses[word.address], key[1], unit)
+        return factor
 
     def given(self, name: str, word: Word, unit: Length) -> Given | None:
         """The value of a word as a given; None for a variable."""
@@ -239,10 +246,10 @@ class Lexicon:
         if value is None:
             return None
         row = self.addresses[word.address]
-        return Given(name, value, row.unit, word, row.is_diameter)
+        return Given(name, value, row.unit, word, row.is_diameter, clockwise_from=row.clockwise_from)
 
     def _factor(self, row: Address, has_point: bool, unit: Length) -> Decimal:
-        factor = _HALF if row.is_diameter else _ONE
+        factor = _HALF if row.is_diameter else _ONE if row.clockwise_from is None else -_ONE
         if row.unit is Unit.MM:
             factor *= unit.in_mm
         if has_point or self.numbers.without_point is WithoutPoint.AS_WRITTEN or row.unit is Unit.SIGN:

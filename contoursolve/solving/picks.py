@@ -65,7 +65,9 @@ def pick(paths: Sequence[Alternative], profile: Profile) -> tuple[list[Alternati
     """
     left, events = _in_order(paths, profile), list[Refusal | Note]()
     for each in sorted(profile.picks, key=lambda each: each.element) if left else ():
-        groups = _groups(left, each.element, profile)
+        groups = _groups(left, each, profile)
+        if each.most and len(groups) > each.most:
+            continue
         givens = (each.given,) if each.given else ()
         values = {"actual": float(each.number), "limit": float(len(groups))}
         subject = profile.figure.path[each.element - 1].name
@@ -84,7 +86,7 @@ def numbers_of(item: Alternative, paths: Sequence[Alternative], profile: Profile
     """The picks that leave one contour of several: at each element at which they part, in the order of travel."""
     left, found = _in_order(paths, profile), list[Pick]()
     for element in range(1, len(profile.figure.path) + 1):
-        groups = _groups(left, element, profile)
+        groups = _groups(left, Pick(element, 1, ""), profile)
         number = next(number for number, group in enumerate(groups, 1) if item in group)
         if len(groups) > 1:
             found.append(Pick(element, number, ""))
@@ -92,12 +94,12 @@ def numbers_of(item: Alternative, paths: Sequence[Alternative], profile: Profile
     return found
 
 
-def _groups(paths: Sequence[Alternative], element: int, profile: Profile) -> list[list[Alternative]]:
+def _groups(paths: Sequence[Alternative], at: Pick, profile: Profile) -> list[list[Alternative]]:
     """Contours that run alike at an element, as far as it is determined when its block is chosen; in the order of the
     contours."""
     groups: list[tuple[list[Point], list[Alternative]]] = []
     for path in paths:
-        run = _run(path, element, profile)
+        run = _run(path, at, profile)
         same = next((group for group in groups if all(map(_is_same, group[0], run))), None)
         if same is None:
             groups.append((run, [path]))
@@ -110,13 +112,13 @@ def _is_same(one: Point, other: Point) -> bool:
     return dist(one, other) <= LENGTH
 
 
-def _run(path: Alternative, element: int, profile: Profile) -> list[Point]:
+def _run(path: Alternative, at: Pick, profile: Profile) -> list[Point]:
     """The points that tell how a contour runs at an element."""
-    points, own = path.solution.points, profile.figure.path[element - 1]
+    points, own = path.solution.points, profile.figure.path[at.element - 1]
     tail, head = points[own.tail], points[own.head]
     begin, _ = _directions(path, own)
     # An end that a later block determines is not there yet when this block is chosen.
-    ends = [] if own.name in resolved_later(profile) else [head]
+    ends = [] if not at.most and own.name in resolved_later(profile) else [head]
     way = (tail[0] + cos(begin), tail[1] + sin(begin))
     return [tail, way, *([points[own.center]] if isinstance(own, Arc) else []), *ends]
 

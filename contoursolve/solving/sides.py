@@ -86,8 +86,10 @@ def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple
         # The end that an arc is stated by, and not an intersection in which it ends instead.
         others.sort(key=lambda point: point in ends and point not in stated)
         is_chosen = arc.center in chosen
-        if is_chosen and not (arc.tail in on_it and others):
+        if is_chosen and others and arc.tail not in on_it:
             continue
+        # Where no fact but a contact, or another side, puts its ends on it, its path does.
+        others = others or [arc.head]
         chord, spoke = step(arc.tail, others[0] if is_chosen else arc.head), step(arc.tail, arc.center)
         twice = chord[FIRST] * spoke[SECOND] - chord[SECOND] * spoke[FIRST]
         if is_chosen:

@@ -83,11 +83,11 @@ class Tool(Struct, frozen=True):
 
 _RADIUS = late_pattern(r"R?\s*+(?P<number>[-+]?(?:\d++\.?\d*+|\.\d++))", re.IGNORECASE | re.ASCII)
 _MORE = late_pattern(r"(?P<name>tip|back|front)\s*+(?P<number>-?\d{1,9}(?:\.\d{0,9})?)", re.IGNORECASE | re.ASCII)
-_STATED = late_pattern(r"[(;]\s*+contoursolve\s++tool\s*+:(?P<stated>[^()\r\n]*+)", re.IGNORECASE)
+_STATED = late_pattern(r"[(;\[]\s*+contoursolve\s++tool\s*+:(?P<stated>[^()\[\]\r\n]*+)", re.IGNORECASE)
 """A comment that states the tool of what follows."""
 
 
-_ALIKE = late_pattern(r"[(;]\s*+contoursolve\s++(?P<word>[a-z]{1,20}+)\b\s*+(?P<colon>:?)", re.IGNORECASE)
+_ALIKE = late_pattern(r"[(;\[]\s*+contoursolve\s++(?P<word>[a-z]{1,20}+)\b\s*+(?P<colon>:?)", re.IGNORECASE)
 """A comment that may be meant to."""
 _MEANT = late_pattern(r"R?\s*+(\d{1,6}+)(?:[.,](\d{1,6}+))?(?:\D*+(\d))?\D*+", re.IGNORECASE | re.ASCII)
 """A radius and perhaps a tip, however they are written."""

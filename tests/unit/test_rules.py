@@ -15,6 +15,8 @@ WITHOUT_REJECTED_EXAMPLE = {
     "control-called": "it is about another file; test_subprograms.py writes one",
     "not-verified": "an answer that fails its own equations is an error of contoursolve; no block is known to cause it",
     "heidenhain-first-taken": "a setting asks for it; test_free_contours.py sets it",
+    "cnc-pilot-angle-redundant": "a setting forbids it; test_cnc_pilot.py sets it",
+    "cnc-pilot-selection": "Q is 0 or 1, and of two solutions either is there",
     "fanuc-angle-redundant": "a setting forbids it; test_fanuc.py sets it",
     "fanuc-corner-straight": "a setting refuses it; test_fanuc.py sets it",
     "haas-corner-straight": "the same",

@@ -167,6 +167,7 @@ NESTED = {
     "#": ("[]", "G0 X0. {axis}0.\n{block}\n{axis}50.", "#{}"),
     "siemens": ("()", "G17 G90 G0 X0 Y0\nG1 X={} RND=2\nY50", "R{}"),
     "isg": ("[]", "G17 G90 G0 X0 Y0\nG1 X{} #RND=2\nY50", "P{}"),
+    "cnc": ("{}", "G0 X0 Z0\nG1 X{} B-2\nG1 Z-50", "V{}"),
     "heidenhain": ("()", "Q99 = {}\nL X+0 Y+0 R0 F100\nFL X+Q99 AN+20", "Q{}"),
 }
 

@@ -260,7 +260,7 @@ def test_a_control_of_the_other_kind_says_so():
     table = contoursolve.write_for_all(shaft)
     assert [each.control for each in table] == [*contoursolve.DIALECTS]
     assert [each.control for each in table if each.candidates] == [
-        *("yasnac-lx3", "fanuc-lathe", "haas-lathe", "siemens-840d", "siemens-808d", "isg")
+        *("yasnac-lx3", "fanuc-lathe", "haas-lathe", "siemens-840d", "siemens-808d", "isg", "cnc-pilot")
     ]
     lathe = contoursolve.write(shaft, "mitsubishi", settings={"mitsubishi.diameter": "on"})
     assert lathe.candidates[0].lines == ("G01 Z-30 ,R5", "X100 A120")

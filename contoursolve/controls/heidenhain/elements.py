@@ -26,6 +26,7 @@ from contoursolve.geometry import (
     Distance,
     Extent,
     Fact,
+    Heading,
     Leaving,
     Level,
     Line,
@@ -78,6 +79,8 @@ class FkElement(Struct, frozen=True):
     """Whether it is on the circle of the arc before it, in the same sense, as the centres of both say."""
     has_radius_of_before: bool = False
     """Whether it touches the arc before it in the same sense with the same stated radius: it is on its circle, too."""
+    is_loose: bool = False
+    """Whether it may run against AN, too."""
     closes: int = 0
     """The number of the element at whose begin it ends: the one with CLSD+."""
 
@@ -188,7 +191,7 @@ def _placing(of: str, mark: str, axes: tuple[str, str]) -> Iterator[tuple[str, F
 
 def _direction(_: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
     if place.element.is_line:
-        yield Ray(given, place.tail, place.head)
+        yield (Heading if place.element.is_loose else Ray)(given, place.tail, place.head)
     else:
         yield from _spokes(given, place, place.tail, -place.turn.sign)
 

@@ -30,6 +30,7 @@ from contoursolve.controls.heidenhain.elements import (
 )
 from contoursolve.controls.heidenhain.lexicon import (
     BOOK,
+    CHAMFER,
     FREE,
     IN_KLARTEXT,
     LEXICON,
@@ -178,7 +179,7 @@ def compose(
                     first.head,
                     first.name,
                     second.name,
-                    {first.prefix + word: shape for word, shape in CORNERS.items()},
+                    {first.prefix + word: shape for word, shape in {**CORNERS, CHAMFER: words.chamfer}.items()},
                 )
                 for first, second in pairwise(places)
             ),

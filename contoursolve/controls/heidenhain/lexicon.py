@@ -11,7 +11,7 @@ from contoursolve.controls.control_settings import setting
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.diagnostics import Book, Source
 from contoursolve.gcode import NUMBER, Block, Syntax, Word, late_pattern, plain_spelling, words_as
-from contoursolve.geometry import Unit
+from contoursolve.geometry import CornerShape, Unit
 from contoursolve.reading import TURNED, Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
 
 BOOK = Book("HEIDENHAIN TNC user's manuals")
@@ -65,6 +65,7 @@ class PlaneWords(Struct, frozen=True, dict=True):
     """Words that lead out of the plane."""
     has_corners: bool = False
     """Whether the block of an element may have the corner behind it."""
+    chamfer: CornerShape = CornerShape.CHAMFER_SETBACK
 
     def each(self, *texts: str) -> tuple[str, ...]:
         """Texts with each axis for their braces, text by text."""

@@ -7,7 +7,7 @@ from itertools import pairwise
 from msgspec import Struct
 
 from contoursolve.diagnosis import Answer, Depth, Policy, examine
-from contoursolve.families import FamilyError, errors_of, limits_beside, unit_word, verdict_of
+from contoursolve.families import FamilyError, errors_of, limits_beside, verdict_of
 from contoursolve.gcode import Block
 from contoursolve.geometry import Choice
 from contoursolve.numeric import Affine
@@ -162,7 +162,7 @@ def borders_of(reader: Reader, answer: Answer, stated: Mapping[str, Affine]) -> 
         for index, slot in (macro.typed(block, {})[1] if macro else {}).items():
             word = block.words[index]
             if word.address in claim.lexicon.addresses:
-                one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit) or Decimal(1)
+                one = claim.lexicon.factor(word, answer.unit, has_point=True)
                 numbers = sorted({Decimal(0), *limits_beside(reader.dialect.rules, claim, word)})
                 found.append(CaseBoundary(Affine({slot.free.name: one}, Decimal(0)), tuple(numbers)))
     for name in claim.limits:

@@ -1,0 +1,75 @@
+"""CNC PILOT: which words may stand together, and what has no solution. No alarm number is known."""
+
+from decimal import Decimal
+from functools import partial
+
+from contoursolve.controls.cnc_pilot.contour import FROM_OPEN, LAST, NO_CODE, OVERSIZE, TOO_MUCH
+from contoursolve.controls.cnc_pilot.lexicon import BOOK
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
+from contoursolve.controls.heidenhain.elements import ARC, LINE
+from contoursolve.controls.heidenhain.lexicon import CHAMFER, ROUNDING
+from contoursolve.controls.rule_rows import rule_row
+from contoursolve.diagnostics import Severity
+from contoursolve.reading import Rule, Value, all_of, some
+from contoursolve.solving import NoteKind, RefusalKind
+
+_ANY, _CENTER, _LEAST = (LINE, ARC), ("ICCZ", "ICCX", "CCZ", "CCX"), Decimal("0.0001")
+_CUT = "FERTIGTEIL\nG0 X30 Z0\nG1 X50 B-2\nG1 Z-40\nG1 X65"
+_ARC = "G0 X40 Z-20\nG2 X60 Z-30 R10\nG1 X80"
+_CROSSING = "G0 X40 Z0\nG1 A5 B0 Q1\nG12 X58 Z-52 I38 K-40"
+_LEAVING = "G0 X0 Z0\nG3 X? Z? I0 K-25 B0 Q1\nG1 X40 Z-60 A8"
+_TANGENT = "G0 X0 Z0\nG3 X? Z? I0 K-15\nG1 X50 Z-70"
+_row, _ASSUMED = partial(rule_row, "cnc-pilot"), BOOK.assumed("not described")
+
+_ROWS = (
+    _row("code-missing", "the block has words of a contour and no G code", "write G1, or G2, G3, G12 or G13 for an arc",
+         BOOK.assumed("each printed block has its own"), some(NO_CODE), _ANY, _CUT, ("G1 Z-40", "Z-40 B1")),
+    _row("center-on-line", "{words}: a line has no centre and no radius", "delete it; a rounding is B",
+         BOOK.derived("p. 148"), some(*_CENTER, "R"), (LINE,), _CUT, ("Z-40", "Z-40 R5")),
+    _row("angle-on-arc", "{words}: an arc has no angle", "write G1, or delete it", BOOK.derived("p. 148"),
+         some("A"), (ARC,), _ARC, ("R10", "R10 A20")),
+    _row("center-and-radius", "{words}: the arc has both a centre and a radius", "keep one of them",
+         BOOK.printed("p. 180, for arcs on the lateral surface"), all_of(_CENTER, "R"), (ARC,), _ARC,
+         ("R10", "R10 I10 K0")),
+    _row("radius-range", "{words}: a radius is above 0, and 200000 at most", "write a radius in this range",
+         BOOK.printed("p. 190"), Value(("R",), _LEAST, Decimal(200_000)), (ARC,), _ARC, ("R10", "R-10")),
+    _row("center-from-open", "{words}: the centre counts from where the arc begins, and that is still open",
+         "write G12 or G13 with the centre in coordinates", _ASSUMED, some(*_CENTER[:2]) & some(FROM_OPEN), (ARC,),
+         _CROSSING, ("G12 X58 Z-52 I38 K-40", "G2 X58 Z-52 I10 K-10")),
+    _row("corner-without-next", "{words}: a corner needs an element behind it, and none follows",
+         "put the next element right behind it, or delete it", BOOK.printed("p. 147: B at the end of the element"),
+         some(ROUNDING, CHAMFER) & some(LAST), _ANY, _CUT, ("\nG1 Z-40\nG1 X65", "")),
+    _row("feed-range", "{words}: the share of the feed is above 0, and 1 at most",
+         "write E1 or less; on a MANUALplus 4110, E is the feed itself", BOOK.printed("p. 147"),
+         Value(("E",), _LEAST, Decimal(1)), _ANY, _CUT, ("B-2", "B-2 E1.5")),
+    _row("selection-value", "{words}: Q is 0 for the near intersection, and 1 for the far one", "write Q0 or Q1",
+         BOOK.printed("p. 147"), Value(("Q",), Decimal(0), Decimal(1)), _ANY, _CROSSING, ("Q1", "Q2")),
+    _row("arc-selection", "{words}: editions of the manual disagree whether Q0 of an arc is near or far",
+         "check it on the control; the setting arc-q tells it", BOOK.printed("p. 148 and the pocket guide"),
+         some("Q"), (ARC,), _CROSSING, _LEAVING, severity=Severity.WARNING),
+    _row("angle-redundant", "{words}: the angle is one word too many beside both coordinates",
+         "delete the angle, or a coordinate", _ASSUMED, all_of(("Z", "IZ"), ("X", "IX"), "AN") & some(TOO_MUCH),
+         (LINE,), _CUT),
+    _row("oversize", "G52 is an oversize: the path is the contour without it", "nothing has to be changed",
+         BOOK.printed("p. 163 and 165"), some(OVERSIZE), _ANY, _CUT, ("G1 Z-40", "G52 G1 Z-40"),
+         severity=Severity.WARNING),
+    Rule("cnc-pilot-selection", "{words}: {subject} has {limit_count} alone", "write {numbers}", _ASSUMED, (_CROSSING,),
+         (), about=RefusalKind.PICK_NONE),
+    Rule("cnc-pilot-selection-idle", "{words} has nothing to choose: there is one solution alone",
+         "nothing is wrong: it is taken", _ASSUMED, (_TANGENT,), (_TANGENT.replace("K-15", "K-15 Q1"),),
+         about=NoteKind.PICK_OPEN, severity=Severity.INFO),
+    Rule("cnc-pilot-selection-missing", "{subject} ends in one of {limit_count}, and Q is missing: it is read as Q0",
+         "write Q0 or Q1; editions of the manual disagree which of them is near: see the setting arc-q",
+         BOOK.printed("p. 148 and 190"), (_CROSSING,), (_LEAVING.replace(" Q1", ""),), about=NoteKind.PICK_FIRST,
+         severity=Severity.WARNING),
+    told("cnc-pilot-redundant", _CUT, ("X50 B-2\nG1 Z-40", "X50\nG1 Z-40 X55 A3.57633"), as_="words-redundant",
+         severity=Severity.INFO, help="nothing has to be changed: the words agree"),
+    told("cnc-pilot-arc-empty", _ARC, ("X60 Z-30 R10", "X40 Z-20 I10 K0"), source=BOOK.printed("p. 425")),
+    told("cnc-pilot-corner-too-large", _CUT, ("B-2", "B-12")),
+    _row("below-centre", "{words}: the contour goes below the turning centre",
+         "look for a lost sign; nothing to do if a tool is meant to pass the centre",
+         BOOK.printed("errors of a contour, a later control"), Value(("X",), Decimal(0)), _ANY, _CUT, ("X65", "X-4"),
+         severity=Severity.WARNING),
+)  # fmt: skip
+RULES = (*_ROWS, *COMMON_RULES, *GEOMETRY_RULES)

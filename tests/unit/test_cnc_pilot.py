@@ -1,0 +1,121 @@
+"""CNC PILOT: what must be said of wrong programs, its settings, and its sections. Its worked examples are vectors."""
+
+import pytest
+from click.testing import CliRunner
+from examples import some_of
+from vectors import program_of
+
+from contoursolve import ArcSegment, UnknownControlError, check, expand, solve
+from contoursolve.cli import main
+
+PROGRAM, LEAVING = program_of("cnc-pilot", "CP-P1"), program_of("cnc-pilot", "CP-G10")
+
+
+def text(example: str) -> str:
+    return example.replace(" / ", "\n")
+
+
+def path(result) -> list[float]:
+    """The numbers of a path: +2 for an arc clockwise and +3 for another one, with its radius and its centre; Z and X of
+    each end, X as a diameter."""
+    found: list[float] = []
+    for answer in result.answers:
+        for element in answer.contour.elements if answer.contour else ():
+            if isinstance(element, ArcSegment):
+                center, radius = element.center, element.radius
+                found += [{"cw": 2, "ccw": 3}[element.turn.value], radius, center[0], 2 * center[1]]
+            found += [element.end[0], 2 * element.end[1]]
+    return found
+
+
+WRONG = {
+    "E1": "one word is missing",
+    "E2": "parallel and 9.277 mm apart",
+    "E3": "5.000 mm too far",
+    "E4": "18.028 mm",
+    "E5": "at most 10.000 mm",
+    "E6": "it states 15.000 deg, they give 9.462 deg",
+    "E7": "G3 in program line 3 was probably G2",
+    "E8": "E1.5",
+    "E9": "no arc, or a full circle, would be cut",
+    "E10": "both a centre and a radius",
+    "E11": "one word is missing",
+}
+
+
+@some_of("name", list(WRONG), one_in=2)
+def test_what_the_sheet_wants_said_of_a_wrong_program_is_said(name):
+    found = check(program_of("cnc-pilot", f"CP-{name}"), control="cnc-pilot")
+    assert any(WRONG[name] in " ".join((each.message, *each.notes)) for each in found)
+    assert not any(each.alarm for each in found)
+
+
+def test_a_contour_below_the_turning_centre_is_told():
+    told = {each.code: each.severity.value for each in check("G0 X20 Z0\nG1 X-4", control="cnc-pilot")}
+    assert told == {"axis-crossed": "warning", "cnc-pilot-below-centre": "warning"}
+
+
+def test_a_forgotten_tangency_is_what_b0_says():
+    """Without B0 the elements touch, and nothing is missing."""
+    assert not check(program_of("cnc-pilot", "CP-E11").replace(" B0", ""), control="cnc-pilot")
+
+
+SETTINGS = {
+    "angle-zero=plus_z": ("G0 X40 Z-60 / G1 X60 A30 B2 / G1 Z0", "G0 X40 Z-60 / G1 X60 A150 B2 / G1 Z0"),
+    "i=diameter": (LEAVING.replace("I0", "I10"), LEAVING.replace("I0", "I5")),
+    "arc-q=zero_far": (LEAVING, LEAVING.replace("B0", "B0 Q1")),
+    "modal-g=on": ("G0 X30 Z0 / G1 X50 B-2 / Z-40", "G0 X30 Z0 / G1 X50 B-2 / G1 Z-40"),
+    "b-missing=always": ("G0 X40 Z0 / G1 Z-30 / G2 X70 Z-42 R12.3", "G0 X40 Z0 / G1 Z-30 / G2 X70 Z-42"),
+    "chamfer=face": ("G0 X30 Z0 / G1 X50 B-2.828427 / G1 Z-40", "G0 X30 Z0 / G1 X50 B-2 / G1 Z-40"),
+}
+
+
+@pytest.mark.parametrize("stated", SETTINGS)
+def test_a_setting_reads_a_program_as_the_default_reads_another_one(stated):
+    name, value = stated.split("=")
+    program, meant = map(text, SETTINGS[stated])
+    result = solve(program, control="cnc-pilot", settings={f"cnc-pilot.{name}": value})
+    assert not result.has_errors
+    assert path(result) == pytest.approx(path(solve(meant, control="cnc-pilot")), abs=1e-5)
+    assert [each.value for each in result.answers[0].premises.conventions if each.setting.name == name] == [value]
+    assert path(solve(program, control="cnc-pilot")) != pytest.approx(path(result), abs=1e-5) or name == "b-missing"
+
+
+def test_words_of_later_controls_and_small_letters_are_the_same_words():
+    program = program_of("cnc-pilot", "CP-G7")
+    later = program.replace("A10 B5", "an10 br5 be0.5").replace("B-2", "br-2")
+    assert path(solve(later, control="cnc-pilot")) == path(solve(program, control="cnc-pilot"))
+
+
+def test_data_of_sections_without_a_contour_are_no_contour():
+    told = solve(PROGRAM.replace("ROHTEIL", "REVOLVER 1\nT1 G1 X20 A5\nROHTEIL"))
+    assert len(told.answers) == len(solve(PROGRAM).answers)
+
+
+def test_the_place_before_a_section_counts_no_longer_in_it():
+    told = solve(
+        PROGRAM.replace("N2 G0 X0 Z0 [start]\n", "").replace("FERTIGTEIL", "HILFSKONTUR\nG0 X0 Z0\nFERTIGTEIL")
+    )
+    assert {each.code for each in told.diagnostics if each.is_error} >= {"position-unknown"}
+
+
+def test_a_contour_on_the_face_is_refused_by_its_code():
+    told = check(PROGRAM + "\nSTIRN Z0\nG100 XK30 YK-10\nG101 A90 B4")
+    assert [each.message for each in told if each.code == "not-read"] == [
+        f"contoursolve does not read G{number} yet" for number in (100, 101)
+    ]
+
+
+def test_what_is_written_out_is_the_same_path(tmp_path):
+    written = expand(PROGRAM)
+    assert (written.control, written.summary.replaced, written.summary.left) == ("cnc-pilot", 1, [])
+    for name, program in (("old", PROGRAM), ("new", written.text)):
+        (tmp_path / name).write_text(program)
+    done = CliRunner().invoke(main, ["diff", str(tmp_path / "old"), str(tmp_path / "new"), "--control", "cnc-pilot"])
+    assert (done.exit_code, "A" in written.text.partition("N5 G01")[2].splitlines()[0]) == (0, False), done.output
+
+
+def test_a_program_in_din_plus_shows_its_control_and_a_bare_contour_does_not():
+    assert solve(PROGRAM).control == "cnc-pilot"
+    with pytest.raises((UnknownControlError, AssertionError)):
+        assert solve(program_of("cnc-pilot", "CP-G7")).control == "cnc-pilot"
