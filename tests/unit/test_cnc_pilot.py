@@ -1,8 +1,12 @@
 """CNC PILOT: what must be said of wrong programs, its settings, and its sections. Its worked examples are vectors."""
 
+from math import degrees, radians
+from random import Random
+
 import pytest
 from click.testing import CliRunner
-from examples import some_of
+from examples import few_and_many, some_of
+from free_chains import Drawn, Step, draw
 from vectors import program_of
 
 from contoursolve import ArcSegment, UnknownControlError, check, expand, solve
@@ -119,3 +123,63 @@ def test_a_program_in_din_plus_shows_its_control_and_a_bare_contour_does_not():
     assert solve(PROGRAM).control == "cnc-pilot"
     with pytest.raises((UnknownControlError, AssertionError)):
         assert solve(program_of("cnc-pilot", "CP-G7")).control == "cnc-pilot"
+
+
+# Drawn first and described by words afterwards ------------------------------------------------------------------------
+
+
+def place(at: tuple[float, float]) -> str:
+    return f"X{2 * at[1]:.9f} Z{at[0]:.9f}"
+
+
+def center(each: Drawn, is_step: bool) -> str:
+    along, across = each.tail if is_step else (0.0, 0.0)
+    return f"I{each.center[1] - across:.9f} K{each.center[0] - along:.9f}"
+
+
+def arc(each: Drawn, number: int = 0) -> str:
+    return f"G{number + (2 if each.step.sense < 0 else 3)}"
+
+
+def slope(each: Drawn) -> str:
+    return f"A{180 - degrees(each.begin):.9f}"
+
+
+def line(random: Random) -> Step:
+    return Step(length=random.uniform(15, 60))
+
+
+def bow(random: Random) -> Step:
+    return Step(radius=random.uniform(5, 40), sweep=radians(random.uniform(20, 150)), sense=random.choice((-1, 1)))
+
+
+OPEN = "X? Z?"
+WORDINGS = {
+    "line, arc, line": lambda one, two, last: (
+        *(f"G1 {slope(one)}", f"{arc(two)} {OPEN} R{two.step.radius:.9f}", f"G1 {place(last.head)} {slope(last)}"),
+    ),
+    "arc, line": lambda one, two: (f"{arc(one)} {OPEN} {center(one, True)}", f"G1 {place(two.head)}"),
+    "line, arc": lambda one, two: (f"G1 {place(one.head)}", f"{arc(two)} {place(two.head)}"),
+    "arc, line, arc": lambda one, _, last: (
+        *(f"{arc(one, 10)} {OPEN} {center(one, False)}", f"G1 {OPEN}"),
+        f"{arc(last, 10)} {place(last.head)} {center(last, False)}",
+    ),
+    "arc, arc": lambda one, two: (
+        *(f"{arc(one)} {place(one.head)} R{one.step.radius:.9f}", f"{arc(two)} {place(two.head)}"),
+    ),
+}
+"""The words of elements that touch, as few as they need."""
+
+
+@few_and_many(4, 60)
+@pytest.mark.parametrize("kinds", WORDINGS)
+def test_elements_that_touch_are_found_again(kinds, count):
+    for seed in range(count):
+        random = Random(f"{kinds} {seed}")
+        steps = [line(random) if kind == "line" else bow(random) for kind in kinds.split(", ")]
+        drawn = draw((0.0, 500.0), radians(random.uniform(-180, 180)), steps)
+        program = "\n".join((f"G0 {place(drawn[0].tail)}", *WORDINGS[kinds](*drawn)))
+        (answer,) = solve(program, control="cnc-pilot", depth="verdict").answers
+        assert answer.contour is not None, program
+        found = [number for each in answer.contour.elements for number in each.end]
+        assert found == pytest.approx([number for each in drawn for number in each.head], abs=1e-5), program
