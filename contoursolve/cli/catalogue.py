@@ -1,12 +1,11 @@
 """The commands that tell what there is: rules, facts, explain."""
 
-from difflib import get_close_matches
-
 import click
 
 from contoursolve.cli.options import CouldNotRunError, control_option
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics import did_you_mean
 from contoursolve.reading import Dialect, Rule
 
 
@@ -74,8 +73,27 @@ def explain(code: str, control: str | Dialect | None) -> None:
             if wanted == rule.code or _plainly(wanted) in _alarms_of(rule):
                 found.setdefault(rule.code, (rule, []))[1].append(dialect.name)
     if not found:
-        near = get_close_matches(wanted, sorted({rule.code for each in _chosen(control) for rule in each.rules}))
-        hint = f"did you mean {' or '.join(near)}? " if near else ""
+        hint = did_you_mean(wanted, sorted({rule.code for each in _chosen(control) for rule in each.rules}))
         raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; {hint}'contoursolve rules' lists them")
     for rule, controls in found.values():
         say("\n".join((*rule_lines(rule, controls), "")))
+
+
+def _named_like(context: click.Context, _option: click.Parameter, incomplete: str) -> list[str]:
+    """The names of commands that begin so."""
+    above = context.find_root()
+    assert isinstance(above.command, click.Group)
+    return [each for each in above.command.list_commands(above) if each.startswith(incomplete)]
+
+
+@click.command("help", short_help="Show the help of a command.")
+@click.argument("command", required=False, shell_complete=_named_like)
+@click.pass_context
+def help_(context: click.Context, /, command: str | None) -> None:
+    """Show the help of COMMAND, as --help behind its name does; without COMMAND, the list of commands."""
+    above = context.find_root()
+    if command is not None:
+        assert isinstance(above.command, click.Group)
+        _, found, _ = above.command.resolve_command(above, [command])
+        above = click.Context(found or above.command, above, command)
+    click.echo(above.get_help())

@@ -10,6 +10,7 @@ from contoursolve import __version__
 from contoursolve.cli.fixing import fix_options, fixed, read_fixing
 from contoursolve.cli.options import (
     COULD_NOT_RUN,
+    FILE,
     CouldNotRunError,
     common_options,
     explain_option,
@@ -20,7 +21,7 @@ from contoursolve.cli.options import (
     status_of,
     tool_options,
 )
-from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
+from contoursolve.cli.printing import is_screen, print_lines, print_pieces, say, style_of_output
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import Severity, UserError
 from contoursolve.gcode import STANDARD_INPUT, Program, check_target, write_whole
@@ -44,7 +45,7 @@ _NOTHING = "nothing"
 
 
 @click.command(short_help="Report findings only, for any number of programs.")
-@click.argument("programs", nargs=-1, metavar="PROGRAM...")
+@click.argument("programs", nargs=-1, metavar="PROGRAM...", type=FILE)
 @common_options
 @named_options
 @tool_options
@@ -128,7 +129,7 @@ def check(
     telling.most, telling.is_explained = None if shows_all else MOST_ALIKE, is_explained
     # A bar among the lines of a terminal, or before a question, would be torn.
     is_torn = (format_ == "text" and sys.stdout.isatty()) or (fixing is not None and fixing.asks)
-    is_shown = not telling.is_alone and sys.stderr.isatty() and not is_torn
+    is_shown = not telling.is_alone and is_screen(sys.stderr) and not is_torn
 
     def examine(program: Program) -> Run | Collected:
         return follow(program, start, assignments, options)

@@ -5,6 +5,7 @@ import click
 from contoursolve import api
 from contoursolve.cli.expand import report_left, report_misread, report_told, target_of
 from contoursolve.cli.options import (
+    FILE,
     FOUND_ERRORS,
     control_option,
     naming,
@@ -24,7 +25,7 @@ _TARGETS = tuple(name for name, dialect in DIALECTS.items() if isinstance(dialec
 
 
 @click.command(short_help="Write a program's contours in another control's own words.")
-@click.argument("program", metavar="OLD")
+@click.argument("program", metavar="OLD", type=FILE)
 @control_option("For which control; convert writes nothing for yasnac-lx3, cnc-pilot and heidenhain.", "--to", _TARGETS)
 @control_option("The control of OLD. Without it, found from OLD where that is clear.")
 @units_option

@@ -7,6 +7,7 @@ import click
 
 from contoursolve.api import read_program
 from contoursolve.cli.options import (
+    FILE,
     FOUND_ERRORS,
     CouldNotRunError,
     check_toolless,
@@ -35,8 +36,8 @@ _ANY_CONTROL = (*DIALECTS, *PLAIN)
 
 
 @click.command(short_help="Tell whether two programs describe the same path.")
-@click.argument("old", metavar="OLD")
-@click.argument("new", metavar="NEW")
+@click.argument("old", metavar="OLD", type=FILE)
+@click.argument("new", metavar="NEW", type=FILE)
 @click.option(
     "--tolerance",
     type=click.FloatRange(min=0, min_open=True, max=1),

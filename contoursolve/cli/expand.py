@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from contoursolve.api import MOST_DECIMALS, follow_options
 from contoursolve.cli.options import (
+    FILE,
     FOUND_ERRORS,
     check_toolless,
     common_options,
@@ -25,7 +26,7 @@ from contoursolve.cli.options import (
     tool_options,
     units_option,
 )
-from contoursolve.cli.printing import print_bytes, say, style_of_output
+from contoursolve.cli.printing import is_screen, print_bytes, say, style_of_output
 from contoursolve.diagnosis import Policy, count
 from contoursolve.gcode import (
     OpenFile,
@@ -85,7 +86,7 @@ wording_options = together(
 
 
 @click.command(short_help="Write a program's contours as plain G-code.")
-@click.argument("program", metavar="OLD", required=False)
+@click.argument("program", metavar="OLD", required=False, type=FILE)
 @common_options
 @click.option("-o", "--output", metavar="NEW", help="Where to write; without it, or with -, to standard output.")
 @click.option("--in-place", "is_in_place", is_flag=True, help="Write to OLD itself, and keep it as OLD.bak.")
@@ -200,7 +201,7 @@ def expand(
 
 
 @click.command("filter", short_help="Expand a program as a filter of LinuxCNC.")
-@click.argument("program", metavar="FILE")
+@click.argument("program", metavar="FILE", type=FILE)
 @control_option("The control; found from the program without it.")
 @units_option
 @rules_option
@@ -320,7 +321,7 @@ def _progress_bar() -> Iterator[Callable[[float], None]]:
         bars: list[Any] = []
 
         def show(share: float) -> None:
-            if not bars and sys.stderr.isatty():
+            if not bars and is_screen(sys.stderr):
                 bars.append(stack.enter_context(click.progressbar(length=100, label="expanding", file=sys.stderr)))
             for bar in bars:
                 bar.update(int(share * 100) - bar.pos)

@@ -8,7 +8,7 @@ from itertools import pairwise
 import click
 
 from contoursolve import __version__
-from contoursolve.diagnostics import UserError
+from contoursolve.diagnostics import UserError, names_like
 
 COMMANDS = {
     "check": "check:check",
@@ -28,6 +28,7 @@ COMMANDS = {
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
     "facts": "catalogue:facts",
+    "help": "catalogue:help_",
 }
 """Place of each command: a module of this room, and the name there. `contoursolve` itself adds the commands beside
 it."""
@@ -75,14 +76,14 @@ class _Commands(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """The command that is named, and the arguments behind it; of another name, the commands that it is close to."""
         name, names = args[0], self.list_commands(ctx)
+        if ctx.resilient_parsing:  # as a shell asks for what may follow
+            return super().resolve_command(ctx, args)
         if name in names or name.startswith("-"):
             found = super().resolve_command(ctx, args)
             for option in found[1].params if found[1] is not None else ():
                 _check_once(option, args, ctx)
             return found
-        from difflib import get_close_matches  # noqa: PLC0415 - most names are those of commands
-
-        close = get_close_matches(name.lower(), names)
+        close = names_like(name, names)
         meant = f" Did you mean {' or '.join(map(repr, close))}?" if close else ""
         raise click.UsageError(f"No such command {name!r}.{meant}", ctx)
 
@@ -107,7 +108,7 @@ def _check_once(option: click.Parameter, args: list[str], ctx: click.Context) ->
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
-@click.version_option(__version__, prog_name="contoursolve")
+@click.version_option(__version__, "-V", "--version", prog_name="contoursolve")
 def main() -> None:
     """Solve CNC contour blocks, or say why they cannot be solved.
 

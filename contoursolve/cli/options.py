@@ -118,6 +118,9 @@ class CouldNotRunError(click.ClickException):
         return harmless(super().format_message())
 
 
+FILE = click.Path(readable=False)
+"""The type of arguments that name files, which shells complete; what a file lacks is said when it is read."""
+
 units_option = click.option(
     "--units",
     type=click.Choice([unit.value for unit in Length]),

@@ -9,6 +9,7 @@ import click
 
 from contoursolve import __version__
 from contoursolve.cli.options import (
+    FILE,
     FOUND_ERRORS,
     CouldNotRunError,
     common_options,
@@ -19,7 +20,7 @@ from contoursolve.cli.options import (
     print_findings,
     tool_options,
 )
-from contoursolve.cli.printing import say
+from contoursolve.cli.printing import is_screen, say
 from contoursolve.diagnosis import Answer, count, status_text
 from contoursolve.diagnostics import importing
 from contoursolve.gcode import check_target, write_whole
@@ -73,7 +74,7 @@ Written = tuple[Path, bytes, str]
 
 
 @click.command(short_help="Draw the contours (SVG, PNG), or write them for CAD (DXF).")
-@click.argument("program", required=False)
+@click.argument("program", required=False, type=FILE)
 @click.option(
     "-o",
     "--output",
@@ -209,7 +210,7 @@ def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -
 
 
 @click.command(short_help="Make a page about a program, to read, send and print.")
-@click.argument("program", required=False)
+@click.argument("program", required=False, type=FILE)
 @click.option(
     "-o",
     "--output",
@@ -261,7 +262,7 @@ def report(
         say(f"{summary_line(result)}\n{target}: not written")
         context.exit(FOUND_ERRORS)
     with click.progressbar(
-        length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
+        length=len(result.answers), label="drawing", file=sys.stderr, hidden=not is_screen(sys.stderr)
     ) as bar:
         pieces = report_page(result, __version__, lambda: bar.update(1), is_explained=is_explained, tool=tool)
         write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)

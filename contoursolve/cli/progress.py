@@ -11,7 +11,7 @@ from types import FrameType
 
 import click
 
-from contoursolve.cli.printing import say
+from contoursolve.cli.printing import is_screen, say
 from contoursolve.families import THREADS
 
 BETWEEN = 30.0
@@ -31,7 +31,7 @@ def progress(total: int, *, is_quiet: bool) -> Iterator[Callable[[int], None]]:
         length=total,
         label="solving",
         file=sys.stderr,
-        hidden=is_quiet or not sys.stderr.isatty(),
+        hidden=is_quiet or not is_screen(sys.stderr),
         show_pos=True,
         show_eta=True,
         item_show_func=lambda rate: rate,
@@ -42,7 +42,7 @@ def progress(total: int, *, is_quiet: bool) -> Iterator[Callable[[int], None]]:
             done, now = done + rows, time.monotonic()
             rate = done / max(now - begin, 1e-9)
             bar.update(rows, f"{rate:,.0f} a second")
-            if not (is_quiet or sys.stderr.isatty()) and now - told >= BETWEEN and done < total:
+            if not (is_quiet or is_screen(sys.stderr)) and now - told >= BETWEEN and done < total:
                 left = duration((total - done) / rate)
                 say(f"{done:,} of {total:,} contours, {rate:,.0f} a second, {left} left", err=True)
                 told = now

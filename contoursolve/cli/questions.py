@@ -19,7 +19,7 @@ from contoursolve.cli.block_options import (
     read_within,
     usage,
 )
-from contoursolve.cli.options import FOUND_ERRORS, check_toolless, load, settings_of, side_options
+from contoursolve.cli.options import FILE, FOUND_ERRORS, check_toolless, load, settings_of, side_options
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import feasible, find_word, region, tolerance_for, tolerances
 from contoursolve.output import (
@@ -121,7 +121,7 @@ def range_(
 
 
 @click.command("find", short_help="Find the value of a word that brings a point where it is wanted.")
-@click.argument("program", required=False)
+@click.argument("program", required=False, type=FILE)
 @program_options
 @format_option
 @click.option(

@@ -5,6 +5,7 @@ from typing import Any
 import click
 
 from contoursolve.cli.options import (
+    FILE,
     common_options,
     explain_option,
     follow,
@@ -19,7 +20,7 @@ from contoursolve.output import Collected, Totals, closing_lines, stream_listing
 
 
 @click.command(short_help="Solve every contour block of a program.")
-@click.argument("program", required=False)
+@click.argument("program", required=False, type=FILE)
 @common_options
 @named_options
 @tool_options

@@ -6,6 +6,7 @@ import click
 
 from contoursolve.cli.options import (
     COULD_NOT_RUN,
+    FILE,
     FOUND_ERRORS,
     apart_options,
     control_option,
@@ -15,7 +16,7 @@ from contoursolve.cli.printing import print_lines
 
 
 @click.command(short_help="Check a claimed answer, independently.")
-@click.argument("inputs", nargs=-1, metavar="PROGRAM RESULT.json")
+@click.argument("inputs", nargs=-1, metavar="PROGRAM RESULT.json", type=FILE)
 @apart_options
 @control_option("The control. Without it, the one that the result names.")
 @units_option

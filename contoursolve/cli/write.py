@@ -8,7 +8,14 @@ import click
 
 from contoursolve.cli.drawing import drawing_options, read_drawn
 from contoursolve.cli.expand import target_of
-from contoursolve.cli.options import COULD_NOT_RUN, FOUND_ERRORS, CouldNotRunError, control_option, settings_option
+from contoursolve.cli.options import (
+    COULD_NOT_RUN,
+    FILE,
+    FOUND_ERRORS,
+    CouldNotRunError,
+    control_option,
+    settings_option,
+)
 from contoursolve.cli.printing import print_lines, say, style_of_output
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import json_text, members
@@ -29,7 +36,7 @@ SCHEMA = "contoursolve/write/1"
 
 
 @click.command(short_help="Write a sketch as a program for a control.")
-@click.argument("sketch", metavar="SKETCH")
+@click.argument("sketch", metavar="SKETCH", type=FILE)
 @control_option("For which control. Without it, a table has the shortest words for each control.", "--to")
 @settings_option
 @click.option("--all", "shows_all", is_flag=True, help="List all candidates, each with what its numbers rest on.")

@@ -1,5 +1,7 @@
 from .choices import (
     choice_of as choice_of,
+    did_you_mean as did_you_mean,
+    names_like as names_like,
 )
 from .display import (
     Renderer as Renderer,

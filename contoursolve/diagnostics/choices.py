@@ -1,5 +1,7 @@
-"""Choices that are named by a text: the member of an enum with that value, or an error that lists them all."""
+"""Choices that are named by a text: the member of an enum with that value, or an error that lists them all; and names
+that a misspelt one is close to."""
 
+from collections.abc import Iterable
 from enum import Enum
 from typing import TypeVar
 
@@ -12,3 +14,25 @@ def choice_of(kind: type[Choice], value: str, argument: str) -> Choice:
         if member.value == value:
             return member
     raise ValueError(f"{argument} cannot be {value!r}; choose from {', '.join(str(each.value) for each in kind)}")
+
+
+def names_like(word: str, names: Iterable[str]) -> list[str]:
+    """The names that a word was probably meant to be, the closest first; capitals do not matter.
+
+    >>> names_like("Chek", ["check", "solve"])
+    ['check']
+    """
+    from difflib import get_close_matches  # noqa: PLC0415 - most words are right
+
+    known = {name.lower(): name for name in names}
+    return [known[each] for each in get_close_matches(word.lower(), known)]
+
+
+def did_you_mean(word: str, names: Iterable[str]) -> str:
+    """The question whether one of these names was meant, with a blank behind it; empty if none is close.
+
+    >>> did_you_mean("lenght", ["length", "end"])
+    'did you mean length? '
+    """
+    near = names_like(word, names)
+    return f"did you mean {' or '.join(near)}? " if near else ""

@@ -1,12 +1,12 @@
 """One result of a family as an array: by the name of its column, the end of the path, or its length."""
 
 from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
 from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
+from contoursolve.diagnostics import did_you_mean
 from contoursolve.families.block_template import Template
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.goals import end_name
@@ -36,8 +36,7 @@ def find_result(name: str, known: Iterable[str]) -> str:
         raise FamilyError(f"a result has a name, such as {', '.join(list(by_key.values())[:3])}")
     if _key(name) in by_key:
         return by_key[_key(name)]
-    near = [by_key[key] for key in get_close_matches(_key(name), by_key, 3)]
-    hint = f"did you mean {' or '.join(near)}? " if near else ""
+    hint = did_you_mean(_key(name), by_key.values())
     raise FamilyError(f"there is no result {name}; {hint}the results are {', '.join(by_key.values())}")
 
 

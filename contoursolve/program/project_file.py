@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnostics import UserError
+from contoursolve.diagnostics import UserError, did_you_mean
 from contoursolve.gcode import late_pattern, split_lines
 from contoursolve.reading import Dialect
 
@@ -69,7 +69,7 @@ def find_tool_table(folder: Path, read: Callable[[str, Mapping[str, Any]], Any] 
         try:
             rows[name] = read(name, row)
         except ValueError as error:
-            raise SettingError(f"{found and found[1]}: {TOOLS}.{name}: {error}") from None
+            raise SettingError(f"{found and _place(found[1], TOOLS, name)}: {TOOLS}.{name}: {error}") from None
     return rows
 
 
@@ -127,7 +127,7 @@ def restate_control(text: str, control: str, settings: Mapping[str, str]) -> str
 
 def _read_stated(control: str, others: Iterable[str]) -> dict[str, str]:
     if control not in DIALECTS:
-        raise SettingError(f"there is no control {control!r}; choose from {', '.join(DIALECTS)}")
+        raise SettingError(_no_control(control))
     settings = {CONTROL: control}
     for other in others:
         name, colon, value = (part.strip() for part in other.partition(":"))
@@ -136,6 +136,10 @@ def _read_stated(control: str, others: Iterable[str]) -> dict[str, str]:
         settings[f"{control}.{name}"] = value
     check_settings(settings)
     return settings
+
+
+def _no_control(name: object) -> str:
+    return f"there is no control {name!r}; {did_you_mean(str(name), DIALECTS)}choose from {', '.join(DIALECTS)}"
 
 
 def read_setting(text: str) -> tuple[str, str]:
@@ -170,7 +174,8 @@ def _configured(settings: Mapping[str, str], own: Dialect | None) -> dict[str, D
             continue
         control, _, name = full.partition(".")
         if control not in names or not name:
-            raise SettingError(f"there is no setting {full!r}; write CONTROL.NAME, such as {_example()}")
+            meant = did_you_mean(control, names)
+            raise SettingError(f"there is no setting {full!r}; {meant}write CONTROL.NAME, such as {_example()}")
         values.setdefault(control, {})[name] = value
     try:
         return {
@@ -245,19 +250,46 @@ def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
             settings[CONTROL] = own
             continue
         if control == CONTROL:
-            raise SettingError(f"{file}: there is no control {own!r}; choose from {', '.join(DIALECTS)}")
+            raise SettingError(f"{_place(file, CONTROL)}: {_no_control(own)}")
         if control == BASELINE and isinstance(own, str) and own.strip():
             continue
         if control == BASELINE:
-            raise SettingError(f'{file}: {own!r} is no file of a baseline; write baseline = "FILE.json"')
+            raise SettingError(
+                f'{_place(file, BASELINE)}: {own!r} is no file of a baseline; write baseline = "FILE.json"'
+            )
         if not isinstance(own, dict):
-            raise SettingError(f"{file}: {control!r} stands in no table; write [CONTROL] above it, such as [nct-99m]")
+            meant = did_you_mean(control, (CONTROL, BASELINE)) or "write [CONTROL] above it, such as [nct-99m]"
+            raise SettingError(f"{_place(file, control)}: {control!r} stands in no table; {meant.strip()}")
+        if control not in DIALECTS:
+            meant = did_you_mean(control, (TOOLS, *DIALECTS)) or f"tables are: {TOOLS}, {', '.join(DIALECTS)}"
+            raise SettingError(f"{_place(file, control)}: there is no table [{control}]; {meant.strip()}")
         for name, value in own.items():
             if isinstance(value, (dict, list)):
-                raise SettingError(f"{file}: {control}.{name} is a table or a list; write {name} = VALUE")
+                told = _place(file, control, name)
+                raise SettingError(f"{told}: {control}.{name} is a table or a list; write {name} = VALUE")
             settings[f"{control}.{name}"] = str(value)
-    try:
-        check_settings(settings)
-    except SettingError as error:
-        raise SettingError(f"{file}: {error}") from None
+            try:
+                check_settings({f"{control}.{name}": str(value)})
+            except SettingError as error:
+                raise SettingError(f"{_place(file, control, name)}: {error}") from None
     return settings
+
+
+def _place(file: Path, *keys: str) -> str:
+    """A file of settings, and the line in it that has a key, or what is nearest above it: its table."""
+    table: tuple[str, ...] = ()
+    wanted = ("tool", "contoursolve", *keys) if file.name == SHARED else keys
+    known: dict[tuple[str, ...], int] = {(): 0}
+    for number, line in enumerate(_text(file).splitlines(), 1):
+        found = _KEY.match(line)
+        if found is not None:
+            names = tuple("".join(each) for each in _NAME.findall(found["table"] or found["key"]))
+            table, names = (names, names) if found["table"] else (table, (*table, *names))
+            known.setdefault(names, number)
+    line_number = next((known[wanted[:most]] for most in range(len(wanted), -1, -1) if wanted[:most] in known), 0)
+    return f"{file}, line {line_number}" if line_number else str(file)
+
+
+_KEY = re.compile(r"\s*(?:\[\[?(?P<table>[^\]#]+)\]|(?P<key>[^=#\[]+)=)")
+_NAME = re.compile(r"\"([^\"]*)\"|'([^']*)'|([\w-]+)")
+"""The line of a table or of a key, and one of the names in it, between which are dots."""

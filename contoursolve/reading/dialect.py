@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from msgspec import Struct
 
+from contoursolve.diagnostics import did_you_mean
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Length, Plane
 from contoursolve.reading.contour_form import Assumption, ContourForm, Setting
@@ -120,9 +121,11 @@ class Dialect:
         for name, value in values.items():
             if name not in known:
                 names = ", ".join(known) or "none"
-                raise ValueError(f"{self.name} has no setting {name!r}; settings are: {names}")
+                meant = did_you_mean(name, known)
+                raise ValueError(f"{self.name} has no setting {name!r}; {meant}settings are: {names}")
             choices = known[name].choices(value)
             if choices:
+                choices = did_you_mean(value, known[name].values) + choices
                 raise ValueError(f"{self.name}.{name} cannot be {value!r}; {choices}")
         changed = replace(self, modes=replace(self.modes, settings={**self.modes.settings, **values}))
         for name, value in values.items():

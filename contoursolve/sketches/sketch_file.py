@@ -5,7 +5,6 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
-from difflib import get_close_matches
 from enum import Enum
 from typing import Any
 
@@ -13,6 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS, words_of_drawing
+from contoursolve.diagnostics import names_like
 from contoursolve.sketches.sketch import ASKED, VERSION, ContourSketch, SketchCorner, SketchElement, SketchError
 from contoursolve.tolerance import LARGEST
 
@@ -247,8 +247,7 @@ def _shown(value: object) -> str:
 
 def _meant(name: str, fields: Mapping[str, _Field]) -> str:
     """The fields that an unknown name was probably meant to be."""
-    near = get_close_matches(name.upper(), [each.upper() for each in fields], 2, 0.6)
-    meant = [each for each in fields if each.upper() in near]
+    meant = names_like(name, fields)
     return f"; {' or '.join(meant)} was probably meant" if meant else f"; there are {', '.join(fields)}"
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import rank
+from contoursolve.diagnostics import did_you_mean
 from contoursolve.program import Result, find_tool_table
 from contoursolve.reading import ReadIssue
 from contoursolve.tool_radius.findings import ToolReport
@@ -49,11 +50,15 @@ def wanted_tool(
 
 def _tool_of(name: str, row: Mapping[str, Any]) -> Tool:
     """A tool of the table in the project file, in mm. Raises ToolError."""
+    parts = ("radius", "tip", "back", "front")
+    for each in row.keys() - {*parts}:
+        told = did_you_mean(each, parts) or f"it has {', '.join(parts)}"
+        raise ToolError(f"a tool has no {each!r}; {told.strip()}")
     radius, tip = row.get("radius"), row.get("tip")
     flanks = {each: row[each] for each in ("back", "front") if each in row}
     numbers = (radius, 0 if tip is None else tip, *flanks.values())
     are_numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in numbers)
     is_named = name[:1].upper() in ("T", "D") and name[1:].isdecimal()
-    if row.keys() - {"radius", "tip", "back", "front"} or not are_numbers or not is_named or isinstance(tip, float):
+    if not are_numbers or not is_named or isinstance(tip, float):
         raise ToolError("it is no tool; write T0101 = {radius = 0.8, tip = 3} or D1 = {radius = 5.0}")
     return make_tool(Decimal(str(radius)), tip, is_metric=True, **flanks)

@@ -248,7 +248,33 @@ def test_color_goes_only_to_who_wants_it(monkeypatch):
     assert "\x1b[" in CliRunner().invoke(main, bad, color=True).output
     assert "\x1b[" not in CliRunner().invoke(main, bad).output
     assert "\x1b[" not in CliRunner(env={"NO_COLOR": "1"}).invoke(main, bad, color=True).output
+    assert "\x1b[" not in CliRunner(env={"TERM": "dumb"}).invoke(main, bad, color=True).output
     assert b"\x1b[" not in run_process(*bad)[1]
+
+
+def test_help_is_a_command_too_and_knows_what_was_meant():
+    assert run("help", "check") == run("check", "--help")
+    assert run("help") == run("--help")
+    assert run("-V") == run("--version")
+    status, _, errors = run("help", "chek")
+    assert (status, "Did you mean 'check'?" in errors) == (2, True)
+
+
+def completed(*words):
+    """What a shell is told that may stand for the last word, as click's protocol for bash says it."""
+    asked = {"COMP_WORDS": " ".join(("contoursolve", *words)), "COMP_CWORD": str(len(words))}
+    done = CliRunner(env={"_CONTOURSOLVE_COMPLETE": "bash_complete", **asked}).invoke(main, prog_name="contoursolve")
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return done.output.split()
+
+
+def test_a_shell_completes_commands_controls_and_files_whatever_stands_before():
+    assert completed("ch") == ["plain,check"]
+    assert completed("help", "che") == ["plain,check"]
+    assert completed("check", "--control", "nct") == ["plain,nct-99m"]
+    assert completed("check", "sha") == completed("solve", "sha") == ["file,sha"]
+    assert completed("chek", "--con") == []
+    assert completed("check", "--control", "x", "--control", "y", "--stri") == ["plain,--strict"]
 
 
 # --- JSON ------------------------------------------------------------------------------------------

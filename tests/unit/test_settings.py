@@ -63,16 +63,29 @@ def test_a_project_file_above_the_program_holds_for_it(tmp_path: Path, name: str
     ("text", "message"),
     [
         ("[nct-99m", "contoursolve.toml cannot be read"),
-        ('[nct-99m]\nbevel = "axis-45"', "nct-99m has no setting 'bevel'; settings are: circle-circle-q"),
+        ('[nct-99m]\nbevel = "axis-45"', "line 2: nct-99m has no setting 'bevel'; settings are: circle-circle-q"),
         ('[nct-99m]\ncircle-circle-q = "left"', "cannot be 'left'; values are: left-is-negative, right-is-negative"),
         ('circle-circle-q = "left-is-negative"', "'circle-circle-q' stands in no table"),
-        ('[sinumerik]\na = "b"', "there is no setting 'sinumerik.a'"),
+        ('[sinumerik]\na = "b"', "line 1: there is no table [sinumerik]; tables are: tools, yasnac-lx3"),
+        ('contrl = "nct-99m"', "line 1: 'contrl' stands in no table; did you mean control?"),
+        ('\ncontrol = "nct99m"', "line 2: there is no control 'nct99m'; did you mean nct-99m?"),
+        (
+            '[nct-99m]\n# C\n"radius_differnce" = 1',
+            "line 3: nct-99m has no setting 'radius_differnce'; did you mean rad",
+        ),
+        (
+            'nct-99m.circle-circle-q = "left-is-negativ"',
+            "line 1: nct-99m.circle-circle-q cannot be 'left-is-negativ'; did",
+        ),
+        ('nct-99m = {suspicion = "off"}', "line 1: nct-99m has no setting 'suspicion'; did you mean suspicions?"),
+        ("[tols]\nT1 = {radius = 0.8}", "line 1: there is no table [tols]; did you mean tools?"),
+        ("[tools]\n\nT1 = {radus = 0.8}", "line 3: tools.T1: a tool has no 'radus'; did you mean radius?"),
     ],
 )
 def test_a_project_file_that_makes_no_sense_is_an_error_that_names_it(tmp_path: Path, text: str, message: str) -> None:
     (tmp_path / "contoursolve.toml").write_text(text)
     (tmp_path / "circles.nc").write_text(CIRCLES)
-    outcome = CliRunner().invoke(main, ["solve", str(tmp_path / "circles.nc")])
+    outcome = CliRunner().invoke(main, ["solve", str(tmp_path / "circles.nc"), "--tool", "program"])
     assert outcome.exit_code == 2
     assert "contoursolve.toml" in outcome.output
     assert message in outcome.output
