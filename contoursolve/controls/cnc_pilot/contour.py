@@ -8,17 +8,7 @@ from itertools import count, pairwise
 
 from msgspec import Struct, structs
 
-from contoursolve.controls.cnc_pilot.lexicon import (
-    ARC_Q,
-    BOOK,
-    MISSING,
-    MODAL,
-    REDUNDANT,
-    SENSE,
-    SETTINGS,
-    TURNS,
-    WIDTH,
-)
+from contoursolve.controls.cnc_pilot.lexicon import ARC_Q, BOOK, EXTRA, MISSING, MODAL, SENSE, SETTINGS, TURNS, WIDTH
 from contoursolve.controls.heidenhain.elements import ARC, LINE, TANGENCY, FkElement
 from contoursolve.controls.heidenhain.form import compose
 from contoursolve.controls.heidenhain.lexicon import CHAMFER, ROUNDING, PlaneWords
@@ -186,7 +176,7 @@ def _claim(
         holds = {
             NO_CODE: not member.code(member.here.motion) and modes.has(MODAL, "off"),
             FROM_OPEN: member.here.motion in (2, 3) and not member.is_placed,
-            TOO_MUCH: member.is_placed and modes.has(REDUNDANT, "error"),
+            TOO_MUCH: member.is_placed and modes.has(EXTRA, "error"),
             OVERSIZE: member.code(52),
             LAST: is_last and number == len(members) - 1,
             TANGENCY: number in touching,

@@ -7,23 +7,12 @@ from decimal import Decimal
 from typing import Any
 
 from contoursolve.controls.control_settings import angle_sense_setting, redundant_angle_setting, setting
-from contoursolve.controls.further import rows as rows_beside
+from contoursolve.controls.further import letters
 from contoursolve.controls.plain import BASIC_CODES, LATHE, MOTIONS
 from contoursolve.diagnostics import Book
 from contoursolve.gcode import Block, Syntax, Word, plain_spelling
 from contoursolve.geometry import Turn, Unit
-from contoursolve.reading import (
-    COMMENTED,
-    Address,
-    Bearing,
-    Code,
-    Dialect,
-    Effect,
-    Lexicon,
-    Modes,
-    NumberFormat,
-    WithoutPoint,
-)
+from contoursolve.reading import COMMENTED, Address, Code, Dialect, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
 BOOK = Book("HEIDENHAIN CNC PILOT 4290 manuals, DIN PLUS")
 _PRINTED = BOOK.printed("p. 147 to 191: geometry commands")
@@ -93,12 +82,10 @@ _WORDS = (
     Address("E", "share of the feed in the corner", Unit.SIGN, _PRINTED),
     Address("Q", "0 the near intersection, 1 the far one", Unit.SIGN, _PRINTED),
 )  # fmt: skip
-_BESIDE = (("N O F S T M D H", "number, section, feed, speed, tool or function", Bearing.NONE),
-           ("C Y", "further axis", Bearing.AXIS))  # fmt: skip
 _LEXICON = Lexicon(
     {row.address: row for row in _WORDS},
     NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.derived("the printed programs")),
-    rows_beside(BOOK.assumed("addresses"), _BESIDE),
+    letters(BOOK.assumed("addresses")),
     BOOK.assumed("a word that is not known stops the control"),
 )
 
@@ -149,7 +136,7 @@ _I = setting(
     BOOK.printed("p. 148"), {"diameter": _with("I", is_diameter=True)},
 )  # fmt: skip
 SENSE = angle_sense_setting(BOOK.assumed("A is the angle of a line"))
-REDUNDANT = redundant_angle_setting(BOOK.assumed("not described"), "check")
+EXTRA = redundant_angle_setting(BOOK.assumed("not described"), "check")
 MODAL = setting("modal-g", "whether G1 to G3, G12 and G13 stay in force", {"off": "no", "on": "yes"},
                 BOOK.assumed("each printed block has its own"))  # fmt: skip
 MISSING = setting("b-missing", "where an element without B touches the next one",
@@ -161,4 +148,4 @@ WIDTH = setting("chamfer", "what the size of a chamfer is",
 ARC_Q = setting("arc-q", "which intersection at the end of an arc Q0 is",
                 {"zero_near": "the near one", "zero_far": "the far one, as in the pocket guide"},
                 BOOK.printed("p. 148 and 190; the pocket guide contradicts"))  # fmt: skip
-SETTINGS = (_ZERO, _I, SENSE, REDUNDANT, MODAL, MISSING, WIDTH, ARC_Q)
+SETTINGS = (_ZERO, _I, SENSE, EXTRA, MODAL, MISSING, WIDTH, ARC_Q)
