@@ -35,7 +35,7 @@ class _Known:
         self._feet: dict[tuple[str, str], dict[str, None]] = {}
         self._on_line: dict[str, dict[str, None]] = {}
         self._radius_of: dict[tuple[str, str], str] = {}
-        self.on_circle: dict[str, dict[str, None]] = {}
+        self.on_circle: dict[tuple[str, str], dict[str, None]] = {}
         self.ways = {fact.span for fact in true if fact.span}
         for line, (given, tail) in headed.items():
             rays = (fact.heading for fact in true if fact.heading and fact.given == given)
@@ -51,10 +51,10 @@ class _Known:
                 self._radius_of[fact.circle.center, fact.circle.point] = fact.circle.radius
             spoke = fact.circle or fact.radial
             if spoke is not None:
-                self.on_circle.setdefault(spoke.center, {})[spoke.point] = None
+                self.on_circle.setdefault((spoke.center, spoke.radius), {})[spoke.point] = None
         for each in (fact.beside for fact in true if fact.beside):
             for point in self.touched(each.line, each.center):
-                self.on_circle.setdefault(each.center, {})[point] = None
+                self.on_circle.setdefault((each.center, each.radius), {})[point] = None
 
     @property
     def lines(self) -> Iterable[str]:
@@ -126,7 +126,7 @@ def consequences(
 def _on_circles(true: Sequence[Fact], known: _Known, at: Lookup) -> Iterator[Any]:
     """The equations that every two points of a circle give: of a large one how their chord runs, and of one far away
     how long it is, which the distances from its centre do not."""
-    for center, points in known.on_circle.items():
+    for (center, _), points in known.on_circle.items():
         for one, other in combinations(points, 2):
             if known.has(center, one, other):
                 # The centre lies on the perpendicular bisector.

@@ -102,6 +102,14 @@ def test_a_reference_to_a_block_that_it_cannot_mean_is_told(name, word):
     assert own.message.startswith(word)
 
 
+def test_two_points_about_one_pole_may_be_at_two_distances():
+    blocks = "FC DR- R20 CCX+20 CCY+30", "FLT", "FCT DR- R12 ICCPR+40 RCCPR 3 CCPA+26.31 CCA+0"
+    answer = solved(chain("FPOL X+0 Y+0", *blocks, before="L X+0 Y+30"))
+    end, center = ends(answer)["arc 3"], answer.contour.elements[-1].center
+    assert dist(center, (0, 0)) - dist(end, (0, 0)) == pytest.approx(40)
+    assert end == pytest.approx((18.9340, 49.9716), abs=1e-4)  # the outer tangent of both circles
+
+
 def test_a_reference_beside_both_coordinates_is_told():
     found = solved(chain(ARC, "FL LEN30 X+60 Y+45 RX 2", before="L X+10 Y+20")).diagnostics
     assert [each.message[:4] for each in found if each.code == "heidenhain-reference-alone"] == ["RX 2"]

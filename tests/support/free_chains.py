@@ -69,7 +69,7 @@ def draw(start: Point, direction: float, steps: list[Step]) -> list[Drawn]:
     return found
 
 
-def _data(chain: list[Drawn], random: Random) -> Iterator[tuple[int, str, Datum]]:
+def _data(chain: list[Drawn], pole: Point, random: Random) -> Iterator[tuple[int, str, Datum]]:
     """What may be stated: the number of the element, the words with `{}` for their value, and what they measure."""
     for number, each in enumerate(chain):
 
@@ -80,6 +80,10 @@ def _data(chain: list[Drawn], random: Random) -> Iterator[tuple[int, str, Datum]
         yield number, "Y{}", of(lambda at: at.head[1])
         if random.random() < 0.3:
             yield number, "IX{}", of(lambda at: at.head[0] - at.tail[0])
+        if random.random() < 0.2:
+            yield from _polar(number, "", lambda at: at.head, pole, random)
+        if each.step.sense and random.random() < 0.2:
+            yield from _polar(number, "CC", lambda at: at.center, pole, random)
         if each.step.sense:
             yield number, "R{}", of(lambda at: dist(at.tail, at.center))
             yield number, "CCX{}", of(lambda at: at.center[0])
@@ -94,6 +98,18 @@ def _data(chain: list[Drawn], random: Random) -> Iterator[tuple[int, str, Datum]
                 place = _beside(each, random.uniform(0.2, 0.8), random.choice((-1, 1)) * aside)
                 text = words.format(*place) + (f"{aside:.9f}" if aside else "")
                 yield number, text, of(lambda at, place=place: _left(at, place))
+
+
+def _polar(
+    number: int, of: str, place: Callable[[Drawn], Point], pole: Point, random: Random
+) -> Iterator[tuple[int, str, Datum]]:
+    """How far from the pole the end or the centre of an element is, or how much farther than the end of another one."""
+    if number == 0 or random.random() < 0.3:
+        yield number, f"{of}PR{{}}", lambda found: dist(place(found[number]), pole)
+    else:
+        other = random.randrange(number)
+        words = f"I{of}PR{{}} R{of}PR {other + FIRST}"
+        yield number, words, lambda found: dist(place(found[number]), pole) - dist(found[other].head, pole)
 
 
 def _beside(each: Drawn, share: float, aside: float) -> Point:
@@ -121,14 +137,15 @@ def random_chain(random: Random, least: int = 3, most: int = 15) -> FreeChain:
                 steps.append(Step(radius=radius, sweep=sweep, sense=random.choice((-1, 1))))
         start = round(random.uniform(-50, 50), 3), round(random.uniform(-50, 50), 3)
         drawn = draw(start, radians(random.uniform(-180, 180)), steps)
-        data = list(_data(drawn, random))
+        pole = round(random.uniform(-80, 80), 3), round(random.uniform(-80, 80), 3)
+        data = list(_data(drawn, pole, random))
         random.shuffle(data)
         kept = _enough(drawn, [datum for _, _, datum in data])
         if kept:
             chosen = [data[index] for index in kept]
             measured = tuple((each, each(drawn)) for _, _, each in chosen)
             angles = tuple(text.startswith(("AN", "CCA")) for _, text, _ in chosen)
-            return FreeChain(tuple(drawn), _program(drawn, chosen), measured, angles)
+            return FreeChain(tuple(drawn), _program(drawn, pole, chosen), measured, angles)
 
 
 def _enough(drawn: list[Drawn], data: Sequence[Datum]) -> list[int]:
@@ -168,12 +185,16 @@ def _sizes(step: Step) -> tuple[float, ...]:
     return tuple(getattr(step, name) for name in _names(step))
 
 
-def _program(drawn: list[Drawn], data: Sequence[tuple[int, str, Datum]]) -> str:
+FIRST = 3
+"""The block number of the first element."""
+
+
+def _program(drawn: list[Drawn], pole: Point, data: Sequence[tuple[int, str, Datum]]) -> str:
     start = drawn[0].tail
-    lines = ["0 BEGIN PGM CHAIN MM", f"1 L X{start[0]:+} Y{start[1]:+}"]
+    lines = ["0 BEGIN PGM CHAIN MM", f"1 L X{start[0]:+} Y{start[1]:+}", f"2 FPOL X{pole[0]:+} Y{pole[1]:+}"]
     for number, each in enumerate(drawn):
         function = ("FC" if each.step.sense else "FL") + ("T" if number else "")
         sense = [f"DR{'+' if each.step.sense > 0 else '-'}"] if each.step.sense else []
         words = [text.format(f"{datum(drawn):+.9f}") if "{" in text else text for n, text, datum in data if n == number]
-        lines.append(" ".join([str(number + 2), function, *sense, *words]))
-    return "\n".join([*lines, f"{len(drawn) + 2} END PGM CHAIN MM", ""])
+        lines.append(" ".join([str(number + FIRST), function, *sense, *words]))
+    return "\n".join([*lines, f"{len(drawn) + FIRST} END PGM CHAIN MM", ""])
