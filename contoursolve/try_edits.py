@@ -1,15 +1,20 @@
-"""Trial of edits: a block with words dropped, added, changed or completed."""
+"""Trials: a block with words dropped, added, changed or completed; and the examples of rules."""
 
+import shlex
 from collections.abc import Iterable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
 
 from msgspec import Struct
 
 from contoursolve import gcode
-from contoursolve.api import solve
+from contoursolve.api import follow_program, parse, solve
+from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Edit, EditKind, change, drop, edited, find_repairs
 from contoursolve.gcode import Program
 from contoursolve.program import Result, choose
-from contoursolve.reading import Dialect
+from contoursolve.reading import THIS_CONTROL, Dialect, Rule
 from contoursolve.solving import Contour
 
 
@@ -86,3 +91,23 @@ def completions(
         for repair in repairs
         if len(repair.edits) == 1 and repair.edits[0].kind is EditKind.ADD
     )
+
+
+_KEYWORDS = {"--start": "start", "--rules": "rules", "--units": "units"}
+
+
+def try_example(dialect: Dialect, rule: Rule, program: str, depth: str = "full") -> Result:
+    """The result of an example of a rule of a control, with the findings about every line; `depth` as for `solve`."""
+    words = shlex.split(rule.options.replace(THIS_CONTROL, dialect.name))
+    options: dict[str, Any] = {"depth": depth} | {
+        _KEYWORDS[name]: words[at + 1] for at, name in enumerate(words) if name in _KEYWORDS
+    }
+    for keyword, option in (("settings", "--set"), ("variables", "--let")):
+        options[keyword] = dict(words[at + 1].split("=", 1) for at, name in enumerate(words) if name == option)
+    name, _, text = rule.file.partition("\n")
+    with TemporaryDirectory() as folder:
+        if name:
+            (Path(folder) / name).write_text(text, encoding="utf-8")
+        # A name: what is concluded of a program on a control is concluded then.
+        control = dialect.name if DIALECTS.get(dialect.name) is dialect else dialect
+        return follow_program(parse(program), control=control, strict=True, folders=[folder], **options).collect()

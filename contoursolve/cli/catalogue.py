@@ -6,7 +6,7 @@ from contoursolve.cli.options import CouldNotRunError, control_option
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import did_you_mean
-from contoursolve.reading import Dialect, Rule
+from contoursolve.reading import Dialect
 
 
 @click.command(short_help="List the whole catalogue of rules.")
@@ -40,17 +40,6 @@ def facts() -> None:
     print_lines(vocabulary_lines())
 
 
-def _alarms_of(rule: Rule) -> list[str]:
-    """The numbers of a rule's alarm, as they are compared: the first word, and in `051 or 052` the third one, too."""
-    words = rule.alarm.number.split() if rule.alarm else []
-    return [_plainly(each) for each in words[: 3 if words[1:2] == ["or"] else 1 : 2]]
-
-
-def _plainly(alarm: str) -> str:
-    """An alarm number as it is compared: 55 is 055 of older controls and PS0055 of newer ones."""
-    return alarm.lower().removeprefix("ps").lstrip("0")
-
-
 @click.command(short_help="Explain one rule, or all behind an alarm number.")
 @click.argument("code")
 @control_option("Only a rule of this control.")
@@ -63,17 +52,21 @@ def explain(code: str, control: str | Dialect | None) -> None:
     contoursolve explain g111-line-1
     contoursolve explain 146
     """
-    from contoursolve.output import rule_lines  # noqa: PLC0415 - only here
+    from contoursolve.output import alarm_rows, rule_lines  # noqa: PLC0415 - only here
     from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - the same
 
-    wanted = code.strip().lower()
+    wanted, chosen = code.strip().lower(), _chosen(control)
     found = {kind.code: (kind.rule, ["every control, with --tool"]) for kind in ToolFaultKind if kind.code == wanted}
-    for dialect in _chosen(control):
-        for rule in dialect.rules:
-            if wanted == rule.code or _plainly(wanted) in _alarms_of(rule):
-                found.setdefault(rule.code, (rule, []))[1].append(dialect.name)
+    named = [(rule, dialect.name) for dialect in chosen for rule in dialect.rules if rule.code == wanted]
+    behind = [(row.rule, row.control) for row in alarm_rows(chosen) if row.is_called(wanted)]
+    if not named:  # some controls have a row of their own about the same
+        about = {rule.about for each in DIALECTS.values() for rule in each.rules if rule.code == wanted} - {None}
+        named = [(rule, dialect.name) for dialect in chosen for rule in dialect.rules if rule.about in about]
+    met = [(rule, name) for rule, name in named if not rule.absent]
+    for rule, name in (met or named) + behind:
+        found.setdefault(rule.code, (rule, []))[1].append(name)
     if not found:
-        hint = did_you_mean(wanted, sorted({rule.code for each in _chosen(control) for rule in each.rules}))
+        hint = did_you_mean(wanted, sorted({rule.code for each in chosen for rule in each.rules}))
         raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; {hint}'contoursolve rules' lists them")
     for rule, controls in found.values():
         say("\n".join((*rule_lines(rule, controls), "")))

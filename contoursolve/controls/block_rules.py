@@ -5,13 +5,8 @@ from contoursolve.diagnostics import Severity
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import ReadIssue, Rule
 
-_GOOD = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
-_START = "G00 X40. Z0.\n"
-_PROFILE = (
-    "G00 X140. Z2.\nG71 P10 Q20 U.4 W.1 F.2\nN10 G00 X40.\nG01 Z0.\n"
-    "G111 A180. K-30. B120. X100.\nN20 G01 {}\nG70 P10 Q20"
-)
-_CALLING = "G00 X40. Z0.\nM98 P100\n{}\nM98 P100\nM30\nO0100\nG111 A180. K-30. B120. X100.\nM99"
+_NAMED = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
+"""A program that shows its control."""
 
 _GRAMMAR = own_source("grammar of a word: an address and a number")
 _READING = own_source("modal state of a program")
@@ -23,8 +18,7 @@ GRAMMAR_RULES = (
         help="write the value after the address; a zero must be written, too",
         source=_GRAMMAR,
         about=FaultKind.NUMBER_MISSING,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A180. K B120. X100.", _START + "G111 A180. KNaN B120. X100."),
+        slip={"size": ""},
     ),
     Rule(
         code="number-malformed",
@@ -32,8 +26,7 @@ GRAMMAR_RULES = (
         help="write digits with at most one decimal point, without exponent or decimal comma",
         source=_GRAMMAR,
         about=FaultKind.NUMBER_MALFORMED,
-        accepted=(_GOOD, _START + "G111 A180. K-.5 B+120. X100."),
-        rejected=(_START + "G111 A180. K-1.2.3 B120. X100.", _START + "G111 A180. K-30,5 B120. X100."),
+        slip={"size": "1.2.3"},
     ),
     Rule(
         code="blank-missing",
@@ -41,8 +34,6 @@ GRAMMAR_RULES = (
         help="write a blank behind {words}",
         source=_GRAMMAR,
         about=FaultKind.BLANK_MISSING,
-        accepted=(_GOOD,),
-        rejected=("1 L X+0 Y+0 R0\n2 FLAN+30 LEN20\n3 FL X+60 Y+40",),
     ),
     Rule(
         code="number-too-long",
@@ -50,8 +41,7 @@ GRAMMAR_RULES = (
         help="write at most 8 digits",
         source=own_source("at most 32 characters a number, 20 of them before its point"),
         about=FaultKind.NUMBER_TOO_LONG,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A180. K-30.0000000000000000000000000000000000 B120. X100.",),
+        slip={"size": f"5.{0:034}"},
     ),
     Rule(
         code="value-too-large",
@@ -59,8 +49,7 @@ GRAMMAR_RULES = (
         help="check the decimal point; the limit is {limit}",
         source=own_source("at most 1,000,000 mm or degrees"),
         about=ReadIssue.VALUE_TOO_LARGE,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A180. K-30. B120. X10000000000.",),
+        slip={"size": "10000000000."},
     ),
     Rule(
         code="comma-without-address",
@@ -68,8 +57,7 @@ GRAMMAR_RULES = (
         help="write the address right after the comma (,A ,C ,R), or a point for a decimal",
         source=_GRAMMAR,
         about=FaultKind.COMMA_WITHOUT_ADDRESS,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A180. K-30. B120. X100. ,",),
+        slip={"more": " ,"},
     ),
     Rule(
         code="stray-character",
@@ -77,8 +65,7 @@ GRAMMAR_RULES = (
         help="delete it, or put it into a comment in parentheses",
         source=_GRAMMAR,
         about=FaultKind.STRAY_CHARACTER,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A180. K-30. $ B120. X100.",),
+        slip={"more": " $"},
     ),
     Rule(
         code="comment-not-closed",
@@ -87,8 +74,7 @@ GRAMMAR_RULES = (
         source=own_source("grammar of a comment: ( to ), or ; to the end of the line"),
         about=FaultKind.COMMENT_NOT_CLOSED,
         severity=Severity.WARNING,
-        accepted=(_GOOD + " (finish)",),
-        rejected=(_GOOD + " (finish",),
+        slip={"more": " (finish"},
     ),
     Rule(
         code="block-too-long",
@@ -96,8 +82,7 @@ GRAMMAR_RULES = (
         help="check that this is an NC program; a block has at most 2,000 characters",
         source=own_source("at most 2,000 characters a block"),
         about=FaultKind.BLOCK_TOO_LONG,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111" + " A180." * 400,),
+        slip={"more": " F0.2" * 400},
     ),
 )
 
@@ -108,8 +93,7 @@ READING_RULES = (
         help="keep one of them",
         source=_READING,
         about=ReadIssue.REPEATED_ADDRESS,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A10. A20. K-30. B120. X100.",),
+        slip={"more": " {corner}{size}"},
     ),
     Rule(
         code="address-unknown",
@@ -117,8 +101,7 @@ READING_RULES = (
         help="{advice}; such a contour is written with {allowed}",
         source=_READING,
         about=ReadIssue.UNKNOWN_ADDRESS,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A180. K-30. B120. X100. R5.",),
+        slip={"more": " {foreign}"},
     ),
     Rule(
         code="comma-word-unknown",
@@ -127,8 +110,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.COMMA_WORD_UNKNOWN,
         severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + "\nG01 X120. ,A30.",),
+        slip={"behind": "\n{move} {of_others}"},
     ),
     Rule(
         code="word-mistyped",
@@ -137,11 +119,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.WORD_MISTYPED,
         severity=Severity.WARNING,
-        accepted=("G17 G90 G0 X0 Y0\nG1 X30 RND=5\nY40",),
-        rejected=(
-            "G17 G90 G0 X0 Y0\nG1 X30 RND=5\nY40\nG1 X50 AGN=5",
-            "G17 G90 G0 X0 Y0\nG1 X60 RN=8\nY40 CHR=5\nX20",
-        ),
+        slip={"behind": "\n{move} {mistyped}"},
     ),
     Rule(
         code="word-unknown",
@@ -150,8 +128,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.WORD_UNKNOWN,
         severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + "\nG01 X120. E135.",),
+        slip={"behind": "\n{move} {no_word}"},
     ),
     Rule(
         code="word-idle",
@@ -160,8 +137,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.WORD_IDLE,
         severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=("G17 G90 G0 X0 Y0\nG1 X30 CR=5\nY40 RND=3\nX9",),
+        slip={"behind": "\n{move} {idle}"},
     ),
     Rule(
         code="word-beside-code",
@@ -169,8 +145,7 @@ READING_RULES = (
         help="write {words} and its motion in a block without {name}",
         source=_READING,
         about=ReadIssue.WORD_BESIDE_CODE,
-        accepted=(_GOOD,),
-        rejected=("G17 G90 G0 X0 Y0\nG1 X20 G310 #RND=5\nX40 Y60",),
+        slip={"behind": "\n{beside_code}"},
     ),
     Rule(
         code="code-unknown",
@@ -179,8 +154,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.CODE_UNKNOWN,
         severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + "\nG399",),
+        slip={"behind": "\nG399"},
     ),
     Rule(
         code="not-read",
@@ -189,8 +163,7 @@ READING_RULES = (
         source=own_source("what contoursolve follows"),
         about=ReadIssue.NOT_READ,
         severity=Severity.INFO,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + "\nG02.2 X120.",),
+        slip={"behind": "\n{unread}"},
     ),
     Rule(
         code="letter-for-digit",
@@ -199,8 +172,6 @@ READING_RULES = (
         source=_GRAMMAR,
         about=ReadIssue.LETTER_FOR_DIGIT,
         severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + "\nG1l1 A180. B120. X160. Z-80.",),
     ),
     Rule(
         code="code-mistyped",
@@ -209,8 +180,6 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.CODE_MISTYPED,
         severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + "\nG110 A180. B120. X160. Z-80.",),
     ),
     Rule(
         code="value-variable",
@@ -218,8 +187,7 @@ READING_RULES = (
         help="write the number, or state the value: --let {stated}",
         source=_READING,
         about=ReadIssue.VARIABLE,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A180. K#101 B120. X100.",),
+        slip={"size": "{variable}"},
     ),
     Rule(
         code="word-unused",
@@ -228,8 +196,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.WORD_UNUSED,
         severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(),
+        slip={"contour": "{block}", "options": "--rules off"},
     ),
     Rule(
         code="point-missing",
@@ -238,8 +205,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.POINT_MISSING,
         severity=Severity.INFO,
-        accepted=(_GOOD, _START + "G111 A180000 K-30000 B120000 X100000"),
-        rejected=(_GOOD + " P2", _START + "G111 A180 K-30 B120 X100"),
+        slip={"size": "{whole}"},
     ),
     Rule(
         code="suspected",
@@ -248,11 +214,7 @@ READING_RULES = (
         source=own_source("slips that machinists make, and how the paths of turned parts run"),
         about=ReadIssue.SUSPECTED,
         severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(
-            _START + "G111 A180. K-30. B60. X100.\nG01 Z-60.",
-            _START + "G111 A180. K-20. B150. X60.\nG111 A180. K-20. B150. X80.\nG111 A180. K-20. B120. X100.",
-        ),
+        slip={"contour": "{series}", "odd": "{unlike}"},
     ),
     Rule(
         code="start-in-increments",
@@ -262,12 +224,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.START_IN_INCREMENTS,
         severity=Severity.WARNING,
-        accepted=(
-            _GOOD,
-            "G00 X40000 Z0\nG111 A180. K-30. B120. X100.",
-            "G00 X40 Z0\nG111 A180000 K-30000 B120000 X9000",
-        ),
-        rejected=("G00 X40 Z0\nG111 A180. K-30. B120. X100.", "G00 X40 Z2\nG111 A180 K-30 B120 X100"),
+        slip={"start": "{start_whole}"},
     ),
     Rule(
         code="move-in-increments",
@@ -277,8 +234,7 @@ READING_RULES = (
         about=ReadIssue.MOVE_IN_INCREMENTS,
         severity=Severity.WARNING,
         note="told by check --strict, of blocks outside contours; with --tool, of all moves beside one",
-        accepted=(_GOOD,),
-        rejected=(),
+        slip={"behind": "\n{move_whole}", "options": "--strict"},
     ),
     Rule(
         code="position-unknown",
@@ -286,8 +242,7 @@ READING_RULES = (
         help="position {axes} with an absolute word before this block, or state where the tool is with --start",
         source=_READING,
         about=ReadIssue.POSITION_UNKNOWN,
-        accepted=(_GOOD,),
-        rejected=(_START + "G28 U0 W0\nG111 A180. K-30. B120. X100.", "G111 A180. K-30. B120. X100."),
+        slip={"start": ""},
     ),
     Rule(
         code="mode-unknown",
@@ -295,8 +250,7 @@ READING_RULES = (
         help="say it in this block, or behind the place where the ways meet",
         source=_READING,
         about=ReadIssue.MODE_UNKNOWN,
-        accepted=(_GOOD,),
-        rejected=(_START + "IF[#1 EQ 1]GOTO5\nG20\nN5 " + _GOOD.rpartition("\n")[2],),
+        slip={"between": "{jump}"},
     ),
     Rule(
         code="start-assumed",
@@ -305,8 +259,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.START_ASSUMED,
         severity=Severity.INFO,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + " P90.\nG111 A180. K-10. B120. X120.",),
+        slip={"size": "99.", "turn": "{one_axis}", "behind": "\n{again}"},
     ),
     Rule(
         code="contour-waits",
@@ -315,8 +268,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.CONTOUR_WAITS,
         severity=Severity.INFO,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 A180. B120. X100.\nG111 A180. K-10. B120. X120.",),
+        slip={"size": "{variable}", "turn": "{one_axis}", "behind": "\n{again}"},
     ),
     Rule(
         code="not-checked",
@@ -325,8 +277,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.NOT_CHECKED,
         severity=Severity.INFO,
-        accepted=(_GOOD,),
-        rejected=("PROC SLOT(REAL RAD)\nG17 G90 G0 X0 Y0\nG1 X60\nY40 RND=RAD\nX20",),
+        slip={"wrong": "{parametrised}"},
     ),
     Rule(
         code="calls-differ",
@@ -335,8 +286,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.CALLS_DIFFER,
         severity=Severity.INFO,
-        accepted=(_CALLING.format("G00 X40. Z0."),),
-        rejected=(_CALLING.format("G00 X130. Z0."),),
+        slip={"program": "{start}{call}\n{place}\n{call}{subprogram}", "place": "{elsewhere}"},
     ),
     Rule(
         code="subprogram-refused",
@@ -344,8 +294,7 @@ READING_RULES = (
         help="check {file} by itself, with --start for where the tool is then",
         source=_READING,
         about=ReadIssue.SUBPROGRAM_REFUSED,
-        accepted=(_GOOD,),
-        rejected=(),
+        slip={"wrong": "{start}{call_file}", "file": "{file_name}\n{unfinished}\n{return}"},
     ),
     Rule(
         code="subprogram-solved",
@@ -354,8 +303,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.SUBPROGRAM_SOLVED,
         severity=Severity.INFO,
-        accepted=(_GOOD,),
-        rejected=(),
+        slip={"wrong": "{start}{call_file}", "file": "{file_name}\n{contour}\n{return}"},
     ),
     Rule(
         code="not-followed",
@@ -364,8 +312,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.NOT_FOLLOWED,
         severity=Severity.WARNING,
-        accepted=(_CALLING.format("G00 X40. Z0."),),
-        rejected=("G00 X40. Z0.\nGOTO 20\nG111 A180. K-30. B120. X100.",),
+        slip={"between": "{nowhere}"},
     ),
     Rule(
         code="profile-turns-back",
@@ -375,8 +322,7 @@ READING_RULES = (
         source=own_source("roughing cycles of lathes; controls stop with a number of their own"),
         about=ReadIssue.PROFILE_TURNS_BACK,
         severity=Severity.WARNING,
-        accepted=(_PROFILE.format("X120."),),
-        rejected=(_PROFILE.format("X90."),),
+        slip={"program": "{cycle}", "on": "{back_in_cycle}"},
     ),
     Rule(
         code="start-skippable",
@@ -385,8 +331,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.SKIPPABLE_START,
         severity=Severity.INFO,
-        accepted=(_GOOD,),
-        rejected=("G00 X40. Z0.\n/G01 X50.\nG111 A180. K-30. B120. X100.",),
+        slip={"between": "/{move}\n"},
     ),
     Rule(
         code="text-outside",
@@ -396,8 +341,7 @@ READING_RULES = (
         source=own_source("tape format of ISO 6983 and RS-274: a program stands between two %"),
         about=ReadIssue.TEXT_OUTSIDE,
         severity=Severity.WARNING,
-        accepted=(f"%\nO1\n{_GOOD}\nM30\n%\n(end)", f"{_GOOD} (50%)\nM30\n%", f"(part)\n%\n{_GOOD}\nM30"),
-        rejected=(f"%\n{_GOOD}\n%\nG01 Z-90.", f"G01 Z5.\n%\n{_GOOD}\nM30\n%", f"{_GOOD}\n%\nG01 Z-90."),
+        slip={"program": "%\n{start}{contour}{closing_mark}", "closing_mark": "\n%\n{move}"},
     ),
     Rule(
         code="no-contour",
@@ -405,8 +349,7 @@ READING_RULES = (
         help="contour blocks {triggers}",
         source=_READING,
         about=ReadIssue.NO_CONTOUR,
-        accepted=(_GOOD,),
-        rejected=("G00 X40. Z0.\nG01 Z-30. F0.2",),
+        slip={"contour": "{move}"},
     ),
     Rule(
         code="control-unknown",
@@ -414,7 +357,7 @@ READING_RULES = (
         help="name the control by --control {control}, or in contoursolve.toml",
         source=_READING,
         about=ReadIssue.CONTROL_UNKNOWN,
-        accepted=(_GOOD,),
+        accepted=(_NAMED,),
         rejected=("G17 G90 G0 X0 Y0\nG1 X50 A30\nG1 X10 Y20",),
     ),
     Rule(
@@ -424,7 +367,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.CONTROL_ALIKE,
         severity=Severity.INFO,
-        accepted=(_GOOD,),
+        accepted=(_NAMED,),
         rejected=("G00 X40. Z2.\nG01 Z0. F0.2\nX60. ,C2.\nZ-20.\nX70.",),
     ),
     Rule(
@@ -434,7 +377,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.CONTROL_CALLED,
         severity=Severity.INFO,
-        accepted=(_GOOD,),
+        accepted=(_NAMED,),
         rejected=(),
     ),
     Rule(
@@ -445,7 +388,6 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.MACHINE_TAKEN,
         severity=Severity.INFO,
-        accepted=(_GOOD, "G18 G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\nZ-20 RND=2\nX52"),
-        rejected=("G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\nZ-20 RND=2\nX52",),
+        slip={"program": "{turned}", "plane": ""},
     ),
 )

@@ -3,7 +3,7 @@
 They end the rules of a control: rows of its own about the same events stand before them, and win.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from enum import Enum
 from typing import TypedDict, Unpack
@@ -15,30 +15,16 @@ from contoursolve.solving import GeometricEventKind
 
 _SOURCE = Source(OWN, "the geometry of lines, arcs and corners", Evidence.ASSUMED)
 
-_MILL = "G17 G90 G0 X0 Y0\n"
-_CUT = _MILL + "G1 X30 ,C10\nX40 Y40"
-_LINES = "G17 G90 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A225"
-_ARC = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
-_CENTERED = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 I-50 J0\n"
-_LINE = "G1 X-50 Y42.857 ,A171.87 Q-1"
-_SQUARE = "G00 X20. Z0.\nG01 Z-20. I5.\nX40.\nX60. ,A90."
-_LATHE = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. C5."
 
-
-def _row(
-    about: Enum, message: str, help_: str, accepted: str, rejected: str, severity: Severity = Severity.ERROR
-) -> Rule:
-    """A row; its examples are programs for the control that their words show."""
-    return Rule(about.value, message, help_, _SOURCE, (accepted,), (rejected,), about=about, severity=severity)
+def _row(about: Enum, message: str, help_: str, slip: Mapping[str, str]) -> Rule:
+    return Rule(about.value, message, help_, _SOURCE, about=about, severity=Severity.WARNING, slip=slip)
 
 
 COMMA_MISSING = _row(
     ReadIssue.COMMA_MISSING,
     "{words} has no comma, so the control does not read it as {meant}",
     "write {meant} if that is meant",
-    _CUT,
-    _CUT.replace(",C", "C") + " ,R5\nX80",
-    Severity.WARNING,
+    {"corner": "{comma_lost}"},
 )
 PLANE_CHANGES = ("the plane changes inside the contour", "select the plane before its first block")
 """Message and help of a row about a plane that is selected in a contour."""
@@ -53,65 +39,58 @@ ANGLE_RAPID = "{words}: the control works out a line by its angle in G01, not in
 """Message of a row about an angle in rapid traverse."""
 
 GEOMETRY_RULES = (
-    about_event("lines-parallel", _SOURCE, (_LINES,), (_LINES.replace(",A225", ",A150"),)),
-    about_event("not-fixed", _SOURCE, (_MILL + "G1 X30 ,A45",), (_MILL + "G1 X0 ,A90",)),
     about_event(
-        "point-is-start", _SOURCE, (_LINES.replace(",A150", "X50 Y33.094"),), (_LINES.replace(",A150", "X90 Y10"),)
+        "lines-parallel", _SOURCE, {"contour": "{vertex_blocks}", "closing": "{opening}", "options": "--rules off"}
     ),
-    about_event("circle-missed", _SOURCE, (_ARC + _LINE,), (_ARC + "G1 X-50 Y80 ,A180 Q-1",)),
-    about_event("radius-too-small", _SOURCE, (_ARC + _LINE,), (_ARC.replace("R50", "R40") + _LINE,)),
     about_event(
-        "circles-apart",
+        "not-fixed",
         _SOURCE,
-        (_CENTERED + "G3 X-40 Y60 I-40 J20 R40 Q-1",),
-        (_CENTERED + "G3 X-40 Y60 I-40 J160 R40 Q-1",),
+        {"contour": "{angled_block}", "end": "{at_start}", "degrees": "{across_end}", "options": "--rules off"},
     ),
-    about_event("circle-undefined", _SOURCE, (_ARC + _LINE,), (_ARC.replace("X-50", "X50") + _LINE,)),
-    about_event("radius-difference", _SOURCE, (_CENTERED + _LINE,), (_CENTERED.replace("Y0 I", "Y2 I") + _LINE,)),
-    about_event("line-reversed", _SOURCE, (_ARC + _LINE,), (_ARC + "G1 X-50 Y42.857 ,A-8.13 Q-1",)),
-    about_event("line-backwards", _SOURCE, (_LINES,), (_LINES.replace("G1 ,A150", "G1 X130 Y-13.094"),)),
-    about_event("corner-too-large", _SOURCE, (_CUT,), (_CUT.replace(",C10", ",C31"),)),
-    about_event("corners-overlap", _SOURCE, (_CUT,), (_MILL + "G1 X30 ,C20\nY30 ,C20\nX60",)),
-    about_event("corner-straight", _SOURCE, (_CUT,), (_CUT.replace("X40 Y40", "X60"),)),
-    about_event("corner-reverses", _SOURCE, (_CUT,), (_CUT.replace("X40 Y40", "X10"),)),
-    about_event("corner-sign", _SOURCE, (_SQUARE,), (_SQUARE.replace("I5.", "I-5."),)),
-    about_event("bevel-outside", _SOURCE, (_LATHE,), (_LATHE.replace("B120.", "B60."),)),
+    about_event("point-is-start", _SOURCE),
+    about_event("circle-missed", _SOURCE),
+    about_event("radius-too-small", _SOURCE, {"contour": "{arc_blocks}", "center": "{small_radius}"}),
+    about_event("circles-apart", _SOURCE),
     about_event(
-        "bevel-in-band",
+        "circle-undefined",
         _SOURCE,
-        ("G00 X100. Z-50.\nG112 U0 I10. K-50. R30. C5. D5.",),
-        ("G00 X100. Z-50.\nG112 U0 I28. K-50. R30. C1.",),
+        {"contour": "{arc_blocks}", "arc_end": "", "center": "{radius}", "options": "--rules off"},
     ),
     about_event(
-        "landing-unknown", _SOURCE, (_LATHE.replace("C5.", "Q5."),), ("G00 X40. Z0.\nG111 A90. I10. B90. X100. Q2.",)
+        "radius-difference", _SOURCE, {"contour": "{arc_blocks}", "center": "{center_off}", "options": "--rules off"}
     ),
-    about_event("arc-empty", _SOURCE, (_ARC + _LINE,), (_ARC + "G1 X90 Y0 ,A0 Q1",)),
-    about_event("touches", _SOURCE, (_ARC + _LINE,), (_ARC + "G1 X-50 Y50 ,A180 Q-1",)),
     about_event(
-        "double",
+        "line-reversed",
         _SOURCE,
-        (_ARC + _LINE,),
-        ("G17 G90 G41 G0 X50 Y0\nG3 X? Y50 R50 (contoursolve: X of C = 0)\n" + _LINE,),
+        {"contour": "{angled_block}", "degrees": "{opposite}", "options": "--set CONTROL.angle-sense=ray"},
     ),
+    about_event("line-backwards", _SOURCE),
+    about_event("corner-too-large", _SOURCE, {"size": "99."}),
+    about_event("corners-overlap", _SOURCE, {"contour": "{twice}", "each": "28."}),
+    about_event("corner-straight", _SOURCE, {"turn": "{straight_on}"}),
+    about_event("corner-reverses", _SOURCE, {"turn": "{turned_back}"}),
+    about_event("corner-sign", _SOURCE),
+    about_event("bevel-outside", _SOURCE),
+    about_event("bevel-in-band", _SOURCE),
+    about_event("landing-unknown", _SOURCE),
+    about_event("arc-empty", _SOURCE),
+    about_event("touches", _SOURCE),
+    about_event("double", _SOURCE),
+    about_event("radius-differs", _SOURCE),
     about_event(
-        "radius-differs", _SOURCE, (_CENTERED + _LINE,), (_CENTERED.replace("X-50 Y0", "X-49.995 Y0") + _LINE,)
+        "half-circle", _SOURCE, {"contour": "{arc_blocks}", "arc_end": "{opposite_end}", "center": "{half_radius}"}
     ),
-    about_event("half-circle", _SOURCE, (_ARC + _LINE,), (_ARC.replace("R50", "R49.9995") + _LINE,)),
     _row(
         ReadIssue.ANGLE_OPPOSITE,
         "{words}: {subject} runs the other way, at {expected}; the control takes the angle of a line either way",
         "as the line runs, its angle is {expected}: check the signs of the angle and of the end",
-        "G00 X0 Z0.\nG01 X60. ,A90.",
-        "G00 X0 Z0.\nG01 X60. ,A-90.",
-        Severity.WARNING,
+        {"contour": "{angled_block}", "degrees": "{opposite}"},
     ),
     _row(
         ReadIssue.CORNER_DROPPED,
         "{words}: {subject} turns by {actual}; up to 1 deg the control leaves a corner out without an alarm",
         "delete {words}, or correct the elements if they are meant to turn",
-        "G00 X20. Z0.\nG01 Z-20. ,R3.\nX60. ,A120.",
-        "G00 X20. Z0.\nG01 Z-20. ,R3.\nZ-40. ,A179.5",
-        Severity.WARNING,
+        {"turn": "{hardly_turned}"},
     ),
     COMMA_MISSING,
 )

@@ -3,6 +3,7 @@ from .baseline import (
     read_baseline as read_baseline,
 )
 from .catalogue import (
+    alarm_rows as alarm_rows,
     catalogue_lines as catalogue_lines,
     rule_lines as rule_lines,
     rule_page as rule_page,

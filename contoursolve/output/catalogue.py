@@ -1,10 +1,13 @@
 """The catalogue as text: the rules of each control, and the further facts that can be stated about a contour."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+
+from msgspec import Struct
 
 from contoursolve.diagnosis import tabulate
+from contoursolve.diagnostics import Alarm
 from contoursolve.output.plain_text import columns
-from contoursolve.reading import Dialect, Rule
+from contoursolve.reading import THIS_CONTROL, Dialect, Rule
 
 
 def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
@@ -13,7 +16,7 @@ def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
     for dialect in dialects:
         rows = [
             (rule.code, rule.severity.value, rule.source.evidence.value, _alarm(rule), rule.title)
-            for rule in sorted(dialect.rules, key=lambda rule: rule.code)
+            for rule in sorted(dialect.catalogue, key=lambda rule: rule.code)
         ]
         header = ("code", "severity", "evidence", "alarm", "message")
         lines += [f"{dialect.name}: {dialect.title}", *columns([header, *rows], left=(0, 1, 2, 3, 4)), ""]
@@ -57,8 +60,9 @@ def _alarm(rule: Rule) -> str:
     return f"{rule.alarm.number.split()[0]} ({rule.alarm.evidence.value})" if rule.alarm else "-"
 
 
-def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
-    """Everything about one rule: in words, a wrong block, a right one, the place in the manual."""
+def rule_lines(rule: Rule, controls: Sequence[str]) -> list[str]:
+    """Everything about one rule: in words, a wrong block, a right one, the place in the manual; where several controls
+    have it, it is the row of the first one."""
     lines = [f"{rule.code} ({rule.severity.value}): {rule.title}", ""]
     facts = [
         ("what to do", rule.advice),
@@ -66,11 +70,17 @@ def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
         ("source", str(rule.source)),
         ("control", f"alarm {rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else "no alarm known"),
         ("applies to", ", ".join(controls)),
+        *([("examples", f"as {controls[0]} has them; --control NAME shows another's")] if controls[1:] else []),
+        *([("not met", f"here, because {rule.absent}")] if rule.absent else []),
     ]
     lines += columns(facts, left=(0, 1))
-    for title, examples in (("wrong", rule.rejected), ("right", rule.accepted)):
+    told = f", with {rule.options.replace(THIS_CONTROL, controls[0])}" if rule.options else ""
+    for title, examples in ((f"wrong{told}", rule.rejected), ("right", rule.accepted)):
         for example in examples:
             lines += ["", f"  {title}:", *(f"    {_short(line)}" for line in example.split("\n"))]
+    if rule.file:
+        name, _, text = rule.file.partition("\n")
+        lines += ["", f"  the file {name} beside it:", *(f"    {line}" for line in text.split("\n"))]
     return lines
 
 
@@ -79,12 +89,15 @@ def rule_page(code: str, dialects: Iterable[Dialect]) -> str:
 
     It names the place in the manual of each control that has the rule. Raises LookupError if none has it.
     """
-    found = [(each, rule) for each in dialects for rule in each.rules if rule.code == code]
+    found = [(each, rule) for each in dialects for rule in each.catalogue if rule.code == code]
     if not found:
         raise LookupError(f"no rule has the code {code!r}")
+    alike: dict[tuple[str, ...], list[tuple[Dialect, Rule]]] = {}
+    for dialect, rule in found:
+        alike.setdefault((rule.title, rule.advice, *rule.rejected), []).append((dialect, rule))
     pages = []
-    for rule in dict.fromkeys(rule for _, rule in found):
-        controls = ", ".join(each.title for each, own in found if own is rule)
+    for rows in alike.values():
+        controls, rule = ", ".join(each.title for each, _ in rows), rows[0][1]
         told = (f"{rule.title}.", f"What to do: {rule.advice}.", rule.note and f"Good to know: {rule.note}.")
         alarm = f"Alarm of the control: {rule.alarm.number} ({rule.alarm.evidence.value})." if rule.alarm else ""
         source = f"Source: {rule.source}."
@@ -92,6 +105,41 @@ def rule_page(code: str, dialects: Iterable[Dialect]) -> str:
         for title, examples in (("Wrong:", rule.rejected), ("Right:", rule.accepted)):
             pages += [line for each in examples for line in (title, f"```gcode\n{each}\n```")]
     return "\n\n".join((f"# {code}", *pages)) + "\n"
+
+
+class AlarmRow(Struct, frozen=True):
+    """An alarm of a control, and the rule that tells what it is about."""
+
+    alarm: Alarm
+    control: str
+    rule: Rule
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Its numbers: the first word, and in `051 or 052` the third one, too; of a name without one, all of it."""
+        words = self.alarm.number.split()
+        found = words[: 3 if words[1:2] == ["or"] else 1 : 2]
+        return tuple(found) if found[0][-1].isdigit() else (self.alarm.number,)
+
+    def is_called(self, number: str) -> bool:
+        """Whether a number means it: 55 is 055 of older controls and PS0055 of newer ones."""
+        return _plainly(number) in map(_plainly, self.numbers)
+
+
+def _plainly(number: str) -> str:
+    return number.strip().lower().removeprefix("ps").lstrip("0")
+
+
+def alarm_rows(dialects: Iterable[Dialect]) -> Iterator[AlarmRow]:
+    """The alarms of controls: those of their rules, and those about the radius of a tool."""
+    from contoursolve.controls import TOOL_FACTS  # noqa: PLC0415 - few ask for alarms
+    from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - the same
+
+    for dialect in dialects:
+        yield from (AlarmRow(rule.alarm, dialect.name, rule) for rule in dialect.catalogue if rule.alarm)
+        facts = TOOL_FACTS.get(dialect.name)
+        for kind, alarm in facts.alarms.items() if facts else ():
+            yield AlarmRow(alarm, dialect.name, ToolFaultKind[kind.upper()].rule)
 
 
 def _short(line: str) -> str:

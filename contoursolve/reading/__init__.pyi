@@ -91,6 +91,7 @@ from .parsed_contour import (
     unused_words as unused_words,
 )
 from .rules import (
+    THIS_CONTROL as THIS_CONTROL,
     VERBS as VERBS,
     AngleAlong as AngleAlong,
     AnglesParallel as AnglesParallel,

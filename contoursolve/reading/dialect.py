@@ -108,6 +108,11 @@ class Dialect:
     """The things that were concluded from the program at hand, where that does not say it."""
 
     @property
+    def catalogue(self) -> tuple[Rule, ...]:
+        """The rules that a program of this control can meet."""
+        return tuple(rule for rule in self.rules if not rule.absent)
+
+    @property
     def assumptions(self) -> tuple[Assumption, ...]:
         """The things that it is taken to accept, in any of its forms."""
         return tuple(dict.fromkeys(each for form in self.forms for each in form.assumptions))

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
@@ -13,6 +13,9 @@ from contoursolve.geometry import BlockRole, names_of_roles
 Stated = Mapping[str, Decimal | None]
 """The statement of a block: the value of each given by name (None for a variable), and circumstances such as `@alone`,
 which have no value."""
+
+THIS_CONTROL = "CONTROL"
+"""The name of the control in the options of a rule that several have."""
 
 Slot = tuple[str, ...]
 """Names that say the same thing in different ways, such as X and U."""
@@ -257,15 +260,16 @@ class Rule(Shown):
     `message` is a template; its fields are listed in `explain`. A rule finds something in one of two
     ways: `when` holds for the words of the blocks of one of its `roles`; or something in the program or its geometry
     happens that `about` names. `ignores` names the word that the control then drops without
-    a word. Each example is a program; `rejected` ones raise this code, `accepted` ones do not.
+    a word. Each example is a program; `rejected` ones raise this code, `accepted` ones do not. Those of a rule that
+    controls share are made of programs of each control, by its `slip` (see `controls.own_words`).
     """
 
     code: str
     message: str
     help: str
     source: Source
-    accepted: tuple[str, ...]
-    rejected: tuple[str, ...]
+    accepted: tuple[str, ...] = ()
+    rejected: tuple[str, ...] = ()
     roles: tuple[str, ...] = ()
     when: Condition | None = None
     about: Enum | None = None
@@ -278,6 +282,14 @@ class Rule(Shown):
     """True of a rule that refuses what could be written, but cannot be made."""
     is_about_choice: bool = False
     """True of a rule that refuses a block because no word chooses between two places."""
+    slip: Mapping[str, str] = field(default_factory=dict)
+    """The gaps of a control's right programs that a wrong one has filled otherwise."""
+    options: str = ""
+    """Options of `contoursolve check` for its examples; `THIS_CONTROL` stands for the control's name."""
+    file: str = ""
+    """A file beside its examples: the name, and the text from the second line on."""
+    absent: str = ""
+    """The reason why no program of the control meets it; such a row is not listed."""
 
     def holds(self, own: Stated) -> bool:
         """Whether it finds something in what the blocks of its role state."""

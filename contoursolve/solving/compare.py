@@ -36,14 +36,14 @@ def agreement(fact: Fact, off: Any, at: Values, increment: Increments, figure: F
     """Margins that are not below 0 (mm) where a fact agrees that was not needed and is off by so much at these points;
     numbers or expressions."""
     limit, excess = fact.allowance(at, increment), fact.excess(at)
-    larger = at.functions.larger
+    larger, magnitude = at.functions.larger, at.functions.magnitude
     if fact.circle is not None and not fact.given:
         # The residual is the difference of the radii to first order only.
         yield from (fact.circle.slack - excess, fact.circle.slack + excess)
         return
     if fact.span is not None and excess is not None:
-        # To first order the residual is the excess; where either is small, the lengths agree.
-        yield from (larger(limit - off, limit - excess), larger(limit + off, limit + excess))
+        # To first order the residual is the excess; where either is small, the lengths agree. It may lack its sign.
+        yield larger(limit - magnitude(off), limit - magnitude(excess))
         return
     if fact.heading is not None and is_directed(fact, figure):
         # The equation alone is true of the opposite direction, too.
@@ -104,7 +104,8 @@ def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
     half a turn away, by the smaller number.
     """
     given = profile.givens[fact.given]
-    values = {"actual": float(given.value), "off_by_mm": abs(float(fact.residual(at)))}
+    excess = fact.excess(at) if fact.span is not None else None
+    values = {"actual": float(given.value), "off_by_mm": abs(float(fact.residual(at) if excess is None else excess))}
     expected = fact.implied(at)
     if expected is not None:
         if given.unit is Unit.DEGREE:

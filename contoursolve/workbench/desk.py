@@ -23,7 +23,7 @@ import contoursolve
 from contoursolve.controls import DIALECTS, DRAWINGS, ChainFinder, words_of_drawing
 from contoursolve.diagnosis import word_keys
 from contoursolve.diagnostics import ProgramError, UserError
-from contoursolve.gcode import Blocks, typed_places
+from contoursolve.gcode import typed_places
 from contoursolve.output import notebook_style
 from contoursolve.postprocess import MachineKind, machine_of
 from contoursolve.program import for_kind, likely_fixes, mend_open, safe_fixes
@@ -226,11 +226,8 @@ def _example(control: str) -> tuple[str, str]:
     dialect = DIALECTS.get(control)
     if dialect is None:
         raise ActionError(f"{control!r} is no control here")
-    rules = sorted(dialect.rules, key=lambda rule: not rule.code.endswith("corner-too-large"))
-    texts = (text for rule in rules for text in rule.rejected)
-    # Rules that all controls share have examples in the words of others.
-    own = (text for text in texts if any(map(dialect.signs, Blocks(text, 1, dialect.modes.syntax))))
-    return f"example-{control}.nc", f"{next(own)}\n"
+    rules = sorted(dialect.catalogue, key=lambda rule: not rule.code.endswith("corner-too-large"))
+    return f"example-{control}.nc", f"{rules[0].rejected[0]}\n"
 
 
 def _edit(program: ProgramView, action: Mapping[str, Any]) -> Data:

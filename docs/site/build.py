@@ -1,8 +1,8 @@
 """Build the documentation site: `python docs/site/build.py` writes it to build/site/html, or to html in a named folder.
 
-Its pages are README.md and the pages of docs/, a page for each control with all its rules, the reference of the public
-names, the notebooks, and one that solves in the browser. All but the first are made here from the tables, docstrings
-and notebooks. Needs the packages of the group `docs`, and pip.
+Its pages are README.md and the pages of docs/, the manual of each control, the reference of the public names, the
+notebooks, and one that solves in the browser. All but the first are made here from tables, docstrings and notebooks.
+Needs the packages of the group `docs`, and pip.
 
 Set PYODIDE to the address of a folder with another copy of Pyodide's distribution, of the same version, to load Python
 from there: for a site without other hosts.
@@ -22,11 +22,11 @@ from types import ModuleType
 from urllib.parse import urlsplit
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from manual import alarms_page, control_page, manuals, rules_page, title_of, words_page, words_title
+
 import contoursolve
 from contoursolve import pictures
 from contoursolve.controls import DIALECTS
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
 
 ROOT = Path(__file__).parents[2]
 TRY = Path(__file__).with_name("try")
@@ -71,16 +71,30 @@ def main() -> None:
             write(name, notebook_page(source))
         else:
             write(name, source.read_bytes())
+    told = manuals()
+    write("assets/pictures.css", Path(__file__).with_name("pictures.css").read_bytes())
     write("rules/index.md", "\n".join(rules_index()))
-    for dialect in DIALECTS.values():
-        write(f"rules/{dialect.name}.md", "\n".join(rules_page(dialect)))
+    write("rules/alarms.md", "\n".join(alarms_page(told)))
+    for each in told:
+        write(f"rules/{each.control}.md", "\n".join(control_page(each)))
+        write(f"rules/{each.control}/words.md", "\n".join(words_page(each)))
+        for name in each.groups:
+            write(f"rules/{each.control}/{name}.md", "\n".join(rules_page(each, name)))
+        for name, drawn in each.pictures.items():
+            write(f"rules/pictures/{name}", drawn)
     write("reference.md", "\n".join(reference_page()))
     write("try.md", try_page())
 
     settings = OUTPUT / "zensical.toml"
-    for path in (settings, settings.with_name("doctests.py")):
-        shutil.copy(Path(__file__).with_name(path.name), path)
-    named = set(re.findall(r'"([\w/-]+\.md)"', settings.read_text(encoding="utf-8")))
+    shutil.copy(Path(__file__).with_name("doctests.py"), OUTPUT)
+    nav = Path(__file__).with_name(settings.name).read_text(encoding="utf-8")
+    for each in told:
+        titles = {"words": words_title(each.dialect)} | {name: title_of(name) for name in each.groups}
+        own = (f"{{ {json.dumps(title)} = 'rules/{each.control}/{name}.md' }}" for name, title in titles.items())
+        page = f'"rules/{each.control}.md"'
+        nav = nav.replace(f"{page},", f"{{ {json.dumps(each.dialect.title)} = [{', '.join((page, *own))}] }},")
+    settings.write_text(nav, encoding="utf-8")
+    named = set(re.findall(r"""["']([\w/-]+\.md)["']""", settings.read_text(encoding="utf-8")))
     written = {path.relative_to(PAGES).as_posix() for path in PAGES.rglob("*.md")}
     if named != written:
         sys.exit(f"docs/site/zensical.toml and the pages differ: {', '.join(sorted(named ^ written))}")
@@ -152,65 +166,22 @@ def fenced(text: str, language: str) -> Iterator[str]:
 
 
 def rules_index() -> Iterator[str]:
-    """The page that leads to the rules of each control."""
-    yield "# Every rule\n"
-    yield "Each control has a page. Each rule has wrong blocks, right ones, its source, and the grade of the source:\n"
+    """The page that leads to the manual of each control."""
+    yield "# Manuals of the controls\n"
+    yield "Each control has its words, its rules with wrong and right blocks, and its settings."
+    yield "Your machine shows a number? Look it up in the [alarm numbers](alarms.md)."
+    yield "Each fact has a source, and the grade of the source:\n"
     yield "| grade | meaning |\n|---|---|"
     yield "| printed | read on a page of the control's manual |"
     yield "| derived | follows from printed facts by geometry or symmetry |"
     yield "| assumed | our choice where the pages that we have are silent |\n"
-    yield "| control | rules | printed | derived | assumed |\n|---|--:|--:|--:|--:|"
+    yield "| control | words | rules | printed | derived | assumed |\n|---|---|--:|--:|--:|--:|"
     for dialect in DIALECTS.values():
-        grades = [rule.source.evidence.value for rule in dialect.rules]
+        grades = [rule.source.evidence.value for rule in dialect.catalogue]
         counts = [len(grades), *map(grades.count, ("printed", "derived", "assumed"))]
-        yield f"| [{dialect.title}]({dialect.name}.md) | {' | '.join(map(str, counts))} |"
+        words = f"[words]({dialect.name}/words.md)"
+        yield f"| [{dialect.title}]({dialect.name}.md) | {words} | {' | '.join(map(str, counts))} |"
     yield "\n`contoursolve rules` lists them in the terminal, `contoursolve explain CODE` prints one of them."
-
-
-def rules_page(dialect: Dialect) -> Iterator[str]:
-    """All rules of a control, its settings and its assumptions."""
-    rules = sorted(dialect.rules, key=lambda rule: rule.code)
-    yield f"# {dialect.title}\n"
-    yield f"All {len(rules)} rules of `{dialect.name}`, those that hold for every control among them.\n"
-    yield "| rule | severity | grade | alarm |\n|---|---|---|---|"
-    for rule in rules:
-        alarm = f"{rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else ""
-        yield f"| [{rule.code}](#{rule.code}) | {rule.severity.value} | {rule.source.evidence.value} | {alarm} |"
-    for rule in rules:
-        yield from rule_section(rule)
-    yield "\n## Settings { #settings }\n"
-    yield "What the manual leaves open, and you can choose:\n"
-    for setting in dialect.settings:
-        yield f"* **{plain(setting.meaning)}** ({plain(str(setting.source))})"
-        for value, meaning in setting.values.items():
-            default = ", the default" if value == setting.default else ""
-            yield f"    * `--set {dialect.name}.{setting.name}={value}`{default}: {plain(meaning)}"
-        if setting.bounds:
-            yield f"    * {plain(setting.choices(''))}"
-    yield "\n## Assumptions { #assumptions }\n"
-    for each in dialect.assumptions:
-        yield f"* `{each.name}`: {plain(each.meaning)} ({plain(str(each.source))})"
-
-
-def rule_section(rule: Rule) -> Iterator[str]:
-    """One rule: what it says, what to do, its source with the grade, wrong blocks and right ones."""
-    yield f"\n## {rule.code} {{ #{rule.code} }}\n"
-    yield f"{rule.severity.value.capitalize()}: {plain(rule.title)}\n"
-    yield f"* What to do: {plain(rule.advice)}"
-    if rule.note:
-        yield f"* Good to know: {plain(rule.note)}"
-    yield f"* Source: {plain(str(rule.source))}"
-    if rule.alarm:
-        yield f"* Alarm: {rule.alarm.number} ({rule.alarm.evidence.value})"
-    for title, examples in (("Wrong", rule.rejected), ("Right", rule.accepted)):
-        for example in examples:
-            yield f"\n{title}:\n"
-            yield from fenced(example, "text")
-
-
-def plain(text: str) -> str:
-    """Text of the tables as text of a page, whose gaps `<word>` are no HTML."""
-    return re.sub(r"([\\`*_\[\]|])", r"\\\1", escape(text, quote=False))
 
 
 # Reference ---------------------------------------------------------------------------------------------------

@@ -18,12 +18,10 @@ WIDTHS = "images => Promise.all(images.map(image => image.decode().then(() => im
 
 
 def examples(name):
-    """The examples of the rules of a control that no control before it has, each program once: what the first shows."""
-    before = list(DIALECTS)[: list(DIALECTS).index(name)]
+    """The examples of the rules of a control, each program once: what the first one shows."""
     found = {}
-    known = {id(rule) for other in before for rule in DIALECTS[other].rules}
-    for rule in DIALECTS[name].rules:
-        for kind, programs in (("wrong", rule.rejected), ("right", rule.accepted)) if id(rule) not in known else ():
+    for rule in DIALECTS[name].catalogue:
+        for kind, programs in (("wrong", rule.rejected), ("right", rule.accepted)):
             for number, program in enumerate(programs, 1):
                 found.setdefault(program, f"{rule.code}, {kind} {number}")
     return found

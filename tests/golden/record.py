@@ -113,7 +113,7 @@ def catalogue() -> Iterator[Case]:
 
 
 FIRST = ("yasnac-lx3", "nct-99m")
-"""The controls with which the rows are run that all controls share."""
+"""The controls with which the rows are run that controls share."""
 
 
 def is_recorded(code: str, control: str) -> bool:

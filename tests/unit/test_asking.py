@@ -1226,3 +1226,12 @@ def test_a_word_that_asks_where_it_is_missing_is_to_get_a_value():
     block = "G111 A90. C2. B180. Z-30. Q3."
     (found,) = solve(f"{block} I?", start="X20. Z0.").diagnostics
     assert found.message.endswith(": give I? a value; or add one of X, U")
+
+
+@pytest.mark.parametrize("length", ["10", "41.2", "41.3", "77"])
+def test_a_length_that_is_not_that_of_two_stated_ends_disagrees(length):
+    block = f"G17 G90 G0 X0 Y0\nG1 X30 RND=5\nX40 Y40 ; contoursolve: length of line 2 = {length}"
+    (finding,) = solve(block, control="siemens-840d").diagnostics
+    assert finding.code == "words-conflict"
+    off = abs(float(length) - 1700**0.5)
+    assert f"by {off:.3f} mm: it states {float(length):.3f} mm, they give 41.231 mm" in finding.message

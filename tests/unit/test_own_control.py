@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 
 import contoursolve
 from contoursolve.__main__ import commands
@@ -41,22 +40,6 @@ THEIRS = replace(MINE, name="theirs", find=find_as_theirs)
 """A control with forms of its own."""
 BARE = replace(MINE, name="bare", forms=())
 PAIR = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
-ROWS = [pytest.param(rule, id=rule.code) for rule in GEOMETRY_RULES]
-
-
-def codes(program):
-    control = DIALECTS["yasnac-lx3" if "G11" in program else "nct-99m" if "G17" in program else "fanuc-lathe"]
-    found = contoursolve.check(program, control=relative(control))
-    for each in found:
-        assert not set("{}") & set(each.message + each.help)
-        assert "None" not in each.message + each.help
-    return {each.code for each in found}
-
-
-@some_of("rule", ROWS, one_in=4)
-def test_the_general_rows_speak_where_a_control_has_none_of_its_own(rule):
-    assert all(rule.code in codes(program) for program in rule.rejected)
-    assert all(rule.code not in codes(program) for program in rule.accepted)
 
 
 NUMBERED = {RefusalKind.PICK_NONE, NoteKind.PICK_OPEN, NoteKind.PICK_FIRST}

@@ -21,6 +21,7 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import ANGLE_RANGE, GEOMETRY_RULES, PLANE_CHANGES, told
+from contoursolve.controls.own_words import G_CODES
 from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.gcode import FaultKind
@@ -86,6 +87,11 @@ class ExampleWords:
         """A line with a corner and an arc, but for some words."""
         each = replace(self, **words)
         return f"{each.start}{each.before_arc}\n" + _block(each.arc_code, each.arc_end, each.center)
+
+
+def gaps_of(words: ExampleWords) -> dict[str, str]:
+    """The gaps of examples of rules that all controls share (see `own_words`), with these words."""
+    return {**G_CODES, **{name: getattr(words, name) for name in ExampleWords.__slots__}}
 
 
 def _block(*words: str) -> str:

@@ -4,6 +4,7 @@ from decimal import Decimal
 from functools import partial
 
 from contoursolve.controls.cnc_pilot.contour import FROM_OPEN, LAST, NO_CODE, OVERSIZE, TOO_MUCH
+from contoursolve.controls.cnc_pilot.examples import WORDS
 from contoursolve.controls.cnc_pilot.lexicon import BOOK
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
@@ -72,4 +73,4 @@ _ROWS = (
          BOOK.printed("errors of a contour, a later control"), Value(("X",), Decimal(0)), _ANY, _CUT, ("X65", "X-4"),
          severity=Severity.WARNING),
 )  # fmt: skip
-RULES = (*_ROWS, *COMMON_RULES, *GEOMETRY_RULES)
+RULES = WORDS.tell(*_ROWS, *COMMON_RULES, *GEOMETRY_RULES)

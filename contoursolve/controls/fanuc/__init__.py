@@ -8,6 +8,7 @@ from functools import partial
 from contoursolve.controls.chain import ChainFinder, Language, forms_of
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
+from contoursolve.controls.fanuc.examples import FANUC_LATHE_WORDS, FANUC_MILL_WORDS, HAAS_LATHE_WORDS, HAAS_MILL_WORDS
 from contoursolve.controls.fanuc.language import (
     FANUC_LATHE_LANGUAGE,
     FANUC_MILL_LANGUAGE,
@@ -25,6 +26,7 @@ from contoursolve.controls.fanuc.rules import (
     HAAS_LATHE_RULES,
     HAAS_MILL_RULES,
 )
+from contoursolve.controls.own_words import OwnWords
 from contoursolve.controls.plain import LATHE, PLANES
 from contoursolve.gcode import Block, Word
 from contoursolve.reading import Dialect, Modes, Rule, Setting
@@ -42,6 +44,7 @@ def _control(
     title: str,
     modes: Modes,
     language: Language,
+    words: OwnWords,
     rules: tuple[Rule, ...],
     settings: tuple[Setting, ...],
     contours: str,
@@ -52,7 +55,7 @@ def _control(
         modes=modes,
         plane=LATHE if name.endswith("lathe") else PLANES[17],
         forms=forms_of(language, modes),
-        rules=COMMON_RULES + rules,
+        rules=words.tell(*COMMON_RULES, *rules),
         find=ChainFinder(language),
         signs=partial(_signs, frozenset(each for each in modes.lexicon.addresses if each.startswith(","))),
         contours=contours,
@@ -65,6 +68,7 @@ FANUC_LATHE = _control(
     "Fanuc lathes, G-code system A",
     LATHE_MODES,
     FANUC_LATHE_LANGUAGE,
+    FANUC_LATHE_WORDS,
     FANUC_LATHE_RULES,
     LATHE_SETTINGS,
     "lines with ,A ,C or ,R",
@@ -74,6 +78,7 @@ FANUC_MILL = _control(
     "Fanuc mills",
     MILL_MODES,
     FANUC_MILL_LANGUAGE,
+    FANUC_MILL_WORDS,
     FANUC_MILL_RULES,
     MILL_SETTINGS,
     "lines and arcs with ,C or ,R",
@@ -83,6 +88,7 @@ HAAS_LATHE = _control(
     "Haas lathes",
     HAAS_LATHE_MODES,
     HAAS_LATHE_LANGUAGE,
+    HAAS_LATHE_WORDS,
     HAAS_LATHE_RULES,
     HAAS_LATHE_SETTINGS,
     "lines with A, and lines with ,C or ,R",
@@ -92,6 +98,7 @@ HAAS_MILL = _control(
     "Haas mills",
     HAAS_MILL_MODES,
     HAAS_MILL_LANGUAGE,
+    HAAS_MILL_WORDS,
     HAAS_MILL_RULES,
     HAAS_MILL_SETTINGS,
     "lines with ,C or ,R",

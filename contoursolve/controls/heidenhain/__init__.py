@@ -4,6 +4,7 @@ Its words, elements and rules come in; a control goes out. Begin with `elements`
 """
 
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
+from contoursolve.controls.heidenhain.examples import WORDS
 from contoursolve.controls.heidenhain.find import find
 from contoursolve.controls.heidenhain.follow import follow
 from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SETTINGS, SYNTAX, shown_by
@@ -19,7 +20,7 @@ HEIDENHAIN = Dialect(
     modes=Modes(LEXICON, CODES, ("X", "Y", "Z"), frozenset(), syntax=SYNTAX, follow=follow, language=klartext()),
     plane=PLANES[17],
     forms=(),
-    rules=RULES,
+    rules=WORDS.tell(*RULES),
     find=find,
     signs=shown_by,
     contours="free contours with FL, FLT, FC and FCT; moves with RND, CHF or CT",

@@ -10,7 +10,8 @@ from contoursolve.controls.chain.language import (
     OTHER_DIAMETER,
     OVER_LINE,
 )
-from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, ExampleWords, Manual, rules_of
+from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
+from contoursolve.controls.isg.examples import EXAMPLES, WORDS
 from contoursolve.controls.isg.language import NO_SIZE
 from contoursolve.controls.isg.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence
@@ -34,7 +35,7 @@ MANUAL = Manual(
     chamfers=("#CHR", "#CHF"),
     rounding="#RND",
     radius="R",
-    examples=ExampleWords(angle="#ANG=", corner="#RND=", radius="R20", before_arc="G1 X40 #RND=6"),
+    examples=EXAMPLES,
     alarms={
         code: Alarm(number, Evidence.ASSUMED if code == "corner-both" else Evidence.PRINTED)
         for code, number in _IDS.items()
@@ -77,4 +78,4 @@ _GEOMETRY = {
     "corner-straight": (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
     "line-reversed": (MANUAL.angled, MANUAL.angled.replace("X40", "X-40")),
 }
-RULES = rules_of(MANUAL, _OWN, _GEOMETRY)
+RULES = WORDS.tell(*rules_of(MANUAL, _OWN, _GEOMETRY))

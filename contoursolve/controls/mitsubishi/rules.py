@@ -22,6 +22,7 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import ANGLE_RANGE, ANGLE_RAPID, GEOMETRY_RULES, PLANE_CHANGES, told
+from contoursolve.controls.mitsubishi.examples import WORDS
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,
     FROM_END,
@@ -184,4 +185,4 @@ _OWN = (
     told("mitsubishi-corner-too-large", _CUT, (",C5.", ",C31.")),
 )
 _COMMON = tuple(rule for rule in COMMON_RULES if rule.code != "no-point")
-RULES = (*_COMMON, *_ROWS, *_OWN, *GEOMETRY_RULES)
+RULES = WORDS.tell(*_COMMON, *_ROWS, *_OWN, *GEOMETRY_RULES)

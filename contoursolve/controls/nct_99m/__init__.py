@@ -3,6 +3,7 @@
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
+from contoursolve.controls.nct_99m.examples import WORDS
 from contoursolve.controls.nct_99m.language import LANGUAGE, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
@@ -43,7 +44,7 @@ NCT_99M = Dialect(
     modes=MODES,
     plane=XY,
     forms=forms_of(LANGUAGE, MODES),
-    rules=COMMON_RULES + COMBINATION_RULES + GEOMETRY_RULES,
+    rules=WORDS.tell(*COMMON_RULES, *COMBINATION_RULES, *GEOMETRY_RULES),
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="blocks with ,A ,C or ,R, arcs with R, and intersections by ,A or by end, centre and R",

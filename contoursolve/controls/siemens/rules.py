@@ -14,7 +14,8 @@ from contoursolve.controls.chain.language import (
     SMOOTH,
     STATED_CENTER,
 )
-from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, ExampleWords, Manual, rules_of
+from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
+from contoursolve.controls.siemens.examples import EXAMPLES, WORDS
 from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_ANGLE
 from contoursolve.controls.siemens.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence, Severity
@@ -37,7 +38,7 @@ MANUAL = Manual(
     chamfers=("CHR", "CHF"),
     rounding="RND",
     radius="CR",
-    examples=ExampleWords(angle="ANG=", corner="RND=", radius="CR=20", before_arc="G1 X40 RND=6"),
+    examples=EXAMPLES,
     plane="; for a lathe, set siemens-840d.machine=lathe",
     alarms={code: Alarm(number, Evidence.ASSUMED) for code, number in _ALARMS.items()}
     | {"radius-difference": Alarm("14040 (error in the end point of a circle)", Evidence.PRINTED)},
@@ -93,7 +94,7 @@ _HELPS = {
         MANUAL.cut.replace("RND=5", "RND5"),
     ),
 }
-RULES = rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS)
+RULES = WORDS.tell(*rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS))
 _REDUCED = "; the control makes it smaller by itself, to a size that is not printed"
 RULES_REDUCING = tuple(
     replace(rule, message=rule.message + _REDUCED) if rule.code == "siemens-corner-too-large" else rule

@@ -4,6 +4,7 @@ from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.plain import LATHE
 from contoursolve.controls.yasnac_lx3.arc import ARC_FORMS, ARC_RULES
+from contoursolve.controls.yasnac_lx3.examples import WORDS
 from contoursolve.controls.yasnac_lx3.find import find, follow
 from contoursolve.controls.yasnac_lx3.g111 import G111, G111_RULES
 from contoursolve.controls.yasnac_lx3.g112 import G112_FORMS, G112_RULES
@@ -33,7 +34,7 @@ YASNAC_LX3 = Dialect(
     modes=MODES,
     plane=LATHE,
     forms=(G111, *G112_FORMS, *LEAVING_FORMS, *ARC_FORMS),
-    rules=COMMON_RULES + G111_RULES + G112_RULES + LEAVING_RULES + ARC_RULES,
+    rules=WORDS.tell(*COMMON_RULES, *G111_RULES, *G112_RULES, *LEAVING_RULES, *ARC_RULES),
     find=find,
     signs=_signs,
     contours="G111, G112, G11, G12, and G01 with I or K",

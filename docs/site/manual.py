@@ -1,0 +1,334 @@
+"""The manual of each control, from its tables and from examples that are run: its words, its rules, its alarms."""
+
+import re
+from collections.abc import Iterator, Mapping
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from hashlib import sha256
+from html import escape
+from itertools import groupby
+
+from contoursolve.controls import COMMON_RULES, DIALECTS, GEOMETRY_RULES
+from contoursolve.diagnostics import Diagnostic
+from contoursolve.gcode import FaultKind
+from contoursolve.geometry import Unit
+from contoursolve.output import alarm_rows
+from contoursolve.pictures import draw_result
+from contoursolve.program import Result
+from contoursolve.reading import THIS_CONTROL, Address, Code, Dialect, Effect, ReadIssue, Rule, WithoutPoint
+from contoursolve.try_edits import try_example
+
+MOST_RULES = 12
+"""Rules on a page."""
+
+LONGEST = 100
+"""Characters of a line that is shown; only the rule about long blocks has longer ones."""
+
+_READING = frozenset(rule.code for rule in COMMON_RULES if isinstance(rule.about, ReadIssue))
+_FACTS = re.compile(
+    r"fact|reference-|trusted|asked|start-units|start-diam|words-(missing|conf|red)|several|no-point|axis-"
+)
+_GENERAL = _READING | {rule.code for rule in (*COMMON_RULES, *GEOMETRY_RULES)}
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """An example as a page shows it: the program, what is said of it, and its picture, or nothing; and the addresses of
+    its words, and of those that the finding marks."""
+
+    text: str
+    told: str
+    picture: str
+    addresses: frozenset[str]
+    marked: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Manual:
+    """A control with the examples of its rules as they were run, and the pictures by name."""
+
+    control: str
+    shown: Mapping[str, tuple[tuple[Shown, ...], tuple[Shown, ...]]]
+    pictures: Mapping[str, str]
+
+    @property
+    def dialect(self) -> Dialect:
+        """The tables."""
+        return DIALECTS[self.control]
+
+    @property
+    def groups(self) -> dict[str, list[Rule]]:
+        """The rules by the page on which they stand."""
+        ordered = sorted(self.dialect.catalogue, key=lambda rule: (group_of(rule), rule.code))
+        found = {}
+        for name, several in groupby(ordered, key=group_of):
+            rules = [*several]
+            parts = [rules[begin : begin + MOST_RULES] for begin in range(0, len(rules), MOST_RULES)]
+            found |= {f"{name}-{number}" if parts[1:] else name: part for number, part in enumerate(parts, 1)}
+        return found
+
+    def place(self, code: str) -> str:
+        """The page and the anchor of a rule, seen from the folder `rules`."""
+        name = next(name for name, rules in self.groups.items() if any(rule.code == code for rule in rules))
+        return f"{self.control}/{name}.md#{code}"
+
+
+def group_of(rule: Rule) -> str:
+    """The group of a rule: a control's own ones by the begin of their codes."""
+    if rule.code not in _GENERAL:
+        return f"own-{rule.code.partition('-')[0]}"
+    if isinstance(rule.about, FaultKind):
+        return "characters"
+    return "facts" if _FACTS.match(rule.code) else "programs" if rule.code in _READING else "geometry"
+
+
+TITLES = {
+    "characters": "characters and numbers",
+    "facts": "what a contour needs, and facts",
+    "programs": "words, positions, programs",
+    "geometry": "lines, arcs and corners",
+}
+
+
+def title_of(name: str) -> str:
+    """The title of a page of rules."""
+    group, _, number = re.fullmatch(r"(own-[a-z0-9]+|[a-z]+)(-(\d+))?", name).groups()  # type: ignore[union-attr]
+    told = TITLES.get(group) or f"rules of {group.removeprefix('own-').upper()}"
+    return f"{told} ({number})" if number else told
+
+
+def manuals() -> list[Manual]:
+    """All controls, each with its examples run. Ends the build at one that does not say what it is for."""
+    with ProcessPoolExecutor() as pool:
+        return [*pool.map(manual_of, DIALECTS)]
+
+
+def manual_of(control: str) -> Manual:
+    """A control with its examples run, and the pictures of those that show something."""
+    dialect, shown, pictures = DIALECTS[control], {}, dict[str, str]()
+    for rule in dialect.catalogue:
+        if not rule.accepted or not rule.rejected:
+            raise SystemExit(f"{control} has no example of {rule.code}: add a gap or a slip to its examples.py")
+        wrong = tuple(_shown(dialect, rule, text, pictures, is_right=False) for text in rule.rejected)
+        shown[rule.code] = wrong, tuple(_shown(dialect, rule, text, pictures, is_right=True) for text in rule.accepted)
+    return Manual(control, shown, pictures)
+
+
+def _shown(dialect: Dialect, rule: Rule, text: str, pictures: dict[str, str], *, is_right: bool) -> Shown:
+    for depth in ("verdict", "full"):  # few findings need all that is known
+        result = try_example(dialect, rule, text, depth)
+        told = next((each for each in result.diagnostics if each.code == rule.code), None)
+        if is_right or told:
+            break
+    if (told is None) is not is_right or (is_right and result.has_errors):
+        raise SystemExit(f"{dialect.name}: an example of {rule.code} says something else:\n{text}")
+    is_drawn = result.answers and (is_right or group_of(rule).startswith(("own", "geometry")))
+    name = f"{sha256(f'{dialect.name}{rule.options}{text}'.encode()).hexdigest()[:16]}.svg" if is_drawn else ""
+    if name and name not in pictures:
+        pictures[name] = draw_result(result).svg
+    message = f"{told.message}; {told.help}" if told else ""
+    return Shown(text, message, name, _addresses(result), _marked(result, told) if told else frozenset())
+
+
+def _addresses(result: Result) -> frozenset[str]:
+    return frozenset(word.address for block in result.program.blocks for word in block.words)
+
+
+def _marked(result: Result, told: Diagnostic) -> frozenset[str]:
+    spans = {label.span for label in told.labels}
+    return frozenset(word.address for block in result.program.blocks for word in block.words if word.span in spans)
+
+
+# Pages -------------------------------------------------------------------------------------------------------
+
+
+def control_page(manual: Manual) -> Iterator[str]:
+    """The page that leads to the words, rules, settings and assumptions of a control."""
+    dialect, rules = manual.dialect, sorted(manual.dialect.catalogue, key=lambda rule: rule.code)
+    yield f"# {dialect.title}\n"
+    yield f"contoursolve calls it `{dialect.name}`. Its contours are {dialect.contours}.\n"
+    yield f"* [Its words]({dialect.name}/words.md): what each means, a right block, and what goes wrong with it"
+    yield "* [Alarm numbers](alarms.md) of the machine, and what they mean"
+    yield f"\n## All {len(rules)} rules {{ #rules }}\n"
+    yield "| rule | what it says | severity | grade | alarm |\n|---|---|---|---|---|"
+    for rule in rules:
+        alarm = f"{rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else ""
+        cells = (plain(rule.title), rule.severity.value, rule.source.evidence.value, alarm)
+        yield f"| [{rule.code}]({manual.place(rule.code)}) | {' | '.join(cells)} |"
+    yield "\n## Settings { #settings }\n"
+    yield "What the manual leaves open, and you can choose:\n"
+    for setting in dialect.settings:
+        yield f"* **{plain(setting.meaning)}** ({plain(str(setting.source))})"
+        for value, meaning in setting.values.items():
+            default = ", the default" if value == setting.default else ""
+            yield f"    * `--set {dialect.name}.{setting.name}={value}`{default}: {plain(meaning)}"
+        if setting.bounds:
+            yield f"    * {plain(setting.choices(''))}"
+    yield "\n## Assumptions { #assumptions }\n"
+    for each in dialect.assumptions:
+        yield f"* `{each.name}`: {plain(each.meaning)} ({plain(str(each.source))})"
+
+
+def rules_page(manual: Manual, name: str) -> Iterator[str]:
+    """A group of rules: each with what it says, why, a wrong block and a right one, alarm, source and grade."""
+    yield f"# {manual.dialect.title}: {title_of(name)}\n"
+    yield f"[All rules of this control](../{manual.control}.md) · [Its words](words.md)"
+    for rule in manual.groups[name]:
+        yield from _rule_section(manual, rule)
+
+
+def _rule_section(manual: Manual, rule: Rule) -> Iterator[str]:
+    yield f"\n## {rule.code} {{ #{rule.code} }}\n"
+    yield f"{rule.severity.value.capitalize()}: {plain(rule.title)}\n"
+    yield f"* What to do: {plain(rule.advice)}"
+    if rule.note:
+        yield f"* Good to know: {plain(rule.note)}"
+    yield f"* Source: {plain(str(rule.source))}"
+    if rule.alarm:
+        yield f"* Alarm of the control: {rule.alarm.number} ({rule.alarm.evidence.value})"
+    if rule.options:
+        yield f"* These blocks are checked with `{rule.options.replace(THIS_CONTROL, manual.control)}`"
+    for title, examples in zip(("Wrong", "Right"), manual.shown[rule.code], strict=True):
+        for each in examples:
+            yield f"\n{title}:\n"
+            yield from fenced(each.text)
+            if each.told:
+                yield f"\n> {plain(each.told)}"
+            if each.picture:
+                yield f"\n![{title} block of {rule.code}](../pictures/{each.picture}){{ width=420 loading=lazy }}"
+    if rule.file:
+        name, _, text = rule.file.partition("\n")
+        yield f"\nThe file `{name}` beside it:\n"
+        yield from fenced(text)
+
+
+def contour_codes(dialect: Dialect) -> list[Code]:
+    """The codes that begin a contour or make a corner, if they are no words with a number."""
+    codes, words = dialect.modes.codes.values(), dialect.modes.lexicon.addresses
+    return [code for code in codes if code.effect in (Effect.CONTOUR, Effect.CORNER) and code.text not in words]
+
+
+def words_title(dialect: Dialect) -> str:
+    """The title of the page of words: with its codes, which the search finds then before all that contains them."""
+    return " ".join(("words", *(code.text for code in contour_codes(dialect))))
+
+
+def words_page(manual: Manual) -> Iterator[str]:
+    """The words of a control: each with its meaning, unit, a right block, and what goes wrong with it."""
+    dialect = manual.dialect
+    yield f"# {dialect.title}: {words_title(dialect)}\n"
+    yield f"[All rules of this control](../{manual.control}.md#rules)\n"
+    yield plain(f"Numbers: {_numbers(dialect)} ({dialect.modes.lexicon.numbers.source}).")
+    for row in dialect.modes.lexicon.addresses.values():
+        yield from _word_section(manual, typed(row.address, manual), row.address, row.meaning, _kind(row, dialect), row)
+    for code in contour_codes(dialect):
+        yield from _word_section(manual, code.text, code.text, code.meaning, "a code of contours", code)
+    variable = next((rule for rule in dialect.catalogue if rule.about is ReadIssue.VARIABLE), None)
+    if variable:
+        text = next(iter(re.findall(r"#\d+|\b[RPQ]\d{1,3}\b", variable.rejected[0])), "")
+        name = "#500" if text.startswith("#") else text
+        yield f"\n## {name}, a variable\n"
+        yield f"A number may be a variable: `{text}`. Its value is that of the program, or of `--let {text}=NUMBER`.\n"
+        yield f"* What goes wrong with it: [{variable.code}](../{manual.place(variable.code)})"
+
+
+def typed(address: str, manual: Manual) -> str:
+    """An address as it is typed: with an equals sign where numbers of it need one."""
+    texts = (each.text for pair in manual.shown.values() for examples in pair for each in examples)
+    name = address.partition("=")[0]
+    has_sign = len(name) > 1 and any(f"{name}=" in text for text in texts)
+    return address if "=" in address or not has_sign else f"{address}="
+
+
+def _numbers(dialect: Dialect) -> str:
+    numbers = dialect.modes.lexicon.numbers
+    if numbers.without_point is WithoutPoint.AS_WRITTEN:
+        return "one without a decimal point is in mm, or inches, as one with a point"
+    return f"one without a decimal point counts steps of {numbers.mm} mm: 12 is {12 * numbers.mm} mm"
+
+
+_UNITS = {Unit.MM: "mm, or inches", Unit.DEGREE: "degrees", Unit.SIGN: "its sign or its number counts"}
+
+
+def _kind(row: Address, dialect: Dialect) -> str:
+    """The unit of a word's number, and from where it is counted."""
+    told = [_UNITS[row.unit]]
+    if row.axis:
+        codes = {code.effect: code.text for code in reversed(dialect.modes.codes.values())}
+        modal = [codes.get(effect) for effect in (Effect.ABSOLUTE, Effect.INCREMENTAL)]
+        by_code = f"absolute with {modal[0]}, an increment with {modal[1]}" if all(modal) else "absolute"
+        told.append(f"counted along {row.axis}")
+        told.append("an increment" if row.is_increment else "absolute" if row.is_absolute else by_code)
+        if row.axis == "X" and dialect.diameter is not None:
+            told.append("a diameter or a radius, as the program or a setting says")
+        elif row.is_diameter:
+            told.append("a diameter")
+    return "; ".join(told)
+
+
+def _word_section(
+    manual: Manual, name: str, address: str, meaning: str, kind: str, row: Address | Code
+) -> Iterator[str]:
+    yield f"\n## {name} {{ #{re.sub('[^a-z0-9]+', '-', name.lower()).strip('-') or 'word'}-word }}\n"
+    yield f"`{name}`: {plain(meaning)}\n"
+    yield f"* Unit: {plain(kind)}"
+    yield f"* Source: {plain(str(row.source))}"
+    where = re.compile(rf"(?<![\w,#]){re.escape(name)}(?![A-Za-z])")
+    touching = [each for each in manual.dialect.settings if where.search(f"{each.meaning} {' '.join(each.values)}")]
+    if touching:
+        told = ", ".join(f"`{each.name}` ({plain(each.meaning)})" for each in touching)
+        yield f"* Settings: [{told}](../{manual.control}.md#settings)"
+    wrong = [
+        code
+        for code, (examples, _) in manual.shown.items()
+        if any(
+            address in each.marked or (isinstance(row, Code) and code.startswith(address.lower())) for each in examples
+        )
+    ]
+    if wrong:
+        links = ", ".join(f"[{code}](../{manual.place(code)})" for code in sorted(wrong))
+        yield f"* What goes wrong with it: {links}"
+    right = sorted(
+        (
+            each
+            for _, examples in manual.shown.values()
+            for each in examples
+            if address in each.addresses or (isinstance(row, Code) and where.search(each.text))
+        ),
+        key=lambda each: (not each.picture, len(each.text), each.text),
+    )
+    if right:
+        yield "\nRight:\n"
+        yield from fenced(right[0].text)
+        if right[0].picture:
+            yield f"\n![A right block with {name}](../pictures/{right[0].picture}){{ width=420 loading=lazy }}"
+
+
+def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:
+    """The alarm numbers of all machines, each with what contoursolve says of it."""
+    yield "# Alarm numbers\n"
+    yield "Look for the number that your machine shows. `contoursolve explain NUMBER` says the same in the terminal.\n"
+    places = {manual.control: manual for manual in all_manuals}
+    rows: dict[str, list[str]] = {}
+    for row in alarm_rows(DIALECTS.values()):
+        manual = places[row.control]
+        told = f"[{row.rule.code}]({manual.place(row.rule.code)})" if row.rule.code in manual.shown else row.rule.code
+        line = f"* {manual.dialect.title}, {plain(row.alarm.number)} ({row.alarm.evidence.value}): {told}, "
+        for number in row.numbers:
+            rows.setdefault(number, []).append(line + plain(row.rule.title))
+    for number in sorted(rows, key=lambda each: (not each.isdigit(), len(each), each)):
+        is_newer = len(number) == len("055") and any("Fanuc" in line for line in rows[number])
+        yield f"\n## {number}{f', PS{number:0>4}' if is_newer else ''}\n"
+        yield from dict.fromkeys(rows[number])
+
+
+def fenced(text: str) -> Iterator[str]:
+    """A block of a program."""
+    yield "````text"
+    yield from (line if len(line) <= LONGEST else f"{line[:LONGEST]} ..." for line in text.rstrip("\n").split("\n"))
+    yield "````"
+
+
+def plain(text: str) -> str:
+    """Text of the tables as text of a page, whose gaps `<word>` are no HTML."""
+    return re.sub(r"([\\`*_\[\]|#])", r"\\\1", escape(text, quote=False))
