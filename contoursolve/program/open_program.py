@@ -386,7 +386,8 @@ class OpenProgram:
 
     def _begin(self) -> None:
         """Make everything stale."""
-        self._diagnostics, self._walk, self._parts, self._moves, self._examination = None, None, [], [], None
+        self._diagnostics, self._walk, self._unread = None, None, None
+        self._parts, self._moves, self._examination = [], [], None
         self._lines.spell(self.syntax)
         # A program that calls or computes is examined as a whole, or that names words for all of it.
         if (

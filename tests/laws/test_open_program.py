@@ -75,6 +75,14 @@ def compare(program: OpenProgram, text: str, control: str | None) -> None:
             assert lines == fresh.lines_of(finding)
 
 
+def test_a_program_with_variables_is_examined_again_for_another_control() -> None:
+    text = "#1=20.\nG00 X30. Z0.\nG01 Z-#1 ,R3.\nX60. ,A150.\n"
+    program = OpenProgram(text)
+    for control in (None, "fanuc-lathe"):
+        program.configure(control, {})
+        compare(program, text, control)
+
+
 def edit_at_random(text: str, name: str, control: str | None, seed: int, edits: int) -> None:
     draw = random.Random(seed)
     program = OpenProgram(text, control=control)
