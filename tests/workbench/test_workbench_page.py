@@ -273,6 +273,7 @@ def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened)
     for view in ("Contour", "Tool", "Variables", "Drawing"):
         show(page, view)
     assert not page.locator(".trouble:not(:empty)").count()
+    assert not page.locator(".findings .scroll > button:visible").count()
     head = page.locator(".head").bounding_box()
     page.get_by_role("button", name="Do").click()
     page.get_by_role("menuitem", name="Expand into").click()
@@ -285,6 +286,13 @@ def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened)
     page.keyboard.type("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
     page.locator(".drawing svg").first.wait_for()
     assert not page.locator(".trouble:not(:empty)").count()
+    # Nothing is found where the controls differ, for nothing is checked.
+    page.keyboard.press("Control+a")
+    page.keyboard.type("G18 G99\nG00 X20. Z2.\nG01 Z-10. ,R4.\nX24. ,C5.\nZ-30.\nX40. ,A100. Z-42.\n")
+    page.get_by_role("heading", name="Not checked").wait_for()
+    page.locator(".findings .scroll", has_text="differently").wait_for()
+    page.get_by_label("Control").select_option("fanuc-lathe")
+    page.get_by_role("heading", name="error").wait_for()
 
 
 def test_converted_for_the_controls_of_the_same_machine_and_verified_in_a_sentence(opened) -> None:

@@ -307,7 +307,7 @@ export class App {
     const from = view.control_from === "program" ? "words" : view.control_from;
     if (open) open.text = view.control && from !== "choice" ? `${view.control.title} (the ${from} say${from === "words" ? "" : "s"} so)` : "as the words tell";
     if (!this.control.matches(":focus")) this.control.value = this.pane.control;
-    this.facts.textContent = [view.unit, view.trouble_control].filter(Boolean).join(" · ");
+    this.facts.textContent = [view.unit, view.control && view.trouble_control].filter(Boolean).join(" · ");
     if (this.isEmbedded) this.address.write(text, this.pane.control);
   }
 

@@ -61,12 +61,14 @@ export function drawingPanel(go: (line: number) => void, open: (line: number) =>
       paper.replaceChildren(...picture(svg ?? ""));
       relight();
     },
-    list(contours: ContourRow[]) {
+    list(contours: ContourRow[], isUnread: boolean) {
+      const none = isUnread ? "Nothing is drawn as long as the control is not known." : "There is no contour to solve in this program yet.";
+      if (!contours.length && said.textContent !== none) said.textContent = none;
       if (contours === listed) return;
       listed = contours;
       const { length } = contours;
       const most = length > MOST ? `; the first ${MOST} are listed, the text has a mark at each` : "";
-      said.textContent = length ? `${length} ${length === 1 ? "contour" : "contours"}${most}. Touch one to see its text.` : "There is no contour to solve in this program yet.";
+      if (length) said.textContent = `${length} ${length === 1 ? "contour" : "contours"}${most}. Touch one to see its text.`;
       rows.show(contours.map(placeOf));
       relight();
     },

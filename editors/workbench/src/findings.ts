@@ -6,17 +6,20 @@ const MOST = 100; // that are shown at first
 const KINDS = { error: "Error", warning: "Warning", info: "Note" };
 
 // `left` were not sent, `progress` says how far the program is examined, `here` are numbers of those at the cursor.
-export type Told = { findings: Placed[]; left: number; progress: string; lineOf: (at: number) => number; here: Set<number> };
+// A program whose control is not known is `unread`, for this reason.
+export type Told = { findings: Placed[]; unread: string; left: number; progress: string; lineOf: (at: number) => number; here: Set<number> };
 
 export function findingsList(go: (finding: number) => void, fix: (finding: number, fix: number) => void) {
-  let told: Told = { findings: [], left: 0, progress: "", lineOf: () => 1, here: new Set() };
+  let told: Told = { findings: [], unread: "", left: 0, progress: "", lineOf: () => 1, here: new Set() };
   let most = MOST;
+  const reason = make("p", {});
   const list = make("ol", {});
-  const more = button("", () => {
+  const show = () => {
     most += 10 * MOST;
     render();
-  });
-  const box = scroller("div", "List of findings", { class: "scroll" }, list, more);
+  };
+  const more = button("", show, { hidden: true });
+  const box = scroller("div", "List of findings", { class: "scroll" }, reason, list, more);
   const title = make("h2", { "aria-live": "polite" });
 
   function render(): void {
@@ -55,6 +58,8 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
       if (!isSame) render();
       const said = [summary(now), now.progress].filter(Boolean).join(". ");
       if (title.textContent !== said) title.textContent = said;
+      reason.textContent = now.unread && `${now.unread}\nChoose the control above.`;
+      reason.hidden = !now.unread;
       [...list.children].forEach((each, number) => each.classList.toggle("here", now.here.has(number)));
       const lit = list.querySelector(".here");
       if (lit && !box.contains(activeIn(box))) box.scrollTop += lit.getBoundingClientRect().top - box.getBoundingClientRect().top - 4;
@@ -62,7 +67,8 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
   };
 }
 
-function summary({ findings, left }: Told): string {
+function summary({ findings, unread, left }: Told): string {
+  if (unread) return "Not checked";
   const counts = Object.entries(KINDS).map(([kind, name]) => [name.toLowerCase(), findings.filter((each) => each.finding.severity === kind).length] as const);
   const told = counts.filter(([, count]) => count).map(([name, count]) => `${count} ${name}${count === 1 ? "" : "s"}`);
   return (told.join(", ") || "No findings") + (left ? `, and ${left} more when these are mended` : "");

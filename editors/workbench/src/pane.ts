@@ -138,11 +138,12 @@ export class ProgramPane {
     const { state } = program;
     const { findings } = marksOf(state);
     const here = new Set(findings.flatMap((each, number) => (touches(each, state.selection.main.head, state) ? [number] : [])));
-    const { examined, lines, more_findings } = program.view;
+    const { examined, lines, more_findings, control, trouble_control } = program.view;
+    const unread = control ? "" : trouble_control;
     const progress = examined < lines ? `${examined} of ${lines} lines are examined` : "";
     const lineOf = (place: number) => state.doc.lineAt(Math.min(place, state.doc.length)).number;
-    this.findings.show({ findings, left: more_findings ?? 0, progress, lineOf, here });
-    this.drawing.list(program.contours);
+    this.findings.show({ findings, unread, left: more_findings ?? 0, progress, lineOf, here });
+    this.drawing.list(program.contours, unread !== "");
     this.drawing.light(this.here?.line ?? null);
     this.lightRow();
     this.showTool();
