@@ -38,6 +38,8 @@ _ENDS = (("Z", "ZI"), ("X", "XI"))
 _NAMES = {"XI": "IX", "ZI": "IZ", "I": "CCX", "K": "CCZ"}
 _WORDS = PlaneWords(LATHE.axes, across=(), has_corners=True)
 _FACES = structs.replace(_WORDS, chamfer=CornerShape.CHAMFER_FACE)
+_STRAIGHT = 1e-6
+"""The sine of the turn up to which two elements touch, so that there is no corner."""
 _ALONG = (Side.NEARER, Side.FARTHER)
 
 
@@ -233,6 +235,7 @@ _TANGENCY = Assumption(
 @lru_cache(maxsize=2048)
 def _form(elements: tuple[FkElement, ...], labels: tuple[str, ...], words: PlaneWords, is_open: bool) -> ContourForm:
     form = compose(elements, labels, (), words)
+    form = replace(form, outline=replace(form.outline, guard=_STRAIGHT))
     free = replace(form.free, swaps={}, picking="")
     form = replace(form, name="din-plus", title="contour of lines and arcs", assumptions=(_TANGENCY,), free=free)
     return replace(form, is_general=is_open)
