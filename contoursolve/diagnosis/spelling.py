@@ -475,6 +475,8 @@ def _counted(context: Context, claim: ParsedContour) -> Mapping[Word, str]:
 def counted_text(given: Given, unit: Length) -> str:
     """The value of a word that counts least increments because it has no decimal point; empty for another one."""
     word, typed = given.word, given.value * 2 if given.is_diameter else given.value
+    if given.clockwise_from is not None:
+        typed = given.clockwise_from - typed
     if word is None or word.has_point or not word.number or abs(typed) >= abs(word.number):
         return ""
     return length_text(float(typed), unit) if given.unit is Unit.MM else angle_text(float(typed))

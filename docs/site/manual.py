@@ -293,7 +293,7 @@ def _word_section(
             each
             for _, examples in manual.shown.values()
             for each in examples
-            if address in each.addresses or (isinstance(row, Code) and where.search(each.text))
+            if address in each.addresses or (len(name) > 1 and where.search(each.text))
         ),
         key=lambda each: (not each.picture, len(each.text), each.text),
     )

@@ -43,7 +43,8 @@ def check_example(dialect, rule, program, is_right) -> None:
     assert not (is_right and result.has_errors)
     assert found <= {each.code for each in dialect.catalogue}
     for each in result.diagnostics:
-        line = program.split("\n")[each.span.line - 1]
+        # Line 0 is the start point that an option states.
+        line = program.split("\n")[each.span.line - 1] if each.span.line else "X" * each.span.end_column
         assert 1 <= each.span.column < each.span.end_column <= max(len(line), 1) + 1
         assert not set("{}") & set(each.message + each.help)
         assert "None" not in each.message + each.help
