@@ -156,7 +156,7 @@ def _read(text: str, name: str) -> Program:
     return gcode.parse(text, name)
 
 
-_FILE = re.compile(r"[^\n]*\.(?:nc|ngc|cnc|tap|txt|mpf|spf|eia|min|h|gcode|iso)", re.IGNORECASE)
+_FILE = re.compile(rf"[^\n]*(?:{'|'.join(map(re.escape, (*gcode.ENDINGS, '.txt')))})", re.IGNORECASE)
 """Text that is meant as the name of a program. No block ends so: behind a point there is a digit."""
 
 

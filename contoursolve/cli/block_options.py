@@ -27,7 +27,7 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import say
-from contoursolve.diagnostics import json_text, need
+from contoursolve.diagnostics import need
 from contoursolve.families import TOOL, FamilyError, RefusedError, name_of
 from contoursolve.gcode import parse
 from contoursolve.reading import ReadIssue
@@ -57,10 +57,6 @@ block_options = together(_about_block(is_required=True), _reading_options)
 
 program_options = together(_about_block(is_required=False), _reading_options)
 """The same for a command that takes a program, too."""
-
-format_option = click.option(
-    "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
-)
 
 fact_option = click.option(
     "--fact", "facts", multiple=True, metavar="FACT", help="A further fact, as for solve; may be repeated."
@@ -103,11 +99,6 @@ def read_within(text: str) -> tuple[float, float]:
         return float(low), float(high)
     except ValueError:
         raise click.UsageError(f"--within {text}: write LOW:HIGH, such as 0.1:50") from None
-
-
-def print_json(document: dict[str, Any]) -> None:
-    """One JSON document."""
-    click.echo(json_text(document))
 
 
 MOST = 10_000_000

@@ -2,8 +2,8 @@
 
 import click
 
-from contoursolve.cli.options import CouldNotRunError, control_option
-from contoursolve.cli.printing import print_lines, say
+from contoursolve.cli.options import CouldNotRunError, control_option, format_option
+from contoursolve.cli.printing import print_json, print_lines, say
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import did_you_mean
 from contoursolve.reading import Dialect
@@ -17,11 +17,20 @@ from contoursolve.reading import Dialect
     is_flag=True,
     help="Instead: every set of words of every form, with what the manual and the equations say of it.",
 )
-def rules(control: str | Dialect | None, is_table: bool) -> None:
-    """List the whole catalogue of rules and findings, with their evidence and the control's alarms."""
-    from contoursolve.output import catalogue_lines, word_set_lines  # noqa: PLC0415 - only here
+@format_option
+def rules(control: str | Dialect | None, is_table: bool, format_: str) -> None:
+    """List the whole catalogue of rules and findings, with their evidence and the control's alarms.
+
+    --format json also has the advice and the examples of each rule, and every setting.
+    """
+    from contoursolve.output import catalogue_data, catalogue_lines, word_set_lines  # noqa: PLC0415 - only here
 
     chosen = _chosen(control)
+    if format_ == "json":
+        if is_table:
+            raise click.UsageError("--table is text: leave out --table or --format json")
+        print_json(catalogue_data(chosen))
+        return
     print_lines(word_set_lines(chosen) if is_table else catalogue_lines(chosen))
 
 

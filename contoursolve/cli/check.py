@@ -1,13 +1,14 @@
 """The command `check`: the findings about programs, and their fixes."""
 
 import sys
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
 import click
 
 from contoursolve import __version__
-from contoursolve.cli.fixing import fix_options, fixed, read_fixing
+from contoursolve.cli.fixing import MACHINE_READ, fix_options, fixed, read_fixing
 from contoursolve.cli.options import (
     COULD_NOT_RUN,
     FILE,
@@ -24,7 +25,7 @@ from contoursolve.cli.options import (
 from contoursolve.cli.printing import is_screen, print_lines, print_pieces, say, style_of_output
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import Severity, UserError
-from contoursolve.gcode import STANDARD_INPUT, Program, check_target, write_whole
+from contoursolve.gcode import ENDINGS, STANDARD_INPUT, Program, check_target, write_whole
 from contoursolve.output import (
     MOST_ALIKE,
     Baseline,
@@ -52,10 +53,11 @@ _NOTHING = "nothing"
 @click.option(
     "--format",
     "format_",
-    type=click.Choice(["text", "json", "sarif", "github"]),
+    type=click.Choice(["text", *MACHINE_READ]),
     default="text",
     show_default=True,
-    help="What to print: text, one JSON document, SARIF 2.1.0, or GitHub's annotations.",
+    help="What to print: text, one JSON document, SARIF 2.1.0, GitHub's annotations, GitLab's code quality report, or "
+    "JUnit's XML.",
 )
 @click.option(
     "--fail-on",
@@ -98,11 +100,14 @@ def check(
     assignments: tuple[str, ...],
     **options: Any,
 ) -> None:
-    """Report the findings about each PROGRAM (files, or - for standard input), without the contours.
+    """Report the findings about each PROGRAM (files, folders, or - for standard input), without the contours.
 
     Outside contours, check reports only faults that can change a contour: in its start point, plane, unit or mode, or
     in the value of a word. --strict also reports those that change none. Each finding shows at most two reasons and two
-    fixes; --explain shows all. Several programs end with a table, the worst first. A name may have wildcards: * ? [ ].
+    fixes; --explain shows all. Several programs end with a table, the worst first.
+
+    A name may have wildcards: * ? [ ], and ** for any folders. Of a folder, check takes all files with the ending of a
+    program, such as .nc, .mpf and .h, and those named as O1234. It looks into the folders in it, but for hidden ones.
 
     --fix writes the fixes that keep the contour into the programs, and reports what is left. --diff only shows them.
     For standard input and --block, the fixed program goes to standard output, the findings to standard error.
@@ -112,12 +117,18 @@ def check(
 
     \b
     contoursolve check shaft.nc flange.nc
-    contoursolve check *.nc
+    contoursolve check *.nc parts
     contoursolve check --diff shaft.nc
     contoursolve check --fix shaft.nc
     contoursolve check --control yasnac-lx3 - < shaft.nc
     """
-    names = [name for program in programs for name in files_named(program)]
+    named = [files_named(program) for program in programs]
+    for program, files in zip(programs, named, strict=True):
+        if not files:
+            say(f"{program}: no program is in this folder; programs end in {', '.join(ENDINGS)}", err=True)
+    if named and not any(named):
+        context.exit(COULD_NOT_RUN)
+    names = [name for files in named for name in files]
     loaders, fixing, hiding = load(names, blocks), read_fixing(options), _Hiding(new_baseline, baseline)
     options |= {"strict": is_strict or bool(blocks), "depth": "findings"}
     if fixing:
@@ -142,11 +153,14 @@ def check(
             except UserError as error:
                 CouldNotRunError(str(error)).show()
                 telling.rows.append((name, None))
+                telling.reasons[name] = str(error)
     hiding.write(is_whole=not telling.has_failed)
-    if telling.has_failed and telling.is_alone:
+    if telling.has_failed and telling.is_alone and format_ != "junit":
         context.exit(COULD_NOT_RUN)
     control = options["control"]
-    telling.close(fixing.summary if fixing else "", control if isinstance(control, Dialect) else None)
+    telling.close(
+        fixing.summary if fixing else "", control if isinstance(control, Dialect) else None, _FAILING[fail_on]
+    )
     hiding.tell_gone()
     found = sum(telling.tally.severities[each] for each in _FAILING[fail_on])
     context.exit(COULD_NOT_RUN if telling.has_failed else status_of(telling.tally, found))
@@ -218,6 +232,8 @@ class _Telling:
     def __init__(self, shelf: Shelf, format_: str, *, is_alone: bool, is_err: bool) -> None:
         self.format, self.is_alone, self.is_err = format_, is_alone, is_err
         self.tally, self.rows = Totals(), list[tuple[str, Totals | None]]()
+        self.reasons = dict[str, str]()
+        """Why programs could not be examined, by their names."""
         self._document, self._results = Findings(shelf), list[Result]()
         self._is_strict = False
 
@@ -250,7 +266,7 @@ class _Telling:
         self.rows.append((name, own))
         self.tally.add(own)
 
-    def close(self, fixes: str, own: Dialect | None) -> None:
+    def close(self, fixes: str, own: Dialect | None, failing: Collection[Severity]) -> None:
         """Tell what is told at the end, with the number of fixes; `own` is a control that is not built in."""
         total = self.tally.line(sum(each is not None for _, each in self.rows)) + fixes
         match self.format:
@@ -264,6 +280,14 @@ class _Telling:
                 from contoursolve.output import to_github  # noqa: PLC0415 - only here
 
                 click.echo(to_github(self._results), err=self.is_err)
+            case "gitlab":
+                from contoursolve.output import to_gitlab  # noqa: PLC0415 - only here
+
+                click.echo(to_gitlab(self._results), err=self.is_err)
+            case "junit":
+                from contoursolve.output import to_junit  # noqa: PLC0415 - only here
+
+                click.echo(to_junit(self._results, failing, self.reasons), err=self.is_err)
             case "text" if not self.is_alone:
                 print_lines(table_lines(self.rows), err=self.is_err)
                 say(total, err=self.is_err)

@@ -12,6 +12,7 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     check_toolless,
     control_option,
+    format_option,
     let_option,
     naming,
     path_option,
@@ -61,9 +62,7 @@ _ANY_CONTROL = (*DIALECTS, *PLAIN)
 @rules_option
 @settings_option
 @tool_options
-@click.option(
-    "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
-)
+@format_option
 @click.pass_context
 def diff(
     context: click.Context,

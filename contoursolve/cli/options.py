@@ -22,7 +22,7 @@ from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Policy
 from contoursolve.diagnostics import ProgramError, UserError
-from contoursolve.gcode import STANDARD_INPUT, OpenFile, Program
+from contoursolve.gcode import ENDINGS, STANDARD_INPUT, OpenFile, Program
 from contoursolve.geometry import Length
 from contoursolve.output import EXPLAINING, Collected, Totals, harmless, lines_of_findings, short_findings
 from contoursolve.program import (
@@ -120,6 +120,11 @@ class CouldNotRunError(click.ClickException):
 
 FILE = click.Path(readable=False)
 """The type of arguments that name files, which shells complete; what a file lacks is said when it is read."""
+
+format_option = click.option(
+    "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
+)
+
 
 units_option = click.option(
     "--units",
@@ -355,9 +360,28 @@ def load(paths: Sequence[str], blocks: tuple[str, ...]) -> list[Callable[[], Pro
 
 
 def files_named(path: str) -> list[str]:
-    """The files that a name with wildcards means where no shell has put them in its place, as on Windows."""
-    is_file = path == STANDARD_INPUT or not _WILD.search(path) or Path(path).exists()
-    return ([] if is_file else sorted(glob(path))) or [path]  # noqa: PTH207 - Path.glob takes no whole paths
+    """The files that a name means: those of a folder, and those that wildcards match where no shell has put them in
+    their place, as on Windows. Empty for a folder without programs."""
+    if path == STANDARD_INPUT:
+        return [path]
+    if Path(path).is_dir():
+        return _programs_in(path)
+    is_file = not _WILD.search(path) or Path(path).exists()
+    found = [] if is_file else sorted(glob(path, recursive=True))  # noqa: PTH207 - Path.glob takes no whole paths
+    return [each for name in found for each in ([name] if Path(name).is_file() else files_named(name))] or [path]
+
+
+def _programs_in(folder: str) -> list[str]:
+    """The programs of a folder and the folders in it, but for hidden ones, by their endings; a Fanuc's have none."""
+    found = []
+    for place, folders, names in os.walk(folder):
+        folders[:] = [each for each in folders if not each.startswith(".")]
+        visible = (Path(place, each) for each in names if not each.startswith("."))
+        found += [str(each) for each in visible if each.suffix.lower() in ENDINGS or _NUMBERED.fullmatch(each.name)]
+    return sorted(found)
+
+
+_NUMBERED = re.compile(r"O\d{4,}", re.IGNORECASE | re.ASCII)
 
 
 _WILD = re.compile(r"[*?\[]")

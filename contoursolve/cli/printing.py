@@ -9,6 +9,7 @@ from typing import Any, TextIO
 
 import click
 
+from contoursolve.diagnostics import json_text
 from contoursolve.output import Style, harmless, plain
 
 _COLORS: dict[str, dict[str, Any]] = {
@@ -63,6 +64,11 @@ def print_bytes(pieces: Iterable[bytes]) -> None:
     for piece in pieces:
         stream.write(piece)
     stream.flush()
+
+
+def print_json(document: dict[str, Any]) -> None:
+    """One JSON document."""
+    click.echo(json_text(document))
 
 
 def _batched(lines: Iterable[str], size: int) -> Iterator[list[str]]:

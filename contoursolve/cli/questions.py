@@ -11,16 +11,14 @@ from contoursolve.api import follow_program
 from contoursolve.cli.block_options import (
     block_options,
     fact_option,
-    format_option,
     is_about_tool,
-    print_json,
     program_options,
     read_options,
     read_within,
     usage,
 )
-from contoursolve.cli.options import FILE, FOUND_ERRORS, check_toolless, load, settings_of, side_options
-from contoursolve.cli.printing import print_lines
+from contoursolve.cli.options import FILE, FOUND_ERRORS, check_toolless, format_option, load, settings_of, side_options
+from contoursolve.cli.printing import print_json, print_lines
 from contoursolve.families import feasible, find_word, region, tolerance_for, tolerances
 from contoursolve.output import (
     found_data,

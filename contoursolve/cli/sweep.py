@@ -15,16 +15,14 @@ import click
 from contoursolve.cli.block_options import (
     block_options,
     fact_option,
-    format_option,
     is_about_tool,
-    print_json,
     read_options,
     read_range,
     usage,
 )
-from contoursolve.cli.options import CouldNotRunError, check_toolless, side_options
+from contoursolve.cli.options import CouldNotRunError, check_toolless, format_option, side_options
 from contoursolve.cli.pictures import bytes_of, check_picture, theme_option
-from contoursolve.cli.printing import say
+from contoursolve.cli.printing import print_json, say
 from contoursolve.cli.progress import STOPPED, duration, leave_threads, progress, stoppable
 from contoursolve.diagnostics import need
 from contoursolve.families import (

@@ -14,11 +14,12 @@ from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     control_option,
+    format_option,
     settings_option,
 )
-from contoursolve.cli.printing import print_lines, say, style_of_output
+from contoursolve.cli.printing import print_json, print_lines, say, style_of_output
 from contoursolve.diagnosis import count
-from contoursolve.diagnostics import json_text, members
+from contoursolve.diagnostics import members
 from contoursolve.gcode import STANDARD_INPUT, write_whole
 from contoursolve.output import Style
 from contoursolve.postprocess import NumberGround, Written, WrittenContour, WrittenWord
@@ -42,9 +43,7 @@ SCHEMA = "contoursolve/write/1"
 @click.option("--all", "shows_all", is_flag=True, help="List all candidates, each with what its numbers rest on.")
 @click.option("-o", "--output", metavar="NEW", help="Where to write the program; without it, to standard output.")
 @click.option("--force", "is_forced", is_flag=True, help="Replace NEW if it exists.")
-@click.option(
-    "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
-)
+@format_option
 @drawing_options
 @click.pass_context
 def write(
@@ -94,7 +93,7 @@ def write(
         context.exit(FOUND_ERRORS)
     found = several[0]
     if format_ == "json":
-        click.echo(json_text({"schema": SCHEMA, "written": [_data(each) for each in several]}))
+        print_json({"schema": SCHEMA, "written": [_data(each) for each in several]})
         context.exit(0 if to is None or found.candidates else COULD_NOT_RUN)
     elif to is None:
         print_lines(_table_lines(several))

@@ -11,6 +11,8 @@ from .decoding import (
 )
 from .files import (
     ANY_TEXT as ANY_TEXT,
+    ENDINGS as ENDINGS,
+    SHARED_ENDINGS as SHARED_ENDINGS,
     CannotWriteError as CannotWriteError,
     OpenFile as OpenFile,
     check_target as check_target,

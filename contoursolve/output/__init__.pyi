@@ -4,6 +4,7 @@ from .baseline import (
 )
 from .catalogue import (
     alarm_rows as alarm_rows,
+    catalogue_data as catalogue_data,
     catalogue_lines as catalogue_lines,
     rule_lines as rule_lines,
     rule_page as rule_page,
@@ -42,6 +43,8 @@ from .equations_html import (
 )
 from .exchange import (
     to_github as to_github,
+    to_gitlab as to_gitlab,
+    to_junit as to_junit,
     to_sarif as to_sarif,
 )
 from .explanation_html import (

@@ -1,11 +1,12 @@
 """The catalogue as text: the rules of each control, and the further facts that can be stated about a contour."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 from msgspec import Struct
 
 from contoursolve.diagnosis import tabulate
-from contoursolve.diagnostics import Alarm
+from contoursolve.diagnostics import Alarm, members
 from contoursolve.output.plain_text import columns
 from contoursolve.reading import THIS_CONTROL, Dialect, Rule
 
@@ -22,6 +23,23 @@ def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
         lines += [f"{dialect.name}: {dialect.title}", *columns([header, *rows], left=(0, 1, 2, 3, 4)), ""]
         lines += _setting_lines(dialect)
     return lines
+
+
+def catalogue_data(dialects: Iterable[Dialect]) -> dict[str, Any]:
+    """The same as plain data for JSON, with the advice and the examples of each rule: schema contoursolve/rules/1."""
+    controls = [
+        {
+            **members(dialect, "name title"),
+            "rules": [
+                members(rule, "code severity message=title advice note source alarm wrong=rejected right=accepted")
+                for rule in sorted(dialect.rules, key=lambda rule: rule.code)
+            ],
+            "settings": [members(each, "name meaning values default bounds unit source") for each in dialect.settings],
+            "assumptions": [members(each, "name meaning source") for each in dialect.assumptions],
+        }
+        for dialect in dialects
+    ]
+    return {"schema": "contoursolve/rules/1", "controls": controls}
 
 
 def _setting_lines(dialect: Dialect) -> Iterator[str]:

@@ -1,10 +1,15 @@
-"""Findings for other tools: SARIF 2.1.0 for editors and code scanning, and GitHub's annotations."""
+"""Findings for other tools: SARIF 2.1.0 for editors and code scanning, GitHub's annotations, GitLab's code quality, and
+JUnit's XML for servers that show tests."""
 
 import hashlib
-from collections.abc import Iterable, Sequence
-from pathlib import PurePath
+import os
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from itertools import count
+from pathlib import Path, PurePath
 from typing import Any
 from urllib.parse import quote
+from xml.etree import ElementTree
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, json_text
@@ -51,15 +56,14 @@ def _rule(rule: Rule) -> dict[str, Any]:
 
 
 def _results(result: Result, index: dict[str, int]) -> Iterable[dict[str, Any]]:
-    for finding, (code, block, place) in subjects_of(result):
-        fingerprint = hashlib.sha256(f"{code}\n{block}\n{place}".encode(errors="backslashreplace")).hexdigest()
+    for finding, subject in subjects_of(result):
         data: dict[str, Any] = {
             "ruleId": finding.code,
             "ruleIndex": index[finding.code],
             "level": _LEVEL[finding.severity],
             "message": {"text": "\n".join((finding.message, *finding.notes))},
             "locations": [_location(result, finding)],
-            "partialFingerprints": {"contoursolve/v1": fingerprint},
+            "partialFingerprints": {"contoursolve/v1": _fingerprint(*subject)},
             "properties": {"basis": finding.basis.value, "values": _finite(finding)},
         }
         fixes = [
@@ -68,6 +72,10 @@ def _results(result: Result, index: dict[str, int]) -> Iterable[dict[str, Any]]:
         if fixes:
             data["fixes"] = fixes
         yield data
+
+
+def _fingerprint(*parts: object) -> str:
+    return hashlib.sha256("\n".join(map(str, parts)).encode(errors="backslashreplace")).hexdigest()
 
 
 def _finite(finding: Diagnostic) -> dict[str, float]:
@@ -124,3 +132,82 @@ def _escape(text: str, more: str) -> str:
     for character in "%\r\n" + more:
         text = text.replace(character, f"%{ord(character):02X}")
     return text
+
+
+_QUALITY = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO: "info"}
+
+
+def to_gitlab(results: Iterable[Result]) -> str:
+    """One code quality report of GitLab: a JSON list of findings. Paths are relative to the repository, which is
+    `CI_PROJECT_DIR`, or else the current folder. A fingerprint stays the same when lines are inserted elsewhere."""
+    rows: dict[str, dict[str, Any]] = {}
+    for result in results:
+        path = _in_repository(result.program.name)
+        for finding, subject in subjects_of(result):
+            prints = (_fingerprint(path, *subject, *([again] if again else [])) for again in count())
+            fingerprint = next(each for each in prints if each not in rows)
+            rows[fingerprint] = {
+                "description": finding.message,
+                "check_name": finding.code,
+                "fingerprint": fingerprint,
+                "severity": _QUALITY[finding.severity],
+                "location": {"path": path, "lines": {"begin": max(result.place(finding.span).line, 1)}},
+            }
+    return json_text([*rows.values()])
+
+
+def _in_repository(name: str) -> str:
+    """The name of a file from the repository on; of a file elsewhere the whole one."""
+    if name.startswith("<"):
+        return name
+    path = PurePath(os.path.normpath(Path.cwd() / name))
+    root = PurePath(os.environ.get("CI_PROJECT_DIR") or Path.cwd())
+    return (path.relative_to(root) if path.is_relative_to(root) else path).as_posix()
+
+
+def to_junit(results: Iterable[Result], failing: Collection[Severity], unexamined: Mapping[str, str]) -> str:
+    """One document of JUnit's XML: a suite for each program, in it a test for each finding, or one that passes where
+    there is none. A finding of a severity in `failing` is a failure; others pass, and their text is their output.
+    `unexamined` has the reasons of programs that could not be examined, by their names; each is an error."""
+    root = ElementTree.Element("testsuites", name="contoursolve")
+    for result in results:
+        suite = _suite(root, result.program.name)
+        for finding in result.diagnostics:
+            span = result.place(finding.span)
+            case = _case(suite, f"{finding.code}, line {max(span.line, 1)}, column {span.column}")
+            fixes = (f"fix: {fix.description}" for fix in finding.fixes[:1])
+            place = f"{result.program.name}:{max(span.line, 1)}:{span.column}"
+            told = "\n".join((f"{place}: {finding.severity.value}: {finding.message}", *finding.notes, *fixes))
+            if finding.severity in failing:
+                failure = {"message": _in_xml(finding.message), "type": finding.code}
+                ElementTree.SubElement(case, "failure", failure).text = _in_xml(told)
+            else:
+                ElementTree.SubElement(case, "system-out").text = _in_xml(told)
+        if not result.diagnostics:
+            _case(suite, "no findings")
+    for name, reason in unexamined.items():
+        case = _case(_suite(root, name), "examination")
+        ElementTree.SubElement(case, "error", message=_in_xml(reason), type="not-examined").text = _in_xml(reason)
+    for each in (*root, root):
+        for counted, kind in (("tests", "testcase"), ("failures", "failure"), ("errors", "error")):
+            each.set(counted, str(sum(1 for _ in each.iter(kind))))
+    ElementTree.indent(root)
+    document: bytes = ElementTree.tostring(root, "us-ascii")
+    return document.decode("ascii")
+
+
+def _suite(root: ElementTree.Element, name: str) -> ElementTree.Element:
+    return ElementTree.SubElement(root, "testsuite", name=_in_xml(name))
+
+
+def _case(suite: ElementTree.Element, name: str) -> ElementTree.Element:
+    program = str(PurePath(suite.get("name", "")).with_suffix("").as_posix())
+    return ElementTree.SubElement(suite, "testcase", name=name, classname=program)
+
+
+def _in_xml(text: str) -> str:
+    """The text without characters that no document of XML may have."""
+    return _NOT_IN_XML.sub("\ufffd", text)
+
+
+_NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

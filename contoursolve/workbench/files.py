@@ -8,7 +8,7 @@ from pathlib import Path
 from msgspec import Struct
 
 from contoursolve.diagnostics import UserError
-from contoursolve.gcode import CannotWriteError, decode, encoding_of, open_whole
+from contoursolve.gcode import ENDINGS, SHARED_ENDINGS, CannotWriteError, decode, encoding_of, open_whole
 
 MOST_BYTES = 10_000_000
 """Of a file that is opened."""
@@ -16,13 +16,7 @@ MOST_BYTES = 10_000_000
 MOST_NAMES = 2_000
 """Files of a folder that are listed."""
 
-_SUFFIXES = tuple(
-    f".{each}"
-    for each in (
-        *("nc", "ngc", "cnc", "tap", "txt", "mpf", "spf", "arc", "eia", "min", "h", "gcode", "iso", "prg", "pim"),
-        *("din", "dnc", "xpi", "sub", "ncc", "i", "toml", "json", "dxf"),
-    )
-)
+_SUFFIXES = (*ENDINGS, *SHARED_ENDINGS, ".toml", ".json", ".dxf")
 """Endings of programs, sketches and drawings."""
 
 _LONGEST = 200
@@ -111,7 +105,7 @@ class Folder:
     def _found(self) -> Iterator[dict[str, object]]:
         for each in self.path.iterdir():
             suffix = each.suffix.lower()
-            if each.name.startswith(".") or (suffix not in _SUFFIXES and suffix not in ("", ".")):
+            if each.name.startswith(".") or suffix not in _SUFFIXES:
                 continue
             try:
                 if self._inside(each.name).is_file():

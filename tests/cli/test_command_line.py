@@ -203,6 +203,31 @@ def test_every_rule_is_listed_and_explained():
             assert (status, rule.code in listing, text.startswith(rule.code)) == (0, True, True)
 
 
+SOURCE = {"type": "object", "required": ["manual", "place", "evidence"], "additionalProperties": False}
+SOURCE["properties"] = {"evidence": {"enum": ["printed", "derived", "assumed"]}, "manual": {}, "place": {}}
+ALARM = {"type": ["object", "null"], "required": ["number", "evidence"], "maxProperties": 2}
+RULE = {"source": SOURCE, "alarm": ALARM, "severity": {"enum": ["error", "warning", "info"]}}
+RULE |= {name: {"type": "string", "minLength": name != "note"} for name in ("code", "message", "advice", "note")}
+RULE |= {name: {"type": "array", "items": {"type": "string"}} for name in ("wrong", "right")}
+SETTING = {name: {"type": "string"} for name in ("name", "meaning", "default", "unit")} | {"source": SOURCE}
+SETTING |= {"values": {"type": "object"}, "bounds": {"type": ["array", "null"]}}
+
+
+def test_the_catalogue_as_json_has_the_fields_that_the_page_lists():
+    document = json.loads(run("rules", "--format", "json")[1])
+    assert document["schema"] == "contoursolve/rules/1"
+    page = (Path(__file__).parents[2] / "docs" / "programs.md").read_text(encoding="utf-8")
+    for kind, schema in (("rules", RULE), ("settings", SETTING)):
+        assert all(f"`{name}`" in page for name in schema)
+        exact = {"type": "object", "properties": schema, "required": [*schema], "additionalProperties": False}
+        for control in document["controls"]:
+            Draft202012Validator({"items": exact}).validate(control[kind])
+    told = {control["name"]: {rule["code"] for rule in control["rules"]} for control in document["controls"]}
+    assert told == {name: {rule.code for rule in dialect.rules} for name, dialect in DIALECTS.items()}
+    status, _, errors = run("rules", "--table", "--format", "json")
+    assert (status, "leave out --table" in errors) == (2, True)
+
+
 def test_a_code_that_is_almost_one_is_asked_about():
     status, _, errors = run("explain", "g111-line1")
     assert status == 2

@@ -4,6 +4,7 @@ import json
 import re
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
+from xml.etree import ElementTree
 
 import jsonschema
 import pytest
@@ -19,6 +20,7 @@ BROKEN = "G00 X40. Z0.\nG111 A135. I10. K-12. B180. Z-40. P2.\nG00 X40. Z0.\nG11
 CLEAN = "G00 X40. Z0.\nG111 A180. K-30. B120. X100.\n"
 WARNED = "G00 X40. Z0.\nG111 A135. I10. K-12. B180. Z-40.\n"
 NOTHING = "G00 X40. Z0.\nM30\n"
+START = "G00 X40. Z0.\n"
 
 
 @pytest.fixture
@@ -154,10 +156,121 @@ def test_github_prints_no_finding_where_there_is_none(save):
     assert check(save(CLEAN), "--format", "github").output.strip() == ""
 
 
+# GitLab -----------------------------------------------------------------------------------------------
+
+
+def quality(*paths: str) -> list[dict]:
+    return json.loads(check(*paths, "--format", "gitlab").stdout)
+
+
+def test_gitlab_has_its_fields_for_each_finding(save, tmp_path, monkeypatch):
+    rows = quality(save(BROKEN))
+    found = solve(BROKEN).diagnostics
+    assert [{**row, "fingerprint": ""} for row in rows] == [
+        {
+            "description": each.message,
+            "check_name": each.code,
+            "fingerprint": "",
+            "severity": {"error": "major", "warning": "minor"}[each.severity.value],
+            "location": {"path": "part.nc", "lines": {"begin": each.span.line}},
+        }
+        for each in found
+    ]
+    monkeypatch.setenv("CI_PROJECT_DIR", str(tmp_path.parent))
+    assert quality(str(tmp_path / "part.nc"))[0]["location"]["path"] == f"{tmp_path.name}/part.nc"
+    assert quality(save(CLEAN)) == []
+
+
+def test_a_fingerprint_of_gitlab_is_unique_and_stays_when_lines_are_inserted_above(save):
+    save(BROKEN, "other.nc")
+    before = [row["fingerprint"] for row in quality(save(BROKEN + BROKEN), "other.nc")]
+    after = [row["fingerprint"] for row in quality(save("(a comment)\nG21\n\n" + BROKEN + BROKEN), "other.nc")]
+    assert before == after
+    assert len(set(before)) == len(before) == 6
+    again = [row["fingerprint"] for row in quality("other.nc", "other.nc")]
+    assert len(set(again)) == len(again) == 4
+
+
+# JUnit ------------------------------------------------------------------------------------------------
+
+SUITE = {"testcase", "system-out", "system-err", "properties", "testsuite"}
+STRUCTURE = {
+    "testsuites": ({"name", "time", "tests", "failures", "disabled", "errors"}, {"testsuite"}),
+    "testsuite": ({"name", "tests", "failures", "errors", "group", "time", "skipped", "timestamp", "hostname"}, SUITE),
+    "testcase": ({"name", "time", "classname", "group"}, {"skipped", "error", "failure", "system-out", "system-err"}),
+    "failure": ({"type", "message"}, set()),
+    "error": ({"type", "message"}, set()),
+    "system-out": (set(), set()),
+}
+"""Attributes and children of each element in the schema by which Jenkins' xUnit plugin reads JUnit (junit-10.xsd)."""
+
+
+def suites(text: str) -> dict[str, ElementTree.Element]:
+    """The suites of a document by their names; its structure and its counts are right."""
+    root = ElementTree.fromstring(text)
+    assert root.tag == "testsuites"
+    for each in root.iter():
+        attributes, children = STRUCTURE[each.tag]
+        assert {*each.keys()} <= attributes
+        assert {child.tag for child in each} <= children
+        if each.tag in ("testsuites", "testsuite"):
+            counted = [len([*each.iter(kind)]) for kind in ("testcase", "failure", "error")]
+            assert [int(each.get(name)) for name in ("tests", "failures", "errors")] == counted
+        if each.tag in ("testsuite", "testcase"):
+            assert each.get("name")
+    return {suite.get("name"): suite for suite in root}
+
+
+def test_junit_has_a_suite_a_program_and_a_test_a_finding_which_fails_as_fail_on_says(save):
+    names = [
+        save(BROKEN),
+        save(CLEAN, "clean.nc"),
+        save("#include <x>\n", "x.h"),
+        save(f"{START * 9}G111 A\1\n", "1.nc"),
+    ]
+    done = check(*names, "--format", "junit")
+    found = suites(done.stdout)
+    assert (done.exit_code, [*found]) == (2, [*(each for each in names if each != "x.h"), "x.h"])
+    (passed, failed), (clean,), (unread,) = found["part.nc"], found["clean.nc"], found["x.h"]
+    warning, error = solve(BROKEN).diagnostics
+    assert failed.get("classname") == "part"
+    assert dict(failed[0].items()) == {"type": error.code, "message": error.message}
+    assert failed[0].text.startswith(f"part.nc:4:{error.span.column}: error: {error.message}\n")
+    assert (passed[0].tag, warning.message in passed[0].text) == ("system-out", True)
+    assert len(clean) == 0
+    assert (unread[0].tag, unread[0].text) == ("error", "x.h is C source, no CNC program")
+    both = suites(check("part.nc", "--format", "junit", "--fail-on", "warning").stdout)["part.nc"]
+    assert [case[0].tag for case in both] == ["failure", "failure"]
+    assert suites(check("x.h", "--format", "junit").stdout)["x.h"][0][0].tag == "error"
+
+
+# Folders ----------------------------------------------------------------------------------------------
+
+
+def test_a_folder_stands_for_its_programs_and_those_of_the_folders_in_it(save):
+    for folder in ("parts/deep", "parts/.git", "empty"):
+        Path(folder).mkdir(parents=True)
+    names = ["parts/O1234", "parts/a.NC", "parts/deep/b.mpf"]
+    for name in [*names, "parts/.git/c.nc", "parts/.d.nc", "parts/notes.txt", "parts/part.dxf"]:
+        save(WARNED, name)
+
+    def examined(*paths: str) -> list[str]:
+        return [each.partition("=")[2] for each in re.findall("file=[^,]*", check(*paths, "--format", "github").stdout)]
+
+    assert examined("parts") == examined("p*s", "empty") == names
+    assert {*examined("parts/*")} == {*names, "parts/notes.txt", "parts/part.dxf"}
+    assert examined("**/*.mpf") == names[2:]
+    assert examined("parts/notes.txt") == ["parts/notes.txt"]
+    done = check("empty")
+    assert (done.exit_code, "empty: no program is in this folder; programs end in .nc," in done.stderr) == (2, True)
+    assert check("parts", "--fix").exit_code == 0
+    assert examined("parts") == []
+
+
 # Exit statuses and the summary ------------------------------------------------------------------------
 
 
-@some_of("format_", ["text", "json", "sarif", "github"], one_in=2)
+@some_of("format_", ["text", "json", "sarif", "github", "gitlab", "junit"], one_in=3)
 @some_of(
     ("text", "fails_on"),
     [(BROKEN, {"error", "warning"}), (WARNED, {"warning"}), (NOTHING, set()), (CLEAN, set())],
