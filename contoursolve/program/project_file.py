@@ -15,7 +15,7 @@ A program says the same for itself in a comment among its first lines, which cou
 """
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -75,17 +75,20 @@ def find_tool_table(folder: Path, read: Callable[[str, Mapping[str, Any]], Any] 
 
 def _find(folder: Path) -> tuple[dict[str, Any], Path] | None:
     """The table about contoursolve that holds for a folder, and its file."""
+    for file in project_files(folder):
+        table = _table(file) if file.exists() else None
+        if table is not None:
+            return table, file
+    return None
+
+
+def project_files(folder: Path) -> Iterator[Path]:
+    """Where the project file of a folder may be; the first one that is there counts."""
     try:
         above = folder.resolve().parents
     except OSError:  # the folder is gone
-        return None
-    for place in (folder, *above):
-        for name in (OWN, SHARED):
-            file = place / name
-            table = _table(file) if file.exists() else None
-            if table is not None:
-                return table, file
-    return None
+        return
+    yield from (place / name for place in (folder, *above) for name in (OWN, SHARED))
 
 
 _STATED = late_pattern(r"[(;\[]\s*+contoursolve\s++control\s*+:(?P<stated>[^()\[\]\r\n]*+)", re.IGNORECASE)

@@ -2,6 +2,8 @@
 
 import json
 import re
+import shutil
+import subprocess
 import tomllib
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -130,6 +132,22 @@ def test_the_program_without_python_is_built_on_every_system_and_attached_to_a_t
     spec = (ROOT / "editors" / "desktop" / "contoursolve.spec").read_text(encoding="utf-8")
     assert re.findall(r"`(\w+)`", told) == re.search(r"\[([\w,]+)\]\" --group desktop", spec)[1].split(",")
     assert {*re.findall(r"`(\w+)`", told + without)} == OF_USERS
+
+
+@pytest.mark.slow
+def test_the_manual_page_is_made_of_the_help_and_goes_where_man_looks(monkeypatch) -> None:
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
+    from man_page import PAGE, man_page  # noqa: PLC0415 - lies beside the pages
+
+    text = PAGE.read_text(encoding="utf-8")
+    assert text == man_page(), "run: python docs/site/man_page.py"
+    shared = PYPROJECT["tool"]["hatch"]["build"]["targets"]["wheel"]["shared-data"]
+    assert shared == {PAGE.relative_to(ROOT).as_posix(): "share/man/man1/contoursolve.1"}
+    sections = re.findall(r"^\.SH (.*)$", text.replace("\\-", "-"), re.MULTILINE)
+    assert sections[3:] == [name.upper() for name in commands().list_commands(Context(commands()))]
+    if shutil.which("groff"):
+        done = subprocess.run(["groff", "-man", "-ww", "-z", "-Tutf8", PAGE], capture_output=True, check=True)
+        assert done.stderr == b""
 
 
 def test_the_version_stands_in_one_place_and_the_citation_is_of_this_project() -> None:
