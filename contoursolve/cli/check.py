@@ -108,8 +108,8 @@ def check(
     in the value of a word. --strict also reports those that change none. Each finding shows at most two reasons and two
     fixes; --explain shows all. Several programs end with a table, the worst first.
 
-    A name may have wildcards: * ? [ ], and ** for any folders. Of a folder, check takes all files with the ending of a
-    program, such as .nc, .mpf and .h, and those named as O1234. It looks into the folders in it, but for hidden ones.
+    A name may have wildcards: * ? [ ], and ** for any folders. A folder stands for its programs, and for those in its
+    folders; hidden ones are left out. Programs end in .nc, .mpf, .h and the like, or are called O1234.
 
     --fix writes the fixes that keep the contour into the programs, and reports what is left. --diff only shows them.
     For standard input and --block, the fixed program goes to standard output, the findings to standard error.

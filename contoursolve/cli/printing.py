@@ -23,7 +23,7 @@ _COLORS: dict[str, dict[str, Any]] = {
 
 
 def is_screen(stream: TextIO) -> bool:
-    """Whether a stream is a terminal that moves its cursor; one named `dumb` by TERM has neither that nor colours."""
+    """True of a terminal that moves its cursor; one named `dumb` by TERM has neither that nor colours."""
     return stream.isatty() and not _is_dumb()
 
 

@@ -31,8 +31,8 @@ def catalogue_data(dialects: Iterable[Dialect]) -> dict[str, Any]:
         {
             **members(dialect, "name title"),
             "rules": [
-                members(rule, "code severity message=title advice note source alarm wrong=rejected right=accepted")
-                for rule in sorted(dialect.rules, key=lambda rule: rule.code)
+                {**members(rule, _FIELDS), "options": rule.options.replace(THIS_CONTROL, dialect.name)}
+                for rule in sorted(dialect.catalogue, key=lambda rule: rule.code)
             ],
             "settings": [members(each, "name meaning values default bounds unit source") for each in dialect.settings],
             "assumptions": [members(each, "name meaning source") for each in dialect.assumptions],
@@ -40,6 +40,9 @@ def catalogue_data(dialects: Iterable[Dialect]) -> dict[str, Any]:
         for dialect in dialects
     ]
     return {"schema": "contoursolve/rules/1", "controls": controls}
+
+
+_FIELDS = "code severity message=title advice note source alarm wrong=rejected right=accepted"
 
 
 def _setting_lines(dialect: Dialect) -> Iterator[str]:

@@ -83,7 +83,7 @@ def _find(folder: Path) -> tuple[dict[str, Any], Path] | None:
 
 
 def project_files(folder: Path) -> Iterator[Path]:
-    """Where the project file of a folder may be; the first one that is there counts."""
+    """Places where the project file of a folder may be; the first one that is there counts."""
     try:
         above = folder.resolve().parents
     except OSError:  # the folder is gone
