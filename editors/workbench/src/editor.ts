@@ -1,7 +1,7 @@
 // The text of a program: findings underlined, contours marked at the edge, fixes at the word.
 import { defaultKeymap, history, historyKeymap, isolateHistory } from "@codemirror/commands";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, type ChangeDesc, ChangeSet, EditorState, type Extension, StateEffect, StateField, type Text, Transaction, type TransactionSpec } from "@codemirror/state";
+import { Annotation, type ChangeDesc, ChangeSet, EditorState, type Extension, StateEffect, StateField, type Text, type TransactionSpec } from "@codemirror/state";
 import { Decoration, type DecorationSet, drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers, MatchDecorator, showTooltip, type Tooltip, ViewPlugin, type ViewUpdate } from "@codemirror/view";
 
 import { button, make } from "./dom";
@@ -208,10 +208,11 @@ export function newState(text: string, heard: Heard, isReadOnly = false): Editor
 
 export const marksOf = (state: EditorState): Marks => state.field(marks);
 
-// Edits of Python: one step of undo, or none.
-export const pythonEdits = (changes: ChangeSet, isStep = true): TransactionSpec => ({
+// Edits of Python: one step of undo, or a part of the last one, which only a composition always is.
+export const pythonEdits = (changes: ChangeSet, isPart: boolean): TransactionSpec => ({
   changes,
-  annotations: [fromPython.of(true), isStep ? isolateHistory.of("full") : Transaction.addToHistory.of(false)],
+  annotations: [fromPython.of(true), isolateHistory.of("full")],
+  ...(isPart ? { userEvent: "input.type.compose" } : {}),
 });
 
 export const changesOf = (edits: Change[], length: number): ChangeSet => ChangeSet.of(edits.map(({ from, to, text }) => ({ from, to, insert: text })), length);

@@ -24,7 +24,7 @@ export class Program implements Work {
   private acknowledged: Text; // the text that the Desk has
   private pending: ChangeSet | null = null; // since then
   private isWhole = false; // whether the Desk needs the whole text, for it may have missed something
-  private held: { changes: ChangeSet; before: Text } | null = null; // what was dragged so far
+  private isDragged = false; // whether the last step of undo is a drag that goes on
   private last: Promise<unknown> = Promise.resolve();
   private timer = 0;
 
@@ -80,6 +80,7 @@ export class Program implements Work {
 
   private changed(changes: ChangeSet): void {
     if (this.editor) this.state = this.editor.state;
+    this.isDragged = false;
     this.pending = this.pending ? this.pending.compose(changes) : changes;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => void this.ask(() => null), PAUSE);
@@ -103,8 +104,8 @@ export class Program implements Work {
     const what = question();
     const reply = what && (await this.tell<Reply & { edits?: Change[] } & Partial<View>>(what));
     const isAct = what?.["do"] === "act";
-    if (reply?.edits?.length) this.take(reply.edits, isHeld || (this.held !== null && isAct));
-    if (!isHeld && isAct) this.letGo();
+    if (reply?.edits?.length) this.take(reply.edits, isAct, isHeld);
+    if (isAct && !isHeld) this.isDragged = false;
     if (reply?.seq !== undefined && reply.counts) this.adopt(reply as View);
     this.shown(this, null);
     return reply;
@@ -158,7 +159,7 @@ export class Program implements Work {
     this.adopt(await this.transport.ask<View>({ do: "open", name, text: this.whole(), base, encoding, has_order_mark, line_end, ...chosen }));
   }
 
-  private take(edits: Change[], isHeld: boolean): void {
+  private take(edits: Change[], isAct: boolean, isHeld: boolean): void {
     let changes = changesOf(edits, this.acknowledged.length);
     this.acknowledged = changes.apply(this.acknowledged);
     if (this.pending) {
@@ -166,19 +167,9 @@ export class Program implements Work {
       this.pending = own.map(changes);
       changes = changes.map(own, true);
     }
-    if (!isHeld) return this.update(pythonEdits(changes));
-    this.held = this.held ? { ...this.held, changes: this.held.changes.compose(changes) } : { changes, before: this.state.doc };
-    this.update(pythonEdits(changes, false));
-  }
-
-  // All that was done while its user dragged becomes one step of undo.
-  private letGo(): void {
-    const held = this.held;
-    this.held = null;
-    if (!held || this.pending || this.state.doc.length !== held.changes.newLength) return;
-    this.update(pythonEdits(held.changes.invert(held.before), false));
-    this.update(pythonEdits(held.changes));
-    this.mark();
+    // All that is done while its user drags is one step of undo.
+    this.update(pythonEdits(changes, isAct && this.isDragged));
+    this.isDragged = isHeld;
   }
 
   private mark(): void {
