@@ -98,13 +98,21 @@ class OwnWords(Struct, frozen=True):
     absent: Mapping[str, str] = {}
     """Codes of rules, separated by blanks, that no program of the control meets, by the reason."""
 
+    right: Mapping[str, tuple[str, ...]] = {}
+    """Further right programs, by the codes of rules: with words that no other example has."""
+
     def tell(self, *rules: Rule) -> tuple[Rule, ...]:
         """The rules of the control with examples in its words. A row behind another one about the same event, that
         holds everywhere, is never asked for, and left out."""
         reasons = {code: reason for reason, codes in self.absent.items() for code in codes.split()}
         first = {rule.about: rule for rule in reversed(rules) if rule.about and not rule.roles}
         kept = [rule for rule in rules if rule.about is None or rule.roles or first[rule.about] is rule]
-        return tuple(self._told(rule, reasons.get(rule.code, "")) for rule in kept)
+        told = (self._told(rule, reasons.get(rule.code, "")) for rule in kept)
+        return tuple(self._with_more(rule) if rule.code in self.right else rule for rule in told)
+
+    def _with_more(self, rule: Rule) -> Rule:
+        more = (_filled(text, {**self.gaps, "program": _PROGRAM}) for text in self.right[rule.code])
+        return replace(rule, accepted=(*rule.accepted, *more))
 
     def _told(self, rule: Rule, reason: str) -> Rule:
         own = self.slips.get(rule.code, {})

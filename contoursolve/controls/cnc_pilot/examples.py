@@ -11,7 +11,7 @@ _GAPS = {
     "size": "2",
     "comment": "[{said}]",
     "variable": "#101",
-    "no_word": "W9",
+    "no_word": "AG5",
     "unread": "G100 X5",
     "series": "G1 X50 B4\nG1 Z-30 B4\nG1 X70{odd}\nG1 Z-50 B4\nG1 X90",
     "odd": " B4",
@@ -19,7 +19,7 @@ _GAPS = {
     "end_word": "Z-40",
     "missed": "Z-40.3",
     "of_others": "RND5",
-    "foreign": "W5",
+    "foreign": "P5",
     "repetition": "length of line 1 = 10",
     "beside": "[X40 Z-3]",
     "beyond": "[X50 Z-80]",
@@ -85,7 +85,7 @@ _ABSENT = {
     "its profiles are called by other words": "profile-turns-back",
     "its programs stand in files of their own": "text-outside",
     "its elements are solved together: what fits nowhere has no point": "point-is-start circle-missed circles-apart "
-    "line-backwards radius-differs corner-dropped corner-nowhere contour-sensitive",
+    "line-backwards radius-differs corner-nowhere corner-straight contour-sensitive",
     "no block is known of which it is true here": "count-open only-unproven not-verified search-unfinished "
     "word-mistyped",
 }

@@ -146,6 +146,10 @@ FANUC_MILL_WORDS = OwnWords(
         "fanuc-corner-straight": _STRAIGHT,
     },
     _ON_MILLS,
+    {
+        "fanuc-center-and-radius": ("{start}G01 X40. ,C6.\nG02 X60. Y20. R20.",),
+        "fanuc-corner-outside-plane": ("G18 G90 G00 X0 Z0\nG01 X40. ,C6.\nG02 X60. Z20. I20. K0",),
+    },
 )
 HAAS_LATHE_WORDS = OwnWords(
     {**_TURNING, "angle": "A", "of_others": ",A5.", "foreign": "Q5."},

@@ -84,4 +84,11 @@ _ABSENT = {
     "no block is known of which it is true here": "count-open only-unproven not-verified suspected mode-unknown "
     "not-checked",
 }
-WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT)
+_RIGHT = {
+    "heidenhain-tangent-first": (
+        "{start}2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30{tail}",
+        "{start}2 L X+20 Y+0\n3 CT X+40 Y+20{tail}",
+    ),
+    "heidenhain-tool-axis": ("{start}2 L Z+5\n3 L X+40 Y+0\n4 RND R5\n5 L X+40 Y+30{tail}",),
+}
+WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

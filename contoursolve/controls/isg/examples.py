@@ -75,4 +75,9 @@ _ABSENT = {
     "no subprogram has parameters": "not-checked",
     "an angle is that of the travel": "angle-opposite",
 }
-WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT)
+_RIGHT = {
+    "isg-two-corners": ("{start}G1 X30 #CHR=5\nX40 Y40", "{start}G1 X30 #CHF=5\nX40 Y40"),
+    "isg-corner-size": ("{start}G1 X30\nG301 I5\nG1 X40 Y40",),
+    "isg-center-and-radius": ("{start}G1 X40 #RND=6\nG2 X60 Y20 R20",),
+}
+WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

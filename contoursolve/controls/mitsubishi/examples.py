@@ -83,4 +83,8 @@ _ABSENT = {
     "its corners lie where both elements are known": "corner-nowhere cut-free",
     "no two arcs meet that have no ends of their own": "point-is-start circles-apart line-backwards double",
 }
-WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT)
+_RIGHT = {
+    "mitsubishi-center-and-radius": ("{start}G01 X40. ,C6.\nG02 X60. Y20. R20.",),
+    "mitsubishi-outside-plane": ("G18 G90 G00 X0 Z0\nG01 X40. ,C6.\nG02 X60. Z20. I20. K0",),
+}
+WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

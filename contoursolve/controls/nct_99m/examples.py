@@ -44,4 +44,7 @@ _ABSENT = {
     "it is on mills": "profile-turns-back machine-taken start-diameter axis-crossed",
     "its corners lie where both elements are known": "corner-nowhere cut-free",
 }
-WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT)
+_RIGHT = {
+    "nct-two-corners": ("G18 G90 G0 X0 Z0\nG1 X40 ,C6\nG2 X60 Z20 I20 K0",),
+}
+WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

@@ -81,4 +81,15 @@ _ABSENT = {
     "it has no such cycle": "profile-turns-back",
     "its corners lie where both elements are known": "corner-nowhere cut-free",
 }
-WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT)
+_RIGHT = {
+    "siemens-two-chamfers": ("{start}G1 X30 CHR=5\nX40 Y40", "{start}G1 X30 CHF=5\nX40 Y40"),
+    "siemens-center-and-radius": (
+        "{start}G1 X40 RND=6\nG2 X60 Y20 CR=20",
+        "G18 DIAMOF G90 G0 X0 Z0\nG1 X40 RND=6\nG2 X60 Z-20 I20 K0",
+    ),
+    "siemens-closing-increment": (
+        "{start}G1 X=AC(30) Y=AC(0) RND=5\nX=IC(10) Y=IC(40)",
+        "G18 DIAMON G90 G0 X0 Z0\nG1 Z=AC(-30) RND=5\nX=AC(40) Z=IC(-10)",
+    ),
+}
+WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)
