@@ -79,23 +79,3 @@ def explain(code: str, control: str | Dialect | None) -> None:
         raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; {hint}'contoursolve rules' lists them")
     for rule, controls in found.values():
         say("\n".join((*rule_lines(rule, controls), "")))
-
-
-def _named_like(context: click.Context, _option: click.Parameter, incomplete: str) -> list[str]:
-    """The names of commands that begin so."""
-    above = context.find_root()
-    assert isinstance(above.command, click.Group)
-    return [each for each in above.command.list_commands(above) if each.startswith(incomplete)]
-
-
-@click.command("help", short_help="Show the help of a command.")
-@click.argument("command", required=False, shell_complete=_named_like)
-@click.pass_context
-def help_(context: click.Context, /, command: str | None) -> None:
-    """Show the help of COMMAND, as --help behind its name does; without COMMAND, the list of commands."""
-    above = context.find_root()
-    if command is not None:
-        assert isinstance(above.command, click.Group)
-        _, found, _ = above.command.resolve_command(above, [command])
-        above = click.Context(found or above.command, above, command)
-    click.echo(above.get_help())

@@ -1,7 +1,6 @@
 """The command `check`: the findings about programs, and their fixes."""
 
 import sys
-from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -140,6 +139,7 @@ def check(
     told = _NOTHING if is_silent and format_ == "text" else format_
     telling = _Telling(context.with_resource(Shelf()), told, is_alone=len(names) <= 1, is_err=is_err)
     telling.most, telling.is_explained = None if shows_all else MOST_ALIKE, is_explained
+    telling.failing = _FAILING[fail_on]
     # A bar among the lines of a terminal, or before a question, would be torn.
     is_torn = (format_ == "text" and sys.stdout.isatty()) or (fixing is not None and fixing.asks)
     is_shown = not telling.is_alone and is_screen(sys.stderr) and not is_torn
@@ -160,9 +160,7 @@ def check(
     if telling.has_failed and telling.is_alone and format_ != "junit":
         context.exit(COULD_NOT_RUN)
     control = options["control"]
-    telling.close(
-        fixing.summary if fixing else "", control if isinstance(control, Dialect) else None, _FAILING[fail_on]
-    )
+    telling.close(fixing.summary if fixing else "", control if isinstance(control, Dialect) else None)
     hiding.tell_gone()
     found = sum(telling.tally.severities[each] for each in _FAILING[fail_on])
     context.exit(COULD_NOT_RUN if telling.has_failed else status_of(telling.tally, found))
@@ -230,12 +228,12 @@ class _Telling:
 
     most: int | None = None
     is_explained = False
+    failing: tuple[Severity, ...] = ()
 
     def __init__(self, shelf: Shelf, format_: str, *, is_alone: bool, is_err: bool) -> None:
         self.format, self.is_alone, self.is_err = format_, is_alone, is_err
         self.tally, self.rows = Totals(), list[tuple[str, Totals | None]]()
         self.reasons = dict[str, str]()
-        """Why programs could not be examined, by their names."""
         self._document, self._results = Findings(shelf), list[Result]()
         self._is_strict = False
 
@@ -268,7 +266,7 @@ class _Telling:
         self.rows.append((name, own))
         self.tally.add(own)
 
-    def close(self, fixes: str, own: Dialect | None, failing: Collection[Severity]) -> None:
+    def close(self, fixes: str, own: Dialect | None) -> None:
         """Tell what is told at the end, with the number of fixes; `own` is a control that is not built in."""
         total = self.tally.line(sum(each is not None for _, each in self.rows)) + fixes
         match self.format:
@@ -278,18 +276,15 @@ class _Telling:
                 from contoursolve.output import to_sarif  # noqa: PLC0415 - only here
 
                 click.echo(to_sarif(self._results, __version__, own), err=self.is_err)
-            case "github":
-                from contoursolve.output import to_github  # noqa: PLC0415 - only here
+            case "github" | "gitlab":
+                from contoursolve.output import to_github, to_gitlab  # noqa: PLC0415 - only here
 
-                click.echo(to_github(self._results), err=self.is_err)
-            case "gitlab":
-                from contoursolve.output import to_gitlab  # noqa: PLC0415 - only here
-
-                click.echo(to_gitlab(self._results), err=self.is_err)
+                write = to_github if self.format == "github" else to_gitlab
+                click.echo(write(self._results), err=self.is_err)
             case "junit":
                 from contoursolve.output import to_junit  # noqa: PLC0415 - only here
 
-                click.echo(to_junit(self._results, failing, self.reasons), err=self.is_err)
+                click.echo(to_junit(self._results, self.failing, self.reasons), err=self.is_err)
             case "text" if not self.is_alone:
                 print_lines(table_lines(self.rows), err=self.is_err)
                 say(total, err=self.is_err)

@@ -28,7 +28,6 @@ COMMANDS = {
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
     "facts": "catalogue:facts",
-    "help": "catalogue:help_",
 }
 """Place of each command: a module of this room, and the name there. `contoursolve` itself adds the commands beside
 it."""
@@ -69,7 +68,7 @@ class _Commands(click.Group):
         """Read the arguments. A shell cannot pass a NUL, and no file has it in its name."""
         if any("\0" in argument for argument in args):
             raise click.UsageError("arguments with a NUL character cannot be read", ctx)
-        return super().parse_args(ctx, args)
+        return super().parse_args(ctx, [*args[1:], "--help"] if args[:1] == ["help"] else args)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -119,6 +118,8 @@ def main() -> None:
     contoursolve reads words such as X40. as the control does, in a program and in options (--block, --start, --bring).
     On most lathes a number without a decimal point counts least increments, so X40 is 0.040 mm. Numbers alone
     (--vary, --within, --tolerance) and those in facts mean what they say, in mm or inches and degrees.
+
+    contoursolve help COMMAND shows the options of a command.
 
     Exit status: 0 no error found, 1 at least one error found, 2 could not run, 130 stopped by Ctrl-C. It is the same if
     the output is not read to its end, as by head.

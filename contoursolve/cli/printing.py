@@ -24,16 +24,12 @@ _COLORS: dict[str, dict[str, Any]] = {
 
 def is_screen(stream: TextIO) -> bool:
     """True of a terminal that moves its cursor; one named `dumb` by TERM has neither that nor colours."""
-    return stream.isatty() and not _is_dumb()
-
-
-def _is_dumb() -> bool:
-    return os.environ.get("TERM") == "dumb"
+    return stream.isatty() and os.environ.get("TERM") != "dumb"
 
 
 def style_of_output() -> Style:
     """Colours, unless NO_COLOR or TERM asks for none; click leaves them out where there is no terminal."""
-    if os.environ.get("NO_COLOR") or _is_dumb():
+    if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
         return plain
     return lambda text, role: click.style(text, **_COLORS[role]) if text else text
 

@@ -5,6 +5,7 @@ import os
 import sys
 import time
 from collections.abc import Iterable
+from contextlib import suppress
 from functools import wraps
 from itertools import chain
 from pathlib import Path
@@ -22,9 +23,6 @@ from contoursolve.program import project_files
 BETWEEN = 0.5
 """Seconds between two looks at the files. Files of a network tell nobody that they have changed, so they are asked."""
 
-_WRITING = {"is_fix": "--fix", "is_unsafe": "--unsafe-fixes", "new_baseline": "--write-baseline"}
-"""Options with which a command writes what it would then see as changed, by the names of their parameters."""
-
 Stamps = dict[str, tuple[int, int]]
 """When files were written last, and their sizes, by their names."""
 
@@ -40,9 +38,6 @@ def watchable(command: Command) -> Command:
         programs = options["programs"] if "programs" in options else [options["program"] or ""]
         if not any(programs) or STANDARD_INPUT in programs:
             raise click.UsageError("--watch looks at files: name a PROGRAM")
-        for name, option in _WRITING.items():
-            if options.get(name):
-                raise click.UsageError(f"--watch only reads: leave out {option}")
         folders = options["folders"]
         while True:
             before = _stamps(programs, folders)
@@ -50,10 +45,8 @@ def watchable(command: Command) -> Command:
                 command(*arguments, **options)
             except click.exceptions.Exit:  # its status is that of one run
                 pass
-            except UserError as error:
+            except (UserError, CouldNotRunError) as error:
                 CouldNotRunError(str(error)).show()
-            except CouldNotRunError as error:
-                error.show()
             click.get_current_context().close()
             gc.collect()
             say(f"watching {count(len(before), 'file')}; Ctrl-C ends", err=True)
@@ -78,29 +71,19 @@ def _wait(before: Stamps, programs: Iterable[str], folders: Iterable[str]) -> st
 
 
 def _stamps(programs: Iterable[str], folders: Iterable[str]) -> Stamps:
-    """Of the programs, of all that they may call (what lies beside them and in the folders), and of project files."""
-    named = [Path(name) for program in programs for name in files_named(program)]
-    around = {*map(Path, folders), *(each if each.is_dir() else each.parent for each in (*named, *map(Path, programs)))}
-    beside = (
-        each for folder in around if folder.is_dir() for each in folder.iterdir() if each.suffix.lower() in _CALLED
-    )
+    """Of the programs, of all that they may call (what lies beside them and in the folders), and of project files; not
+    of a file where the output of this command goes."""
+    files = {Path(name) for program in programs for name in files_named(program)}
+    around = {*map(Path, folders), *(each.parent for each in files), *filter(Path.is_dir, map(Path, programs))}
+    beside = (each for folder in around for each in folder.glob("*") if each.suffix.lower() in _CALLED)
+    outputs = [os.fstat(stream.fileno()) for stream in (sys.stdout, sys.stderr)]
     found: Stamps = {}
-    for file in chain(named, beside, *map(project_files, around)):
-        try:
+    for file in chain(files, beside, *map(project_files, around)):
+        with suppress(OSError):  # it is not there, or nobody may look at it
             status = file.stat()
-            if file.is_file() and not _is_output(status):
+            if file.is_file() and not any(os.path.samestat(status, each) for each in outputs):
                 found[str(file)] = status.st_mtime_ns, status.st_size
-        except OSError:  # it went at this moment, or nobody may look at it
-            continue
     return found
 
 
 _CALLED = (*ENDINGS, *SHARED_ENDINGS)
-
-
-def _is_output(status: os.stat_result) -> bool:
-    """Whether a file is where the output of this command goes."""
-    try:
-        return any(os.path.samestat(status, os.fstat(stream.fileno())) for stream in (sys.stdout, sys.stderr))
-    except (OSError, ValueError):  # an output that is no file
-        return False

@@ -17,11 +17,7 @@ def choice_of(kind: type[Choice], value: str, argument: str) -> Choice:
 
 
 def names_like(word: str, names: Iterable[str]) -> list[str]:
-    """The names that a word was probably meant to be, the closest first; capitals do not matter.
-
-    >>> names_like("Chek", ["check", "solve"])
-    ['check']
-    """
+    """The names that a word was probably meant to be, the closest first; capitals do not matter."""
     from difflib import get_close_matches  # noqa: PLC0415 - most words are right
 
     known = {name.lower(): name for name in names}
@@ -29,10 +25,6 @@ def names_like(word: str, names: Iterable[str]) -> list[str]:
 
 
 def did_you_mean(word: str, names: Iterable[str]) -> str:
-    """The question whether one of these names was meant, with a blank behind it; empty if none is close.
-
-    >>> did_you_mean("lenght", ["length", "end"])
-    'did you mean length? '
-    """
+    """The question whether one of these names was meant, with a blank behind it; empty if none is close."""
     near = names_like(word, names)
     return f"did you mean {' or '.join(near)}? " if near else ""

@@ -16,8 +16,10 @@ from contoursolve.diagnostics import UserError
 from contoursolve.gcode.decoding import encoding_of
 from contoursolve.gcode.text import STANDARD_INPUT, UnreadableProgramError, opening, standard_input
 
-_OWN = "nc ngc cnc tap mpf spf arc eia min h gcode iso prg pim din dnc xpi ncc"
-ENDINGS = tuple(f".{each}" for each in _OWN.split())
+ENDINGS = (
+    *(".nc", ".ngc", ".cnc", ".tap", ".mpf", ".spf", ".arc", ".eia", ".min", ".h", ".gcode", ".iso"),
+    *(".prg", ".pim", ".din", ".dnc", ".xpi", ".ncc"),
+)
 """Endings of files that are programs."""
 SHARED_ENDINGS = (".txt", ".sub", ".i", ".", "")
 """Endings of programs that many other files have, too."""

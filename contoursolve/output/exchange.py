@@ -5,7 +5,6 @@ import hashlib
 import os
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from itertools import count
 from pathlib import Path, PurePath
 from typing import Any
 from urllib.parse import quote
@@ -122,10 +121,14 @@ def to_github(results: Iterable[Result]) -> str:
                 "title": finding.code,
             }
             properties = ",".join(f"{name}={_escape(str(value), ':,')}" for name, value in place.items())
-            fixes = (f"fix: {fix.description}" for fix in finding.fixes[:1])
-            message = _escape("\n".join((finding.message, *finding.notes, *fixes)), "")
+            message = _escape(_told(finding), "")
             lines.append(f"::{_COMMAND[finding.severity]} {properties}::{message}")
     return "\n".join(lines)
+
+
+def _told(finding: Diagnostic) -> str:
+    """A finding in words: what is wrong, why, and the first fix."""
+    return "\n".join((finding.message, *finding.notes, *(f"fix: {fix.description}" for fix in finding.fixes[:1])))
 
 
 def _escape(text: str, more: str) -> str:
@@ -139,13 +142,13 @@ _QUALITY = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO: "
 
 def to_gitlab(results: Iterable[Result]) -> str:
     """One code quality report of GitLab: a JSON list of findings. Paths are relative to the repository, which is
-    `CI_PROJECT_DIR`, or else the current folder. A fingerprint stays the same when lines are inserted elsewhere."""
+    `CI_PROJECT_DIR`, or else the current folder. A fingerprint stays the same when lines are inserted elsewhere; a
+    program that is named twice has its findings once."""
     rows: dict[str, dict[str, Any]] = {}
     for result in results:
         path = _in_repository(result.program.name)
         for finding, subject in subjects_of(result):
-            prints = (_fingerprint(path, *subject, *([again] if again else [])) for again in count())
-            fingerprint = next(each for each in prints if each not in rows)
+            fingerprint = _fingerprint(path, *subject)
             rows[fingerprint] = {
                 "description": finding.message,
                 "check_name": finding.code,
@@ -175,14 +178,11 @@ def to_junit(results: Iterable[Result], failing: Collection[Severity], unexamine
         for finding in result.diagnostics:
             span = result.place(finding.span)
             case = _case(suite, f"{finding.code}, line {max(span.line, 1)}, column {span.column}")
-            fixes = (f"fix: {fix.description}" for fix in finding.fixes[:1])
             place = f"{result.program.name}:{max(span.line, 1)}:{span.column}"
-            told = "\n".join((f"{place}: {finding.severity.value}: {finding.message}", *finding.notes, *fixes))
-            if finding.severity in failing:
-                failure = {"message": _in_xml(finding.message), "type": finding.code}
-                ElementTree.SubElement(case, "failure", failure).text = _in_xml(told)
-            else:
-                ElementTree.SubElement(case, "system-out").text = _in_xml(told)
+            fails = finding.severity in failing
+            about = {"message": _in_xml(finding.message), "type": finding.code} if fails else {}
+            outcome = ElementTree.SubElement(case, "failure" if fails else "system-out", about)
+            outcome.text = _in_xml(f"{place}: {finding.severity.value}: {_told(finding)}")
         if not result.diagnostics:
             _case(suite, "no findings")
     for name, reason in unexamined.items():

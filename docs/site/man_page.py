@@ -1,7 +1,6 @@
 """Writes `docs/contoursolve.1`, the manual page, from the help of all commands: `python docs/site/man_page.py`."""
 
-from collections.abc import Iterator
-from inspect import cleandoc
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -12,47 +11,43 @@ from contoursolve.__main__ import commands
 PAGE = Path(__file__).parents[1] / "contoursolve.1"
 
 
+class Troff(click.HelpFormatter):
+    """Help as `man` reads it."""
+
+    def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:  # noqa: ARG002 - click's
+        self.write(f"\\fB{_plain(prog)}\\fR {_plain(args)}\n")
+
+    def write_text(self, text: str) -> None:
+        for paragraph in text.split("\n\n"):
+            is_fixed, lines = paragraph.startswith("\b"), paragraph.removeprefix("\b\n").split("\n")
+            shown = (_plain(line.strip()) for line in lines)
+            self.write("\n".join((".PP", *([".nf"] if is_fixed else []), *shown, *([".fi"] if is_fixed else []), "")))
+
+    def write_heading(self, heading: str) -> None:
+        self.write(f".SS {_plain(heading)}\n")
+
+    def write_dl(self, rows: Sequence[tuple[str, str]], col_max: int = 0, col_spacing: int = 0) -> None:  # noqa: ARG002
+        self.write("".join(f".TP\n\\fB{_plain(name)}\\fR\n{_plain(told)}\n" for name, told in rows))
+
+
 def man_page() -> str:
-    """The page as `man` reads it: what the command is for, then a section a command, with all options."""
-    main = commands()
+    """The page: what the command is for, then a section a command, with all options."""
+    main, page = commands(), Troff()
     above = click.Context(main, info_name="contoursolve", **main.context_settings)
-    name, *_ = cleandoc(main.help or "").split("\n")
-    lines = [
-        f'.TH CONTOURSOLVE 1 "" "contoursolve {__version__}" "User Commands"',
-        ".ad l",
-        *(".SH NAME", rf"contoursolve \- {_text(name[0].lower() + name[1:].rstrip('.'))}"),
-        *(".SH SYNOPSIS", _usage(main, above), ".SH DESCRIPTION"),
-        *_help(main, above),
-    ]
+    page.write(f'.TH CONTOURSOLVE 1 "" "contoursolve {__version__}" "User Commands"\n.ad l\n.SH NAME\n')
+    page.write(f"contoursolve \\- {_plain((main.help or '').strip().partition('.')[0])}\n.SH SYNOPSIS\n")
+    main.format_help(above, page)
     for each in main.list_commands(above):
-        command = main.get_command(above, each)
-        assert command is not None
-        inner = click.Context(command, above, each)
-        lines += [f".SH {_text(each.upper())}", _usage(command, inner), *_help(command, inner)]
-    return "\n".join(lines) + "\n"
+        if (command := main.get_command(above, each)) is not None:
+            page.write(f".SH {_plain(each.upper())}\n")
+            command.format_help(click.Context(command, above, each), page)
+    return "\n".join(line for line in page.getvalue().split("\n") if line) + "\n"
 
 
-def _usage(command: click.Command, context: click.Context) -> str:
-    return rf"\fB{_text(context.command_path)}\fR {_text(' '.join(command.collect_usage_pieces(context)))}"
-
-
-def _help(command: click.Command, context: click.Context) -> Iterator[str]:
-    """The paragraphs of a help, and its options; lines behind a \\b stay as they are."""
-    for paragraph in cleandoc(command.help or "").split("\n\n"):
-        is_fixed = paragraph.startswith("\b")
-        shown = (_text(line) for line in paragraph.removeprefix("\b\n").split("\n"))
-        yield from (".PP", *([".nf"] if is_fixed else []), *shown, *([".fi"] if is_fixed else []))
-    for option in command.get_params(context):
-        record = option.get_help_record(context)
-        if record is not None:
-            yield from (".TP", rf"\fB{_text(record[0])}\fR", _text(record[1]))
-
-
-def _text(text: str) -> str:
-    """A line of text as the page has it: no command of troff, hyphens that can be copied, and choices
-    that may go on in the next line."""
-    plain = text.replace("\\", "\\e").replace("-", "\\-").replace("|", "|\\:")
-    return rf"\&{plain}" if plain.startswith((".", "'")) else plain
+def _plain(text: str) -> str:
+    """Text without commands of troff; hyphens can be copied, and choices go on in the next line."""
+    text = text.replace("\\", "\\e").replace("-", "\\-").replace("|", "|\\:")
+    return rf"\&{text}" if text.startswith((".", "'")) else text
 
 
 if __name__ == "__main__":

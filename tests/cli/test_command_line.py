@@ -341,12 +341,11 @@ def test_watch_runs_again_when_a_program_its_subprogram_or_a_setting_is_saved(tm
     assert output.read_text(encoding="utf-8").endswith("\nstopped\n")
 
 
-def test_watch_reads_files_only(save):
+def test_watch_reads_files_only():
     for arguments, told in (
         (("check", "-"), "name a PROGRAM"),
         (("check", "--block", "G1 X1"), "name a PROGRAM"),
         (("solve",), "name a PROGRAM"),
-        (("check", save(GOOD), "--fix"), "leave out --fix"),
     ):
         status, _, errors = run(*arguments, "--watch")
         assert (status, told in errors) == (2, True)
