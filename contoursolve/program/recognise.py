@@ -286,7 +286,12 @@ def turned_with_corners(blocks: Iterable[Block]) -> tuple[str, ...]:
         axes |= moved
         has_corners |= motion == 1 and len(moved) == 1 and bool(stated & CORNERS_WITHOUT_COMMA)
     is_turned = has_corners and axes == {*_TURNED.values()}
-    return tuple(name for name, each in DIALECTS.items() if is_turned and any(each.plane.diameters))
+    # A table of corner words says all of them: without I, K and R these make none.
+    return tuple(
+        name
+        for name, each in DIALECTS.items()
+        if is_turned and any(each.plane.diameters) and {word for word, *_ in each.corners} <= CORNERS_WITHOUT_COMMA
+    )
 
 
 def may_make_corner(line: str) -> bool:

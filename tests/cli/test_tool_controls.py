@@ -133,7 +133,7 @@ def test_klartext_with_labels_and_a_helix_stays_klartext(tmp_path: Path):
     same = CliRunner().invoke(main, ["diff", *words, str(tmp_path / "a.h"), str(new)])
     assert same.exit_code == 0, same.output
     done = CliRunner().invoke(main, [*made[:-2], "--post", "fanuc"])
-    assert (done.exit_code, "then expand it with --post fanuc" in done.stderr) == (2, True)
+    assert (done.exit_code, "then expand it for fanuc" in done.stderr) == (2, True)
 
 
 def test_an_approach_that_is_not_followed_is_no_entry(tmp_path: Path):

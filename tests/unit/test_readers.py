@@ -69,7 +69,7 @@ def test_a_program_that_shows_no_control_names_those_that_take_its_word():
     (told,) = check("G18 G21\nG0 X0.2 Z3.\nG1 X3.0 Z-1.0\nG1 Z-4.0\nG1 X10 A0.3\nG1 X8.5 Z-22.5\nM2")
     assert told.code == "control-unknown"
     assert (
-        "with haas-lathe and mitsubishi, A0.3 is a word of a contour; with --control nct-99m: A0.3 has no"
+        "with haas-lathe, mitsubishi and cnc-pilot, A0.3 is a word of a contour; with --control nct-99m: A0.3 has no"
         in told.message
     )
 

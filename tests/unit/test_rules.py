@@ -33,6 +33,7 @@ EXAMPLES = [
     for number, program in enumerate(programs, 1)
 ]
 """Each example of each rule, in the words of its control."""
+WRONG = [each for each in EXAMPLES if not each.values[-1]]
 DRAWN = Random(2026).sample(EXAMPLES, 50)
 
 

@@ -231,5 +231,5 @@ def test_the_explorer_moves_the_radius_of_the_tool():
 
 @pytest.mark.parametrize(("tool", "side"), [("R0.8", "right"), ("R0.8, tip 3", None), ("8 mm", "right")])
 def test_an_explorer_of_what_is_no_tool_says_what_to_write(tool, side):
-    with pytest.raises(ValueError, match=r"write|give"):
+    with pytest.raises(ValueError, match=r"write|give|state"):
         begin("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.", tool=tool, side=side)
