@@ -43,7 +43,7 @@ def ending_of(target: Dialect) -> str:
     return _FRAMES.get(target.name, _ISO)[2]
 
 
-class Reading(Struct, frozen=True):
+class ReadBack(Struct, frozen=True):
     """A small program as it is read back: by how much its contour is off, mm, and where it ends. Where it is another
     contour, or has a finding, `deviation` is None: `block` of the contour is to blame, or a `word`, for a `reason`."""
 
@@ -85,13 +85,13 @@ class SmallProgram:
         is_exact: bool,
         needs_side: bool = False,
         is_part: bool = False,
-    ) -> Reading:
+    ) -> ReadBack:
         """Read the program with these blocks, which begins at the words of `start`, as its control does, and compare
         its cuts with a contour. It has no error; unless it is there already, no finding at all, and if the contour is
         no `is_part`, no doubt about what is meant."""
         lines, head = self._assemble(start, blocks, needs_side=needs_side)
         own = slice(len(head), len(head) + len(blocks))
-        written = Reading("\n".join(lines) + "\n", tuple(lines[own]))
+        written = ReadBack("\n".join(lines) + "\n", tuple(lines[own]))
         found = self._read_at(Depth.VERDICT, written, drawn, is_exact=is_exact)
         # Doubts take longer, and repairs of what is wrong anyway much longer.
         if found.deviation is not None and not is_part and self.around is None:
@@ -121,8 +121,8 @@ class SmallProgram:
         text = [*head, *own, *closing, *self.behind]
         return [f"{n} {line}" for n, line in enumerate(text)] if self.is_numbered else text, head
 
-    def _read_at(self, depth: Depth, written: Reading, drawn: ContourDrawing, *, is_exact: bool) -> Reading:
-        """What is read with some depth; the `block` to blame is that of the program."""
+    def _read_at(self, depth: Depth, written: ReadBack, drawn: ContourDrawing, *, is_exact: bool) -> ReadBack:
+        """The contour read with some depth; the `block` to blame is that of the program."""
         modes, axes, is_strict = self.target.modes, drawn.plane.axes, self.around is None
         asked = Request(self.target, drawn.unit, depth=depth, is_strict=is_strict)
         result = run(parse(written.text, syntax=modes.syntax), asked)

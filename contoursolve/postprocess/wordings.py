@@ -224,7 +224,7 @@ class GCodeSpeller(Speller):
         )
 
     def _formats(self) -> Iterator[Format]:
-        """How arcs are written."""
+        """The ways to write arcs."""
         numbers = self.lexicon.numbers
         decimals, has_point = SAME.digits(self.unit, numbers), SAME.writes_point(numbers)
         own = (Format(self.plane, self.unit, decimals, has_point, arcs, radius=self.modes.radius) for arcs in Arcs)

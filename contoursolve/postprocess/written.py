@@ -15,7 +15,7 @@ from contoursolve.postprocess.expansion_report import ConversionError
 from contoursolve.postprocess.form_wordings import FormWordings
 from contoursolve.postprocess.klartext_wordings import KlartextWordings
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
-from contoursolve.postprocess.small_program import Reading, SmallProgram
+from contoursolve.postprocess.small_program import ReadBack, SmallProgram
 from contoursolve.postprocess.wordings import (
     HostProgram,
     NumberGround,
@@ -115,7 +115,7 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
 
 
 def _reason(name: str, found: Sequence[WrittenContour], search: "_Search") -> str:
-    """What the control has no words for, or why its first candidate has no words of this control alone, though some
+    """That the control has no words, or why its first candidate has no words of this control alone, though some
     numbers are computed."""
     if not found:
         return f"{name} accepts no blocks for this contour, not even plain ones"
@@ -241,7 +241,7 @@ class _Search:
             written = WrittenContour(blocks, found.lines, found.text, found.deviation, cost, names, is_plain)
             yield _Way(written, choices, found.end)
 
-    def _ban(self, choices: Sequence[_Choice], found: Reading) -> bool:
+    def _ban(self, choices: Sequence[_Choice], found: ReadBack) -> bool:
         """Leave out the wording that is to blame. With a finding about a corner word, that is every wording with this
         word; with one about a plain block, it is about the corner word before it, whatever else stands there."""
         ends = accumulate(len(each.wording.blocks) for each in choices)
@@ -337,7 +337,7 @@ def _cost(wording: Wording) -> Cost:
 
 
 def _kind(wording: Wording, speller: Speller) -> tuple[tuple[object, ...], frozenset[tuple[int, str]]]:
-    """What all wordings of a kind have in common: how many elements they say with which codes, and their words with a
+    """The common part of all wordings of a kind: how many elements they say with which codes, and their words with a
     number, coordinates by their axes."""
     shape: list[object]
     shape, found = [wording.count, wording.is_cut, wording.writes_corner], set[tuple[int, str]]()

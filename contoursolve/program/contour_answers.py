@@ -183,7 +183,7 @@ class AnswersInPasses(Answers):
         self._begun, self._is_alone, self._wrong_here = len(self._known), True, []
 
     def learned(self) -> Learned | None:
-        """What the step has added; None where its answers rest on those of other steps."""
+        """The answers that the step has added; None where its answers rest on those of other steps."""
         known = islice(self._known.items(), self._begun, None)
         return Learned(tuple(known), tuple(self._wrong_here)) if self._is_alone else None
 

@@ -163,7 +163,7 @@ def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchA
 
 
 def _unfinished(sketch: ContourSketch) -> Iterator[SketchFinding]:
-    """What the next element will make whole: `as_program` leaves it out."""
+    """The gaps that the next element will fill: `as_program` leaves it out."""
     number = len(sketch.elements)
     if sketch.closed and number == 1:
         message, help_ = "a closed contour has two lines or arcs, or more", "add the next line or arc"

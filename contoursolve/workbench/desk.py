@@ -30,7 +30,7 @@ from contoursolve.program import for_kind, likely_fixes, mend_open, safe_fixes
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import ActionError, Data, read_field
 from contoursolve.workbench.files import ENCODINGS, FileConflictError, FileText, Folder, mark_of, safe_name, text_of
-from contoursolve.workbench.open_view import Edit, ProgramView
+from contoursolve.workbench.open_view import ProgramView, TextEdit
 
 logger = logging.getLogger(__name__)
 
@@ -236,7 +236,7 @@ def _edit(program: ProgramView, action: Mapping[str, Any]) -> Data:
     else:
         _check_seq(program, action)
         try:
-            program.edit(convert(action.get("edits"), list[Edit]))
+            program.edit(convert(action.get("edits"), list[TextEdit]))
         except ValidationError:
             raise ActionError("edits are a list of {from, to, text}; nothing was changed") from None
     try:
@@ -360,7 +360,7 @@ def _later(module: str) -> Any:
 
 
 def _of(answer: Callable[[ProgramView, Mapping[str, Any]], Data]) -> "Answering":
-    """What answers by the program of an action."""
+    """The answer by the program of an action."""
     return lambda desk, window, action: answer(desk.program(window, action), action)
 
 

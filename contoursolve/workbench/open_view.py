@@ -26,7 +26,7 @@ from contoursolve.workbench.fields import Data
 from contoursolve.workbench.files import FileRefusedError, FileText, mark_of
 
 
-class Edit(Struct, frozen=True, rename={"begin": "from", "end": "to"}):
+class TextEdit(Struct, frozen=True, rename={"begin": "from", "end": "to"}):
     """Two offsets in a text as a page counts it, and what stands between them instead."""
 
     begin: int
@@ -122,7 +122,7 @@ class ProgramView:
         program = self.program
         return [program.line(number) for number in range(1, len(program.blocks) + 1)]
 
-    def edit(self, edits: Iterable[Edit]) -> None:
+    def edit(self, edits: Iterable[TextEdit]) -> None:
         """Follow edits, all of the text as it is. Raises OldEditError where they are not."""
         lines = self.lines()
         starts = [*accumulate((_units(line) + 1 for line in lines), initial=0)]
@@ -302,7 +302,7 @@ def _page_lines(text: str) -> list[str]:
     return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
 
-def difference(old: Sequence[str], new: Sequence[str]) -> Edit | None:
+def difference(old: Sequence[str], new: Sequence[str]) -> TextEdit | None:
     """The one edit that makes other lines of some, in as few characters as that takes; None if they are the same."""
     most = min(len(old), len(new))
     head = next((at for at in range(most - 1) if old[at] != new[at]), most - 1)
@@ -318,7 +318,7 @@ def difference(old: Sequence[str], new: Sequence[str]) -> Edit | None:
     most -= same
     behind = next((at for at in range(most) if one[-1 - at] != other[-1 - at]), most)
     begin = sum(_units(each) + 1 for each in old[:head]) + _units(one[:same])
-    return Edit(begin, begin + _units(one[same : len(one) - behind]), other[same : len(other) - behind])
+    return TextEdit(begin, begin + _units(one[same : len(one) - behind]), other[same : len(other) - behind])
 
 
 def _units(text: str) -> int:

@@ -77,7 +77,7 @@ class _Member(Struct, frozen=True, dict=True):
 
     @property
     def ways(self) -> tuple[bool, bool]:
-        """Whether the directions in which it begins and ends are known."""
+        """The knowledge of its directions: where it begins, and where it ends."""
         is_known = (self.is_placed and not self.open and not self.lacking) or (not self.turn and "A" in self.has)
         return is_known or (self.is_placed and self.is_centered), is_known or (not self.open and self.is_centered)
 

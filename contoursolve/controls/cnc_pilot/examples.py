@@ -86,7 +86,6 @@ _ABSENT = {
     "its programs stand in files of their own": "text-outside",
     "its elements are solved together: what fits nowhere has no point": "point-is-start circle-missed circles-apart "
     "line-backwards radius-differs corner-nowhere corner-straight contour-sensitive",
-    "no block is known of which it is true here": "count-open only-unproven not-verified search-unfinished "
-    "word-mistyped",
+    "no block is known to cause it here": "count-open only-unproven not-verified search-unfinished word-mistyped",
 }
 WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT)

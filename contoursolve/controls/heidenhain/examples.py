@@ -81,8 +81,7 @@ _ABSENT = {
     "its elements are solved together: what fits nowhere has no point": "point-is-start circle-missed radius-too-small "
     "circles-apart circle-undefined line-reversed line-backwards radius-differs half-circle angle-opposite "
     "corner-dropped corner-twice corner-nowhere contour-sensitive",
-    "no block is known of which it is true here": "count-open only-unproven not-verified suspected mode-unknown "
-    "not-checked",
+    "no block is known to cause it here": "count-open only-unproven not-verified suspected mode-unknown not-checked",
 }
 _RIGHT = {
     "heidenhain-tangent-first": (

@@ -61,6 +61,6 @@ _ABSENT = {
     **UNKNOWN,
     "words part by themselves": "blank-missing word-mistyped word-beside-code",
     "its X is a diameter throughout": "machine-taken start-diameter",
-    "no block is known of which it is true here": "contour-sensitive cut-free not-checked arc-radius-differs",
+    "no block is known to cause it here": "contour-sensitive cut-free not-checked arc-radius-differs",
 }
 WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT)
