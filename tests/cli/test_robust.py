@@ -46,6 +46,7 @@ CHAIN = "--start|X0 Y0|--block|FL AN+0 LEN20|--block|FCT DR+ R10 CCA+0|--block|F
         (f"find|{CHAIN}|--word|2:R|--bring|P3 Y20", 0),
         (f"sensitivity|{CHAIN}", 0),
         ("write|sketch.toml|--to|fanuc-mill", 0),
+        ("rules|--control|isg", 0),
     ],
     ids=lambda value: value.partition("|")[0] if isinstance(value, str) else "",
 )
