@@ -200,7 +200,7 @@ def test_realistic_program_is_solved_without_a_finding(path, control, contours):
 def test_every_rule_is_listed_and_explained():
     _, listing, _ = run("rules")
     for dialect in DIALECTS.values():
-        for rule in dialect.rules:
+        for rule in dialect.catalogue:
             status, text, _ = run("explain", rule.code)
             assert (status, rule.code in listing, text.startswith(rule.code)) == (0, True, True)
 
