@@ -1,6 +1,5 @@
 """What holds for every test: its options, and what it needs besides Python packages."""
 
-import gc
 import shutil
 import signal
 import sys
@@ -47,13 +46,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--desktop", metavar="FOLDER", help="where PyInstaller has built the program without Python")
     group.addoption("--pyodide", metavar="FOLDER", help="npm's package pyodide, unpacked, which the page loads")
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
-
-
-def pytest_collection_finish() -> None:
-    """Thousands of tests and modules stay until the end: the garbage collector need not look through them again."""
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(20_000, 20, 50)
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
