@@ -27,6 +27,7 @@ from .diagnosis import (
     Policy as Policy,
     legal_blocks as legal_blocks,
     list_solutions as list_solutions,
+    status_text as status_text,
     ways_to_complete as ways_to_complete,
     words_to_add as words_to_add,
 )

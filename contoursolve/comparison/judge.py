@@ -24,6 +24,7 @@ from contoursolve.comparison.measure import (
     side_of,
     unit,
 )
+from contoursolve.diagnosis import status_text
 from contoursolve.diagnostics import Severity
 from contoursolve.gcode import FaultKind
 from contoursolve.geometry import (
@@ -156,7 +157,7 @@ def _unreadable(claim: ParsedContour) -> Iterator[str]:
     askable = [word for name, word in claim.words.items() if name in names]
     faults = (fault for block in claim.blocks for fault in block.faults)
     texts = [fault.text for fault in faults if fault.kind is not FaultKind.COMMENT_NOT_CLOSED]
-    texts += [word.text for word in (*claim.repeated, *claim.unknown)]
+    texts += [word.text.strip() for word in (*claim.repeated, *claim.unknown, *claim.unread)]
     texts += [name for name, given in claim.givens.items() if abs(given.value) > LARGEST]
     for word in (word for block in claim.blocks for word in block.words):
         value = claim.lexicon.value(word, claim.after.unit) if word.address in claim.lexicon.addresses else None
@@ -591,10 +592,9 @@ def _check_path(of: ContourEvidence, ledger: Ledger) -> None:
         remark = f"they are {', '.join(' '.join(each) for each in sorted(sure)) or 'none'}"
         ledger.require("the branches are the sides that words choose", (), is_right or not of.own, remark)
         return
-    ledger.omit("the path", f"claimed {claimed.status}: there is none to check")
-    ledger.require(
-        "a contour with this status has no path", (), claimed.is_bare, f"it is {claimed.status}, with a path"
-    )
+    its = status_text(claimed.status)
+    ledger.omit("the path", f"a contour that is {its} has none")
+    ledger.require("a contour with this status has no path", (), claimed.is_bare, f"it is {its}, with a path")
     given = (
         claimed.certificate.radius,
         claimed.certificate.double,
@@ -673,7 +673,7 @@ def _check_status(of: ContourEvidence, ledger: Ledger) -> None:
     elif status == "underdetermined":
         _judge_open(case, ledger)
     else:
-        ledger.omit("the status", f"{status}: that there is no solution, or no path, is not worked out")
+        ledger.omit("the status", "that there is no solution, or no path, is not worked out")
 
 
 def _judge_path(of: ContourEvidence, rank: Rank, ledger: Ledger) -> None:
@@ -685,9 +685,8 @@ def _judge_path(of: ContourEvidence, rank: Rank, ledger: Ledger) -> None:
         ledger.omit("the status", f"whether {', '.join(words)} repeats others or chooses among the solutions")
     else:
         has = "overdetermined" if rank.surplus else "solved"
-        ledger.require(
-            "the status is that of the equations", words, of.claimed.status == has, f"by the equations it is {has}"
-        )
+        told = f"by the equations it is {status_text(has)}"
+        ledger.require("the status is that of the equations", words, of.claimed.status == has, told)
 
 
 def _judge_open(case: Case, ledger: Ledger) -> None:

@@ -268,9 +268,9 @@ def statuses_text(statuses: Mapping[Status, int]) -> str:
     return ", ".join(f"{statuses[each]} {status_text(each)}" for each in reversed(Status) if statuses.get(each))
 
 
-def status_text(status: Status) -> str:
-    """A status as a reader sees it: behind "contour", or behind a colon."""
-    return _STATUSES.get(status, status.value)
+def status_text(status: Status | str) -> str:
+    """A status, or its value in a record, as a reader sees it: behind "contour", behind "is", or behind a colon."""
+    return _STATUSES.get(Status(status), Status(status).value)
 
 
 _STATUSES = {

@@ -147,6 +147,7 @@ from .premises import (
 from .receipts import (
     receipt_json as receipt_json,
     receipt_lines as receipt_lines,
+    receipt_summary as receipt_summary,
 )
 from .report import (
     report_page as report_page,

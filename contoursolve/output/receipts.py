@@ -1,9 +1,12 @@
 """The receipt of a verification as JSON and as text."""
 
+from collections import Counter
 from collections.abc import Iterator
 
 from contoursolve.comparison import ClaimCheck, ContourReceipt, Receipt, ReceiptVerdict
+from contoursolve.diagnosis import count, status_text, statuses_text
 from contoursolve.diagnostics import json_text, members
+from contoursolve.solving import Status
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
 
 SCHEMA = "contoursolve/verify/1"
@@ -52,9 +55,9 @@ _MEANINGS = {
 def receipt_lines(receipt: Receipt) -> Iterator[str]:
     """The lines of a receipt, in pure ASCII apart from the names of the inputs."""
     for contour in receipt.contours:
-        claimed = f"claimed {contour.status}" if contour.status else "not in the result"
+        claimed = f"said to be {status_text(contour.status)}" if contour.status else "not in the result"
         place = f"{receipt.program.name}:{contour.line}: {_plain(contour.form)}: {claimed}"
-        checks = _count(len(contour.checks), "check")
+        checks = count(len(contour.checks), "check")
         if contour.verdict is ReceiptVerdict.NOTHING_CHECKED:
             checks = f"neither path nor status; {checks} of other things passed"
         yield f"{place}: {_VERDICTS[contour.verdict]} ({checks}{_largest(contour)})"
@@ -73,7 +76,34 @@ def receipt_lines(receipt: Receipt) -> Iterator[str]:
         yield "no contour; checked nothing: there is no contour to check"
         return
     counts = ", ".join(f"{verdicts.count(each)} {_VERDICTS[each]}" for each in ReceiptVerdict if each in verdicts)
-    yield f"{_count(len(verdicts), 'contour')} ({counts}); {_MEANINGS[receipt.verdict]}"
+    yield f"{count(len(verdicts), 'contour')} ({counts}); {_MEANINGS[receipt.verdict]}"
+
+
+def receipt_summary(receipt: Receipt) -> str:
+    """A verification in sentences, for all who ask no more: how many paths agree, how many contours have none."""
+    several = receipt.contours
+    if not several:
+        return "Nothing to check: the program has no contour."
+    total = count(len(several), "contour")
+    if wrong := sum(each.verdict is ReceiptVerdict.FAILED for each in several):
+        return (
+            f"Not right: {wrong} of {total} {'disagrees' if wrong == 1 else 'disagree'} with the words of the program."
+        )
+    if receipt.verdict is ReceiptVerdict.VERIFIED:
+        who = "the contour is" if len(several) == 1 else f"all {total} are"
+        return f"Checked again without the solver: {who} as shown."
+    agreeing = [each for each in several if any(check.kind == "words" for check in each.checks)]
+    told = []
+    if agreeing:
+        agree = (
+            "has a path that agrees with its words" if len(agreeing) == 1 else "have paths that agree with their words"
+        )
+        told.append(f"Checked again without the solver: {len(agreeing)} of {total} {agree}.")
+    if unproven := sum(each.verdict is ReceiptVerdict.PARTLY_VERIFIED for each in agreeing):
+        told.append(f"{unproven} of them may have another path: that was not checked.")
+    if without := Counter(Status(each.status) for each in several if each not in agreeing and each.status):
+        told.append(f"{without.total()} of {total} without a path to check: {statuses_text(without)}.")
+    return " ".join(told)
 
 
 def _largest(contour: ContourReceipt) -> str:
@@ -91,10 +121,6 @@ def _check_text(check: ClaimCheck) -> str:
         return f"expected: {check.name}{words}; but {_plain(check.remark) or 'it is not so'}"
     off = "not a number" if check.residual is None else f"off by {check.residual:.3g} {check.unit}"
     return f"{check.name}{words}: {off}, allowed {check.limit:.1e} {check.unit}"
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'s' * (number != 1)}"
 
 
 def _plain(text: str) -> str:

@@ -7,6 +7,7 @@ from math import floor
 import numpy
 from numpy.typing import NDArray
 
+from contoursolve.diagnosis import status_text
 from contoursolve.families import Outcomes, is_contour
 from contoursolve.pictures.curves import Curve, near
 from contoursolve.pictures.levels import Levels
@@ -33,7 +34,7 @@ _MOST_RUNS = 9_000
 def words_of(outcome: int) -> list[str]:
     """An outcome in words: its status, and the reason if there is one."""
     code, reason = StatusCode(outcome // len(REASONS)), REASONS[outcome % len(REASONS)]
-    return [each.value.replace("-", " ") for each in (code.status, reason) if each is not None]
+    return [status_text(code.status), *([reason.value.replace("-", " ")] if reason is not None else [])]
 
 
 def role_of(outcome: int) -> Role:

@@ -7,6 +7,7 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from contoursolve.diagnosis import status_text
 from contoursolve.families import (
     Boundary,
     Family,
@@ -51,7 +52,7 @@ Places = NDArray[numpy.int64]
 def map_title(statuses: Mapping[Status, int], words: Sequence[str], field: "ResultField | None" = None) -> str:
     """The title of a map: its words, its result if it shows one, and the count of each status."""
     named = " and ".join(words) + (f": {field.name}" if field is not None else "")
-    told = ", ".join(f"{number:,} {status.value}" for status, number in statuses.items())
+    told = ", ".join(f"{number:,} {status_text(status)}" for status, number in statuses.items())
     return f"{named}: {told}"
 
 

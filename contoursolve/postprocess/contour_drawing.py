@@ -10,7 +10,7 @@ from math import dist, isclose
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, status_text
 from contoursolve.geometry import CornerShape, Fact, Given, Length, Line, Plane, Unit
 from contoursolve.postprocess.expansion_report import ConversionError
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, direction, on_arc
@@ -106,7 +106,7 @@ def draw(answer: Answer) -> ContourDrawing:
     """The drawing of a solved contour. Raises ConversionError if it has no path."""
     contour, profile = answer.contour, answer.profile
     if contour is None:
-        raise ConversionError(f"a contour that is {answer.status.value} has no path")
+        raise ConversionError(f"a contour that is {status_text(answer.status)} has no path")
     cut = {each.name: each for each in contour.elements}
     corners = {each.before: each for each in profile.figure.corners if each.name in cut}
     places = {profile.figure.path[-1].head: contour.end, **contour.places, profile.figure.start: contour.start}

@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, Depth, coordinates, join
+from contoursolve.diagnosis import Answer, Depth, coordinates, join, status_text
 from contoursolve.gcode import Block, Program, telling
 from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.program.pipeline import Run
@@ -124,7 +124,7 @@ def _outcome(answer: Answer) -> _Outcome:
     contour, file = answer.contour, answer.claim.blocks[0].file
     lines: tuple[int | str, ...] = (file, *answer.lines) if file else answer.lines
     if contour is None:
-        told = next((each.message for each in answer.diagnostics if each.is_error), answer.status.value)
+        told = next((each.message for each in answer.diagnostics if each.is_error), status_text(answer.status))
         return _Outcome(lines, answer.status.value, (), told)
     places = [at for each in contour.elements for at in (each.start, each.end, getattr(each, "center", each.end))]
     told = f"ends at {coordinates(contour.end, answer.plane, answer.unit)}"

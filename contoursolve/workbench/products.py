@@ -6,7 +6,7 @@ from pathlib import PurePath
 from typing import Any
 
 import contoursolve
-from contoursolve.comparison import Document, ReceiptVerdict, verify
+from contoursolve.comparison import Document, verify
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import importing
 from contoursolve.execution import named_variables
@@ -19,7 +19,7 @@ from contoursolve.notebook import (
     report_on_tool,
     stated_tool,
 )
-from contoursolve.output import beside_of, receipt_lines, to_json
+from contoursolve.output import beside_of, receipt_lines, receipt_summary, to_json
 from contoursolve.pictures import Theme, draw_result
 from contoursolve.postprocess import ending_of
 from contoursolve.program import CONTROL, Result
@@ -174,24 +174,8 @@ def _verify(view: ProgramView, _: Mapping[str, Any]) -> Data:
     result = view.program.result()
     program = Document(view.file.name, view.file.encode(view.text))
     receipt = verify(program, Document("result", to_json(result).encode()), control=view.program.dialect)
-    several = receipt.contours
-    count = sum(each.verdict is receipt.verdict for each in several)
-    who = f"all {len(several)} contours are" if len(several) > 1 else "the contour is"
-    message = _VERIFIED[receipt.verdict].format(who=who, count=count, all=len(several))
     details = "\n".join(receipt_lines(receipt))
-    return {"name": "", "verdict": receipt.verdict.value, "message": message, "details": details}
-
-
-_VERIFIED = {
-    ReceiptVerdict.VERIFIED: "Checked again without the solver: {who} as shown.",
-    ReceiptVerdict.FAILED: "Not right: {count} of {all} disagree with the words of the program.",
-    ReceiptVerdict.PARTLY_VERIFIED: (
-        "Checked again without the solver: each path agrees with its words. "
-        "{count} of {all} may have another path: that was not checked."
-    ),
-    ReceiptVerdict.NOTHING_CHECKED: "Nothing could be checked: see why in the details.",
-}
-"""A verification in a sentence, for all who ask no more."""
+    return {"name": "", "verdict": receipt.verdict.value, "message": receipt_summary(receipt), "details": details}
 
 
 def _suffix(view: ProgramView) -> str:

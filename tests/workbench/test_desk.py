@@ -98,6 +98,16 @@ def test_each_product_is_that_of_the_command_of_its_name(tmp_path):
     assert verified["verdict"] == "verified"
     assert verified["message"] == "Checked again without the solver: the contour is as shown."
     assert "SHA-256" in verified["details"]
+    again = "G00 X40. Z0.\r\nG111 A180. K-30. {}\r\n"
+    mixed = text + again.format("") + again.format("B120. X100. P500.")
+    page.ask("open", name="mixed.nc", base64=b64encode(mixed.encode()).decode())
+    told = page.ask("verify")
+    assert told["message"] == (
+        "Checked again without the solver: 1 of 3 contours has a path that agrees with its words. "
+        "2 of 3 contours without a path to check: 1 without a solution, 1 refused."
+    )
+    assert "mixed.nc:4: G111: said to be refused: not checked" in told["details"]
+    page.ask("open", name="part.nc", base64=b64encode(text.encode()).decode())
     for kind, beginning in (("report", b"<!doctype html>"), ("dxf", b"  0\nSECTION"), ("png", b"\x89PNG")):
         assert b64decode(page.ask(kind)["base64"]).startswith(beginning)
     cut = page.ask("tool", tool="R6., tip 3", side="right")
