@@ -3,7 +3,7 @@
 import click
 
 from contoursolve import api
-from contoursolve.cli.expand import report_left, report_misread, report_told, target_of
+from contoursolve.cli.expand import report_fixed, report_left, report_misread, report_told, target_of
 from contoursolve.cli.options import (
     FILE,
     FOUND_ERRORS,
@@ -110,6 +110,7 @@ def _report_failure(found: Conversion, name: str, to: str | Dialect) -> None:
 def _report(found: Conversion, to: str | Dialect) -> None:
     """Print on standard error what was converted, and how it was compared."""
     summary, post = found.summary, _post(to)
+    report_fixed(summary, style_of_output())
     report_told(summary, post)
     if not summary.replaced:
         say("no contour block: nothing to convert", err=True)

@@ -350,6 +350,15 @@ def report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool)
         say(f"{style(severity, severity)}: program line {each.line}: {each.sentence(post.title)}", err=True)
 
 
+def report_fixed(summary: Summary, style: Style) -> None:
+    """Print on standard error the lines whose variables have the values of one run."""
+    for each in summary.fixed:
+        say(
+            f"program line {each.line}: {style('warning', 'warning')}: {each.sentence} (see --formulas and --inline)",
+            err=True,
+        )
+
+
 def report_told(summary: Summary, post: Post) -> None:
     """Print on standard error the lines at which the target stops, or that it reads otherwise on the same path."""
     for each in summary.unfamiliar:
@@ -372,6 +381,7 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
         say(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
     if summary.warnings > len(summary.warned):
         say(f"and {count(summary.warnings - len(summary.warned), 'warning')} more", err=True)
+    report_fixed(summary, style)
     report_told(summary, post)
     done = f"{count(summary.replaced, 'contour')} expanded"
     if summary.replaced:

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator, Sequence, Set
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Repairs
-from contoursolve.diagnosis.edits import EditKind
+from contoursolve.diagnosis.attempt import Repair, Repairs
+from contoursolve.diagnosis.edits import EditKind, write_word
 from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Policy, problems
 from contoursolve.diagnosis.explain import (
     AGAINST,
@@ -25,7 +25,7 @@ from contoursolve.diagnosis.wording import SHOWN, count, length_text
 from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Span, Tie, Verdict
 from contoursolve.gcode import FACT, Block, FaultKind
 from contoursolve.geometry import Profile, System, Unit, assemble
-from contoursolve.reading import Dialect, ReadIssue, State, read
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, read
 from contoursolve.solving import (
     AffineFacts,
     Circuit,
@@ -91,8 +91,28 @@ def diagnose(
     main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
     if main is not None:
         for number in (main, *_both(findings)):
-            findings[number] = with_fixes(findings[number], answer, repairs.repairs)
+            ordered = _expected_first(findings[number], repairs.repairs, answer.claim)
+            findings[number] = with_fixes(findings[number], answer, ordered)
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
+
+
+def _expected_first(finding: Diagnostic, repairs: tuple[Repair, ...], claim: ParsedContour) -> tuple[Repair, ...]:
+    """Repairs; where the first one writes a value in the word whose expected value the finding tells, the one that
+    writes that value is first, if a slip explains it."""
+    given = next((each for each in claim.givens.values() if each.word and each.word.span == finding.span), None)
+    if given is None or given.word is None or "expected" not in finding.values:
+        return repairs
+    value = given.of_typed(finding.values["expected"])
+    expected = write_word(given.word.address, value, claim.lexicon, claim.after.unit)
+
+    def changed(repair: Repair) -> str:
+        """The word as a repair that changes nothing else writes it."""
+        is_about = all(edit.kind is EditKind.CHANGE and edit.span == finding.span for edit in repair.edits)
+        return repair.edits[0].text.replace("+", "") if is_about else ""
+
+    if not repairs or not changed(repairs[0]):
+        return repairs
+    return tuple(sorted(repairs, key=lambda each: not (any(each.slips) and changed(each) == expected)))
 
 
 def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:

@@ -21,10 +21,12 @@ MOST_TOLD = 3
 
 
 class Product(Struct, frozen=True):
-    """A text that was made of a program, and what is to be said of it; without a text, why there is none."""
+    """A text that was made of a program, and what is to be said of it; without a text, why there is none. `details` are
+    all lines of it, where the message names some."""
 
     text: str | None
     message: str = ""
+    details: str = ""
 
 
 def project_settings(path: Path | None) -> dict[str, str] | str:
@@ -98,7 +100,7 @@ def expanded_beside_tool(program: "OpenProgram", path: Path | None, **stated: An
 
 
 def _expansion(program: "OpenProgram", text: str | None, summary: "Summary") -> Product:
-    return Product(text, _what_was_left(summary, program.dialect.title if program.dialect else ""))
+    return _telling(text, summary, program.dialect.title if program.dialect else "", "expand")
 
 
 def converted(program: "OpenProgram", control: str, settings: Mapping[str, str]) -> Product:
@@ -113,14 +115,20 @@ def converted(program: "OpenProgram", control: str, settings: Mapping[str, str])
     difference = found.comparison.difference if found.comparison else None
     if difference is not None:
         return Product(found.text, f"the new program is another path: {difference.reason}")
-    return Product(found.text, _what_was_left(found.summary, DIALECTS[control].title))
+    return _telling(found.text, found.summary, DIALECTS[control].title, "convert")
 
 
-def _what_was_left(summary: "Summary", target: str) -> str:
-    """Reasons why contours were left as they are, and words that the target reads otherwise; empty without any."""
+def _telling(text: str | None, summary: "Summary", target: str, command: str) -> Product:
+    """A text with the reasons why contours were left as they are, the words that the target reads otherwise, and those
+    that are numbers now; the command line lists all of them, too."""
     left = [f"program line {each.lines[0]}: {each.reason}" for each in summary.left]
     left += [f"program line {each.line}: {each.sentence(target)}" for each in summary.unfamiliar]
-    return "; ".join(left[:MOST_TOLD]) + (f"; and {len(left) - MOST_TOLD} more" if len(left) > MOST_TOLD else "")
+    left += [f"program line {each.line}: {each.sentence}" for each in summary.fixed]
+    more = len(left) - MOST_TOLD
+    told = "; ".join(left[:MOST_TOLD])
+    if more <= 0:
+        return Product(text, told)
+    return Product(text, f"{told}; and {more} more: contoursolve {command} lists all", "\n".join(left))
 
 
 def page_about(program: "OpenProgram", tool: "ToolReport | str | None", version: str) -> Product:

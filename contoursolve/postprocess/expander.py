@@ -28,7 +28,7 @@ from contoursolve.gcode import (
 )
 from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, MotionBlock, emit
-from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Summary, left_unread
+from contoursolve.postprocess.expansion_report import ExpansionOptions, FixedWords, Left, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
 from contoursolve.postprocess.post_processors import SAME, MachineKind, machine_of
 from contoursolve.postprocess.untranslatable import Watch
@@ -353,6 +353,7 @@ class Expander:
                 moves.append(move._replace(words=(*move.words, *beside)))
             end = self.lines.take_end(block.line)
             self._end_lasting(moves, ended, claim.after if block is step.blocks[-1] else None)
+            self._note_fixed(block, part.block)
             text = self._write(block, moves, end, state, part.block)
             if text:
                 yield text
@@ -443,7 +444,7 @@ class Expander:
         frame, rest = frame_of(block.text), carried(solved, self.modes)
         own = {word.text.strip(): new for word, new in self._switches(solved) if new}
         typed = self._typed(block)
-        beside = [typed.get(word.address, word.text.strip()) for word in rest.kept if word.text.strip() in rest.words]
+        beside = [typed.get(word.address, word.text.strip()) for word in self._kept(solved)]
         indent = frame.indent
         lines = (
             [indent + text for text in comment_out(block.text.strip(), self._syntax_of(block))]
@@ -464,6 +465,28 @@ class Expander:
             lines[-1] += frame.behind
         return (end or self.lines.end).join(lines) + end if lines else ""
 
+    def _note_fixed(self, block: Block, solved: Block) -> None:
+        """Keep in mind the variables of a block that are numbers in what is written."""
+        typed = self._typed(block)
+        if not typed:
+            return
+        kept = {word.address for word in self._kept(solved)}
+        known = {word.address: word.text.strip() for word in solved.words if word.address not in {"N", "G"}}
+        # What a control reads as one word, RND R5, may be typed as several; what is empty is no word.
+        others = {
+            address: next((each for each in known.values() if f" {address}" in each), "nothing") for address in typed
+        }
+        fixed = {text: known.get(address, others[address]) for address, text in typed.items() if address not in kept}
+        # What has no value stays as typed.
+        fixed = {text: number for text, number in fixed.items() if text != number}
+        if fixed:
+            self.summary.fixed.append(FixedWords(block.line, tuple(fixed), tuple(dict.fromkeys(fixed.values()))))
+
+    def _kept(self, solved: Block) -> list[Word]:
+        """The words of a block of a contour that are written as typed."""
+        rest = carried(solved, self.modes)
+        return [word for word in rest.kept if word.text.strip() in rest.words]
+
     def _typed(self, block: Block) -> dict[str, str]:
         """The words of a block that have variables, by their addresses."""
         language = self.modes.language
@@ -471,7 +494,7 @@ class Expander:
             return {}
         code, found = language.read(block.text), dict[str, str]()
         for each in code.words:
-            address = re.search(r"([A-Za-z]*)[ \t]*=?[ \t]*\Z", block.text[: each.begin])
+            address = re.search(r"(,?[A-Za-z]*)[ \t]*=?[ \t]*\Z", block.text[: each.begin])
             if address is not None:
                 found[address[1].upper()] = block.text[address.start() : each.end]
         return found

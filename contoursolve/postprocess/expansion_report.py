@@ -5,6 +5,7 @@ from typing import Any
 
 from msgspec import Struct, field
 
+from contoursolve.diagnosis import join
 from contoursolve.diagnostics import Diagnostic, ProgramError, Severity
 from contoursolve.gcode import Block, FaultKind
 from contoursolve.geometry import Length
@@ -36,6 +37,21 @@ class Left(Struct, frozen=True):
     sources: Mapping[int, str]
 
 
+class FixedWords(Struct, frozen=True):
+    """Words with variables on a line, and the words with numbers that are written for them."""
+
+    line: int
+    words: tuple[str, ...]
+    numbers: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        """What is written, and what that means."""
+        words, numbers = join(self.words), join(self.numbers)
+        are = "is" if len(self.words) == 1 else "are"
+        return f"{words} {are} written as {numbers}: other values of the variables no longer count"
+
+
 class Summary(Struct):
     """Account of a program's contours, as far as it has been read; `deviation` is the largest distance of the written
     path from the exact contours, mm."""
@@ -56,6 +72,8 @@ class Summary(Struct):
     elsewhere: list[Diagnostic] = field(default_factory=list)
     """Findings about contours of called files, which stay as they are."""
     unfamiliar: list[Unfamiliar] = field(default_factory=list)
+    fixed: list[FixedWords] = field(default_factory=list)
+    """Words of replaced contours whose variables have the values of one run."""
     restated: int = 0
     """Blocks outside contours that were written in G codes, where the program is in other words."""
     unit: Length | None = None

@@ -7,7 +7,7 @@ from typing import cast
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
-from contoursolve.gcode import Block, comment_out, own_comments, remark
+from contoursolve.gcode import Block, Word, comment_out, own_comments, remark
 from contoursolve.geometry import Length, Turn
 from contoursolve.postprocess.emit import MotionBlock, emit, longest
 from contoursolve.postprocess.expander import NAMES, Expander
@@ -46,6 +46,9 @@ class _Expander(Expander):
 
     def _relying(self, *_: object) -> str:
         return ""
+
+    def _kept(self, _: Block) -> list[Word]:
+        return []
 
     def _aside(self, part: ContourBlock | None, claim: ParsedContour, state: State) -> State | None:
         """A move of other axes alone may stand between the blocks of a contour, too."""

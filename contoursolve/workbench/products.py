@@ -141,9 +141,12 @@ def _convert(view: ProgramView, action: Mapping[str, Any]) -> Data:
 
 def _program(view: ProgramView, made: Product, ending: str) -> Data:
     """Another program in the encoding of the first one."""
+    more = {"details": made.details} if made.details else {}
+    if made.text is None and more:
+        return {"name": "", "message": f"Nothing was written: {made.message}", **more}
     if made.text is None:
         raise ActionError(made.message or "nothing was written: a contour is not solved; mend its findings first")
-    return {**_file(view, ending, view.file.encode(made.text), made.message), "text": made.text}
+    return {**_file(view, ending, view.file.encode(made.text), made.message), "text": made.text, **more}
 
 
 def _report(view: ProgramView, _: Mapping[str, Any]) -> Data:

@@ -1066,6 +1066,20 @@ def test_a_profile_that_is_written_elsewhere_needs_its_call():
     assert kept.count("%_N_") == 1
 
 
+def test_numbers_in_place_of_variables_are_told(tmp_path):
+    """A subprogram that computes with its arguments is written for one call: never in silence. F keeps its variable."""
+    text = "G17 G90 G00 X0 Y0\nG65 P2000 A30. B5. F90.\nM30\nO2000\nG01 X#1 ,R#2 F#9\nY40. S#19\nM99"
+    (tmp_path / "slot.nc").write_text(text, encoding="utf-8")
+    status, output, errors = run("expand", tmp_path / "slot.nc", "--control", "fanuc-mill", "--no-comments")
+    assert (status, output.split(b"\n")[4]) == (0, b"G01 X25. Y0. F#9")
+    assert "line 5: warning: X#1 and ,R#2 are written as X30. and ,R5.: other values of the variables no" in errors
+    assert "program line 6: warning: S#19 is written as nothing" in errors
+    assert contoursolve.expand(text, control="fanuc-mill", inline=True).summary.fixed == []
+    klartext = "0 BEGIN PGM A MM\n1 Q2 = 5\n2 L X+0 Y+0 R0\n3 L X+50 Y+0\n4 RND RQ2\n5 L X+60 Y+50 F Q3\n6 END PGM A MM"
+    (fixed,) = contoursolve.expand(klartext).summary.fixed
+    assert (fixed.line, fixed.words, fixed.numbers) == (5, ("RQ2",), ("RND R5.",))
+
+
 def test_a_call_that_is_not_found_stays_and_the_words_beside_it_run_once():
     text = contoursolve.expand("G91 G01 X5. M98 P9000\nM30", control="fanuc-mill", inline=True, keep_going=True).text
     assert (text.count("X5."), text.count("M98 P9000")) == (1, 1)

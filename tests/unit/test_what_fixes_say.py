@@ -128,3 +128,10 @@ def test_a_point_is_told_in_the_plane_of_the_fix():
     control, text, _ = PLANE
     (fix, *_) = solve(text, control=control).diagnostics[0].fixes
     assert fix.description.endswith("in program line 1 (another plane) -> V1 is at Z40.000 mm X0.000 mm")
+
+
+def test_the_first_fix_of_an_angle_is_the_one_that_is_expected():
+    program = "G00 X66. Z-76.\nG111 A180. K-4. B-10. X70.\nG01 X70. Z-82.\nM30"
+    (finding,) = solve(program, control="yasnac-lx3").diagnostics
+    assert finding.labels[0].text == "expected 170.000 deg"
+    assert finding.fixes[0].description.startswith("write B170. for B-10. (the other way along the line)")

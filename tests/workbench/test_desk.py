@@ -94,6 +94,12 @@ def test_each_product_is_that_of_the_command_of_its_name(tmp_path):
     assert page.ask("convert", to="siemens-840d")["name"].endswith("-siemens-840d.mpf")
     other = b64decode(page.ask("convert", to="fanuc-lathe")["base64"])
     assert other == contoursolve.convert(text, "fanuc-lathe").text.encode()
+    many = "".join(f"G{code}\r\n" for code in (65, 66, 43.4, 68.2, 5.1))
+    page.ask("open", name="many.nc", base64=b64encode(("G21 G40 G18\r\n" + text + many).encode()).decode())
+    left = page.ask("convert", to="siemens-840d")
+    count = len(left["details"].split("\n"))
+    assert left["message"].endswith(f"; and {count - 3} more: contoursolve convert lists all")
+    page.ask("open", name="part.nc", base64=b64encode(text.encode()).decode())
     verified = page.ask("verify")
     assert verified["verdict"] == "verified"
     assert verified["message"] == "Checked again without the solver: the contour is as shown."
