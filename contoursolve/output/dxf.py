@@ -18,10 +18,10 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
-from contoursolve.diagnosis import Answer, count
+from contoursolve.diagnosis import Answer, count, join, status_text
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.program import Result
-from contoursolve.solving import ArcSegment, Contour, Point, Segment
+from contoursolve.solving import ArcSegment, Contour, Point, Segment, Status
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
@@ -42,8 +42,8 @@ _FULL = 360.0
 
 
 def drawing_for_cad(result: Result, tool: "ToolReport | None") -> tuple[bytes, str] | None:
-    """The drawing of all that is solved of a program, with the path of its tool, and the number of things in it; None
-    if nothing is solved."""
+    """The drawing of all that is solved of a program, with the path of its tool, and what is in it and what is left
+    out, each contour by its line; None if nothing is solved."""
     contours = [answer.contour for answer in result.answers if answer.contour]
     runs, solved = tool.runs if tool else (), {line for answer in result.answers for line in answer.lines}
     paths = {f"tool - program line {each.run.lines[0]}": each.path for each in runs if each.path}
@@ -53,7 +53,25 @@ def drawing_for_cad(result: Result, tool: "ToolReport | None") -> tuple[bytes, s
     if not contours and not paths:
         return None
     elements = count(sum(len(contour.elements) for contour in contours), "element")
-    return to_dxf(result.answers, paths), f"{elements} of {count(len(contours), 'contour')}{beside}"
+    told = [f"{elements} of {count(len(contours), 'contour')}{beside}", *_left_out(result.answers)]
+    if lines := [str(each.run.lines[0]) for each in runs if not each.path]:
+        told.append(f"left out: {count(len(lines), 'path')} of the tool ({_program_lines(lines)})")
+    return to_dxf(result.answers, paths), "; ".join(told)
+
+
+def _left_out(answers: Sequence[Answer]) -> Iterator[str]:
+    """The contours without a drawing by their lines, those of a status together."""
+    by_status: dict[Status, list[str]] = {}
+    for answer in answers:
+        if not answer.contour:
+            by_status.setdefault(answer.status, []).append(str(answer.lines[0]))
+    for status, lines in by_status.items():
+        yield f"left out: {count(len(lines), 'contour')} {status_text(status)} ({_program_lines(lines)})"
+
+
+def _program_lines(lines: Sequence[str]) -> str:
+    each_once = [*dict.fromkeys(lines)]  # a block that runs again has its line again
+    return f"program {'line' if len(each_once) == 1 else 'lines'} {join(each_once)}"
 
 
 def to_dxf(answers: Sequence[Answer], paths: Mapping[str, Contour] = MappingProxyType({})) -> bytes:
