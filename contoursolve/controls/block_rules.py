@@ -8,6 +8,9 @@ from contoursolve.reading import ReadIssue, Rule
 _NAMED = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
 """A program that shows its control."""
 
+_WAYS = "by --control, in contoursolve.toml or in the list of the page"
+"""All ways to name a control: a reader stands at the command line, in an editor or at the workbench."""
+
 _GRAMMAR = own_source("grammar of a word: an address and a number")
 _READING = own_source("modal state of a program")
 
@@ -106,7 +109,7 @@ READING_RULES = (
     Rule(
         code="comma-word-unknown",
         message="{words}: this control has no {address}; it stops there, or leaves the word out",
-        help="{advice}; name the control by --control, if it is another one",
+        help=f"{{advice}}; name the control {_WAYS}, if it is another one",
         source=_READING,
         about=ReadIssue.COMMA_WORD_UNKNOWN,
         severity=Severity.WARNING,
@@ -354,7 +357,7 @@ READING_RULES = (
     Rule(
         code="control-unknown",
         message="control not recognised; {readings}",
-        help="name the control by --control {control}, or in contoursolve.toml",
+        help="name the control by --control {control}, in contoursolve.toml or in the list of the page",
         source=_READING,
         about=ReadIssue.CONTROL_UNKNOWN,
         accepted=(_NAMED,),
@@ -362,8 +365,9 @@ READING_RULES = (
     ),
     Rule(
         code="control-alike",
-        message="{controls} read this program alike: its findings are those of {control}; --control names yours",
-        help="name your control by --control or in contoursolve.toml: rules, alarms and fixes are then its own",
+        message="{controls} read this program alike: its findings are those of {control}; "
+        "name yours by --control, or in the list of the page",
+        help=f"name your control {_WAYS}: rules, alarms and fixes are then its own",
         source=_READING,
         about=ReadIssue.CONTROL_ALIKE,
         severity=Severity.INFO,
@@ -373,7 +377,7 @@ READING_RULES = (
     Rule(
         code="control-called",
         message="the program shows no control, but what it calls does: {sign} is for {control}",
-        help="name your control by --control or in contoursolve.toml, if it is another one",
+        help=f"name your control {_WAYS}, if it is another one",
         source=_READING,
         about=ReadIssue.CONTROL_CALLED,
         severity=Severity.INFO,

@@ -35,7 +35,8 @@ def test_a_program_that_all_its_controls_read_alike_is_solved_and_the_first_is_n
     first = readers.split(",")[0].split(" ")[0]
     assert (told.code, told.severity.value, found.control) == ("control-alike", "info", first)
     assert (
-        told.message == f"{readers} read this program alike: its findings are those of {first}; --control names yours"
+        told.message == f"{readers} read this program alike: its findings are those of {first}; "
+        "name yours by --control, or in the list of the page"
     )
     assert [answer.contour.end for answer in found.answers] == [pytest.approx(end)]
     assert solve(program, control=first).answers == found.answers
