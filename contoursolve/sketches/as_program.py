@@ -41,7 +41,7 @@ class SketchProgram(Struct, frozen=True):
 
 def as_program(sketch: ContourSketch, picks: Mapping[int, int] = {}) -> SketchProgram:
     """The program of a sketch; `picks` are the numbers of solutions by elements, as FSELECT has them. A corner with no
-    element behind it is left out."""
+    element after it is left out."""
     lines, places = list[str](), dict[Field, Span]()
     for number, element in enumerate(sketch.elements, 1):
         facts = [((number, f"facts.{place}"), fact) for place, fact in enumerate(element.facts)]

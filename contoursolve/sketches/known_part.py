@@ -170,7 +170,7 @@ def _unfinished(sketch: ContourSketch) -> Iterator[SketchFinding]:
         yield SketchFinding("drawing-closed-alone", Severity.ERROR, message, help_, ((0, "closed"),))
     if number and sketch.elements[-1].corner is not None:
         where, help_ = (
-            "needs an element behind it, and none follows",
+            "needs an element after it, and none follows",
             "add the next line or arc, or leave the corner out",
         )
         if sketch.closed:
@@ -329,7 +329,7 @@ class _Reading:
         return (way,) if way and not part.startswith("corner") else ()
 
     def _state(self, part: str, number: int, loose: Loose, drawn: Mapping[str, Segment]) -> PartState:
-        """The state of an element, or of the corner behind it, of a sketch that has no contour."""
+        """The state of an element, or of the corner after it, of a sketch that has no contour."""
         path = self.answer.profile.figure.path
         is_corner = part.startswith("corner")
         around = path[number - 1 : number + is_corner]

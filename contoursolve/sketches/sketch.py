@@ -25,7 +25,7 @@ class SketchError(UserError, ValueError):
 
 
 class SketchCorner(Struct, frozen=True):
-    """The corner behind an element: a `rounding` by its radius, or a `chamfer` by its setback."""
+    """The corner after an element: a `rounding` by its radius, or a `chamfer` by its setback."""
 
     shape: Literal["rounding", "chamfer"]
     size: Value
@@ -40,7 +40,7 @@ class SketchElement(Struct, frozen=True):
             degrees; X of a turned part is a diameter. `?` asks for one.
         turn: the sense of an arc, `cw` or `ccw`.
         tangent: whether it begins in the direction of the element before it.
-        corner: what stands behind it.
+        corner: what stands after it.
         guess: about where it ends, by axes, and where the centre of an arc is (CCX): it chooses among solutions, and
             never counts as a dimension.
         facts: statements about it, as `contoursolve facts` lists them.
@@ -91,7 +91,7 @@ class ContourSketch(Struct, frozen=True):
         return f"{self.elements[number - 1].kind} {number}"
 
     def parts(self) -> Iterator[tuple[str, int]]:
-        """The names of its elements, and of the corners behind them, each with the number of the element."""
+        """The names of its elements, and of the corners after them, each with the number of the element."""
         for number, element in enumerate(self.elements, 1):
             yield self.name_of(number), number
             if element.corner:

@@ -80,7 +80,7 @@ _ELEMENT: Mapping[str, _Field] = {
     "kind": _Field(_Kind.CHOICE, "line or arc", ("line", "arc"), is_needed=True),
     "turn": _Field(_Kind.CHOICE, "sense of an arc: clockwise or counter-clockwise", ("cw", "ccw")),
     "tangent": _Field(_Kind.FLAG, "whether it begins in the direction of the element before it"),
-    "corner": _Field(_Kind.CORNER, "what stands behind it: the radius of a rounding, the setback of a chamfer"),
+    "corner": _Field(_Kind.CORNER, "what stands after it: the radius of a rounding, the setback of a chamfer"),
     "guess": _Field(_Kind.GUESS, "about where it ends, or its centre is: chooses, never counts as a dimension"),
     "facts": _Field(_Kind.FACTS, "statements about it"),
 }

@@ -122,7 +122,7 @@ def test_fixes_are_changes_of_fields():
 def test_a_corner_waits_for_the_next_element():
     corner = contoursolve.SketchCorner("rounding", Decimal(6))
     found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 4, corner=corner))
-    assert found.missing.startswith("corner 4 needs an element behind it")
+    assert found.missing.startswith("corner 4 needs an element after it")
     assert not found.is_finished
     assert states(found)["line 4"] == "known"
 
