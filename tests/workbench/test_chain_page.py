@@ -235,10 +235,15 @@ def test_an_entry_that_cannot_be_read_marks_picture_and_cards_and_is_not_saved(o
         expect(card).to_have_attribute("data-state", "unchecked")
         expect(card.locator(".chip")).to_have_text("not checked")
         expect(picture.get_by_text("Not up to date")).to_be_visible()
+    head = page.locator(".head").bounding_box()
     for keys in ("Control+s", "Control+Shift+s"):
+        # A message moves nothing, and Escape closes it.
+        page.keyboard.press("Escape")
+        expect(trouble).to_be_hidden()
         page.keyboard.press(keys)
         expect(trouble).to_have_text(re.compile("^Not saved. Mend this first: line 1: X"))
         expect(page.get_by_role("dialog")).to_have_count(0)
+        assert page.locator(".head").bounding_box() == head
         assert (folder / "shaft.toml").read_text(encoding="utf-8") == SHAFT
     page.get_by_role("tab", name="Words").click()
     expect(page.locator(".candidate")).to_have_count(0)
@@ -325,11 +330,50 @@ def test_the_picture_of_a_sketch_can_be_read_on_a_phone_and_be_enlarged(opened, 
     text.wait_for()
     small = text.bounding_box()["height"]
     assert small >= READABLE
+    # What is out of sight is told, and brought into it.
+    hint = page.get_by_text("Slide it sideways, or touch Whole.").and_(page.locator(".chain-picture *"))
+    hint.wait_for()
     for _ in range(2):
         page.get_by_role("button", name="Larger").click()
     assert text.bounding_box()["height"] > 1.9 * small
     page.get_by_role("button", name="Whole").click()
+    hint.wait_for(state="hidden")
+    assert page.locator(".chain-picture .canvas").evaluate("box => box.scrollWidth <= box.clientWidth")
+    page.get_by_role("button", name="Larger").click()
     assert text.bounding_box()["height"] == small
+
+
+def test_what_is_said_of_an_older_sketch_is_marked_until_the_new_one_is_worked_out(opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    (folder / "open.toml").write_text(OPEN, encoding="utf-8")
+    page = opened()
+    page.get_by_role("button", name="open.toml", exact=True).click()
+    pane, said_above = page.locator(".pane.chain"), page.locator(".missing")
+    expect(said_above).to_contain_text("one entry is missing")
+    expect(pane).not_to_have_class(re.compile("waiting"))
+    held = []
+    page.route("**/ask", lambda route: held.insert(0, route))
+    with page.expect_request("**/ask"):
+        page.get_by_label("line 1: End Z").fill("-30")
+    expect(pane).to_have_class(re.compile("waiting older"))
+    expect(said_above).to_have_css("opacity", "0.35")
+    with page.expect_request("**/ask"):
+        held.pop().continue_()
+    expect(pane).to_have_class(re.compile("waiting$"))
+    held.pop().continue_()
+    expect(pane).not_to_have_class(re.compile("waiting"))
+    expect(said_above).to_have_text("the contour is finished")
+    expect(said_above).to_have_css("opacity", "1")
+
+
+def test_a_guess_says_of_which_place_it_is(opened) -> None:
+    page = opened()
+    page.get_by_role("button", name="New contour").click()
+    page.get_by_role("button", name="Add an arc").click()
+    page.get_by_role("button", name="More of arc 1").click()
+    for place in ("end, Z", "end, X", "centre, Z", "centre, X"):
+        page.get_by_label(f"arc 1: guess of its {place}", exact=True).wait_for()
 
 
 READABLE = 11

@@ -29,6 +29,11 @@ def show(page, view) -> None:
     page.get_by_role("tab", name=view, exact=True).click()
 
 
+def do(page, command) -> None:
+    page.get_by_role("button", name="Do", exact=True).click()
+    page.get_by_role("menuitem", name=command).click()
+
+
 @pytest.mark.parametrize("control", DIALECTS)
 def test_an_example_of_each_control_is_mended_and_saved(control, opened, folder) -> None:
     from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
@@ -281,14 +286,9 @@ def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened)
         show(page, view)
     assert not page.locator(".trouble:not(:empty)").count()
     assert not page.locator(".findings .scroll > button:visible").count()
-    head = page.locator(".head").bounding_box()
-    page.get_by_role("button", name="Do").click()
-    page.get_by_role("menuitem", name="Expand into").click()
-    page.locator(".trouble", has_text="no word tells the control").wait_for()
-    # A message moves nothing, and Escape closes it.
-    assert page.locator(".head").bounding_box() == head
-    page.keyboard.press("Escape")
-    page.locator(".trouble").wait_for(state="hidden")
+    do(page, "Expand into")
+    page.locator(".result .wrong", has_text="no word tells the control").wait_for()
+    show(page, "Drawing")
     page.locator(".cm-content").focus()
     page.keyboard.type("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
     page.locator(".drawing svg").first.wait_for()
@@ -302,6 +302,44 @@ def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened)
     page.get_by_role("heading", name="error").wait_for()
 
 
+def test_a_result_is_marked_after_an_edit_and_gives_way_to_a_failure(opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    (folder / "two.nc").write_text(SHAFT + SHAFT.replace("P6.", "P60."))
+    page = opened("two.nc")
+    do(page, "Drawing as DXF")
+    result, older = page.locator(".result"), page.get_by_text("Of the program before the last change.")
+    expect(result.locator(".said")).to_contain_text("left out: 1 contour without a solution (program line 8)")
+    expect(older).to_be_hidden()
+    page.locator(".cm-content").focus()
+    page.keyboard.press("Control+End")
+    page.keyboard.type("(A)")
+    expect(older).to_be_visible()
+    page.get_by_label("Control").select_option("siemens-808d")
+    do(page, "Drawing as DXF")
+    expect(result.get_by_role("heading")).to_have_text("Nothing was made")
+    expect(result.get_by_role("button")).to_have_count(0)
+    expect(older).to_be_hidden()
+    # Read for another control, it is another program.
+    page.get_by_label("Control").select_option("yasnac-lx3")
+    expect(older).to_be_visible()
+
+
+def test_what_was_saved_is_said_over_its_own_tab_alone(opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    page = opened()
+    page.locator("input[type=file]").set_input_files(
+        [{"name": name, "mimeType": "text/plain", "buffer": SHAFT.encode()} for name in ("own.nc", "other.nc")]
+    )
+    page.get_by_role("tab", name="other.nc").wait_for()
+    page.keyboard.press("Control+s")
+    page.get_by_label("Name in the folder").press("Enter")
+    said(page, "Saved as other.nc.")
+    page.get_by_role("tab", name="own.nc").click()
+    expect(page.locator(".head .said")).to_be_empty()
+
+
 def test_converted_for_the_controls_of_the_same_machine_and_verified_in_a_sentence(opened) -> None:
     from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
 
@@ -310,17 +348,14 @@ def test_converted_for_the_controls_of_the_same_machine_and_verified_in_a_senten
     page.locator(".cm-content").focus()
     page.keyboard.type("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
     page.locator(".drawing svg").first.wait_for()
-    make = page.get_by_role("button", name="Do", exact=True)
-    make.click()
-    page.get_by_role("menuitem", name="Convert").click()
+    do(page, "Convert")
     dialog = page.get_by_role("dialog")
     offered = dialog.locator("option").evaluate_all("(all) => all.map((each) => each.value)")
     assert {"siemens-808d", "fanuc-lathe"} < {*offered}
     assert not {"yasnac-lx3", "heidenhain", "nct-99m"} & {*offered}
     expect(dialog).to_contain_text("The program is for a lathe")
     dialog.get_by_role("button", name="Cancel").click()
-    make.click()
-    page.get_by_role("menuitem", name="Verify").click()
+    do(page, "Verify")
     expect(page.locator(".result .said")).to_contain_text("Checked again without the solver: the contour is as shown.")
     expect(page.get_by_text("SHA-256")).to_be_hidden()
     page.locator("summary", has_text="Details").click()

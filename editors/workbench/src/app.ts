@@ -49,14 +49,8 @@ export class App {
     this.host.append(this.pane.node, this.chain.node);
     const title = make(isEmbedded ? "strong" : "h1", { class: "title", text: "contoursolve" });
     root.classList.add("workbench");
-    root.replaceChildren(
-      make("div", { class: "head" }, title, menu("File", () => this.fileEntries()), this.actions, this.said),
-      this.tabs,
-      this.start,
-      this.host,
-      this.notice,
-      this.picker,
-    );
+    const head = make("div", { class: "head" }, title, menu("File", () => this.fileEntries()), this.actions, this.said);
+    root.replaceChildren(head, this.tabs, this.start, this.host, this.notice, this.picker);
     this.follow();
     this.listen();
   }
@@ -258,6 +252,7 @@ export class App {
   }
 
   private choose(work: Work | null): void {
+    if (work !== this.active) this.progress(""); // what was done is said of another one
     this.active = work;
     if (work instanceof Program) this.pane.show(work);
     else if (work instanceof Sketch) this.chain.show(work);
@@ -341,7 +336,7 @@ export class App {
     if (saved) {
       this.tell(null);
       work.wasSaved(saved.saved, saved.base);
-      this.say(`Saved as ${saved.saved}.`);
+      if (work === this.active) this.say(`Saved as ${saved.saved}.`);
     }
     this.follow();
     if (!conflict) return saved !== null;

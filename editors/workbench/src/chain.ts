@@ -164,6 +164,8 @@ export class ChainPane {
     const { sketch } = this;
     if (!sketch) return;
     const { chain, isBehind } = sketch;
+    this.node.classList.toggle("waiting", sketch.isWaiting);
+    this.node.classList.toggle("older", sketch.isOlder);
     const view = isBehind ? null : sketch.view; // of an earlier chain, nothing is told
     this.build(chain);
     this.chosen = Math.min(this.chosen, chain.element.length);

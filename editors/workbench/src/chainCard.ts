@@ -1,4 +1,4 @@
-// The head of a sketch, and one line or arc of it as a card: the usual fields, and behind "more" all others.
+// The head of a sketch, and one line or arc of it as a card: the usual fields, and under "more" all others.
 import { button, make, newId } from "./dom";
 import type { ChainPane } from "./chain";
 import { Fields } from "./chainFields";
@@ -39,12 +39,13 @@ export function elementCard(host: Editor, chain: Chain, number: number) {
     fields.text(title, key, fields.own(key), { label: `${name}: ${title}`, meaning: `${own[key] ?? ""}${isDiameter(part, key) ? ", as a diameter" : ""}`, isTold });
   // That of an arc may tell its centre.
   const guessed = [...AXES[part], ...(kind === "arc" ? AXES[part].map((axis) => `CC${axis}`) : [])];
-  const guess = guessed.map((axis) =>
-    fields.text(`About ${axis.replace("CC", "centre ")}`, `guess.${axis}`, fields.within("guess", axis), {
-      label: `${name}: guess of its end, ${axis}`,
-      meaning: "about where it ends: it chooses among several contours, and is no dimension",
-    }),
-  );
+  const guess = guessed.map((word) => {
+    const [axis, isCentre] = [word.slice(-1), word.length > 1];
+    return fields.text(`About ${isCentre ? "centre " : ""}${axis}`, `guess.${word}`, fields.within("guess", word), {
+      label: `${name}: guess of its ${isCentre ? "centre" : "end"}, ${axis}`,
+      meaning: `about where ${isCentre ? "its centre is" : "it ends"}: it chooses among several contours, and is no dimension`,
+    });
+  });
   const kinds = fields.choice(`${name}: line or arc`, "kind", KINDS, {
     read: (each) => each.kind,
     // Words of the other kind stay behind.
@@ -55,7 +56,7 @@ export function elementCard(host: Editor, chain: Chain, number: number) {
   });
   const turn = kind === "arc" ? fields.choice(`${name}: sense`, "turn", TURNS, fields.own("turn")) : null;
   const smooth = fields.check("tangent to the one before", "tangent");
-  const corner = fields.choice(`${name}: corner behind it`, "shape", CORNERS, {
+  const corner = fields.choice(`${name}: corner after it`, "shape", CORNERS, {
     read: ({ corner = {} }) => Object.keys(corner)[0] ?? "",
     write: (each, shape) => (each.corner = shape ? { [String(shape)]: sizeOf(each) } : {}),
   });
@@ -65,7 +66,7 @@ export function elementCard(host: Editor, chain: Chain, number: number) {
     "div",
     { class: "more", id: newId(), hidden: true },
     make("div", { class: "grid" }, ...rest.map((key) => word(key, key, true))),
-    make("p", { class: "muted", text: "A guess of where it ends chooses among several contours. It is never taken for a dimension." }),
+    make("p", { class: "muted", text: `A guess of where it ends${kind === "arc" ? ", or of its centre," : ""} chooses among several contours. It is never taken for a dimension.` }),
     make("div", { class: "grid" }, ...guess),
     fields.statements("Statements, one in a line", `${name}: statements, one in a line`, `chord of ${name} = 20`),
   );

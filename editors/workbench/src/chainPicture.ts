@@ -22,7 +22,7 @@ export function chainPicture(select: (number: number) => void, guess: (number: n
   const toggle = button("Guess by touch", () => set(!isGuessing), { "aria-pressed": "false" });
   const told = make("span", { class: "muted" });
   const stale = make("p", { class: "wrong note", role: "status", hidden: true, text: "Not up to date: this picture is older than what is entered." });
-  const zoom = zoomBar((times) => drawn.style.setProperty("--times", String(times)), paper, "the picture");
+  const zoom = zoomBar(drawn, paper, "the picture");
   const node = make("div", { class: "chain-picture" }, make("div", { class: "bar" }, toggle, zoom, told), make("div", { class: "framed" }, paper, stale));
   let ghostly: Piece[] = [];
 

@@ -106,6 +106,8 @@ export class Sketch implements Work {
   private saved: string;
   private asked = 0;
   private seen: Chain | null = null; // of which the view tells
+  private answered: Chain | null = null; // about which something is told last
+  private isAsking = false; // whether more will be told about it
   private timer = 0;
 
   constructor(
@@ -123,6 +125,8 @@ export class Sketch implements Work {
   get isChanged() { return this.state !== this.saved; }
   get isEmpty() { return !this.chain.element.length; }
   get text() { return this.textFor(this.name); }
+  get isOlder() { return this.answered !== this.chain; }
+  get isWaiting() { return this.isOlder || this.isAsking; }
   get canUndo() { return this.past.length > 0; }
   get canRedo() { return this.future.length > 0; }
 
@@ -176,7 +180,7 @@ export class Sketch implements Work {
     const question = { do: "sketch", sketch: plainOf(chain), ranges, ...(ranges ? { window: "ranges" } : {}) };
     const fell = (why: Trouble) => {
       if (number !== this.asked) return;
-      this.isBehind = true;
+      [this.answered, this.isAsking, this.isBehind] = [chain, false, true];
       // "element 2: X is ..." names the field.
       const [, at, field] = /^(?:element (\d+): )?([\w.]+) /.exec(why.message) ?? [];
       if (why.reply) [this.place, this.trouble] = [[Number(at ?? 0), field ?? ""], this.named(why.message)];
@@ -184,7 +188,7 @@ export class Sketch implements Work {
     };
     const view = await orTrouble(this.transport.ask<ChainView>(question), fell);
     if (!view || number !== this.asked) return;
-    [this.view, this.seen, this.trouble, this.place, this.isBehind] = [view, chain, "", null, false];
+    [this.view, this.seen, this.answered, this.trouble, this.place, this.isBehind, this.isAsking] = [view, chain, chain, "", null, false, !ranges];
     this.shown(this, null);
   }
 

@@ -76,23 +76,31 @@ export function takeAlong(name: string, content: BlobPart, type: string, copied:
   return make("div", { class: "bar" }, ...before, isThere && button("Download", () => download(name, content, type)), copied && button("Copy", () => void copy()), said);
 }
 
-const ZOOMS = [1, 1.5, 2, 3, 4, 6, 8];
+const ZOOMS = [0, 1, 1.5, 2, 3, 4, 6, 8]; // times the size at which its texts can be read; at 0 all of it is in sight
 
-// Buttons, and the wheel with Ctrl, that set the size of what a box shows in part.
-export function zoomBar(size: (times: number) => void, box: HTMLElement, of: string): HTMLElement {
-  let zoom = 0;
+// Buttons, and the wheel with Ctrl, that set the size of a sheet of which a box shows a part.
+export function zoomBar(sheet: HTMLElement, box: HTMLElement, of: string): HTMLElement {
+  let zoom = 1;
   const smaller = button("−", () => zoomTo(zoom - 1), { "aria-label": "Smaller" });
   const larger = button("+", () => zoomTo(zoom + 1), { "aria-label": "Larger" });
+  const hint = make("span", { class: "muted", text: "Slide it sideways, or touch Whole." });
+  // A box that is narrower than what can be read.
+  const least = () => (parseFloat(getComputedStyle(box).getPropertyValue("--least")) > box.clientWidth ? 0 : 1);
+  const tell = () => {
+    smaller.setAttribute("aria-disabled", String(zoom <= least()));
+    larger.setAttribute("aria-disabled", String(zoom === ZOOMS.length - 1));
+    hint.hidden = zoom !== 1 || box.scrollWidth <= box.clientWidth;
+  };
   const zoomTo = (wanted: number) => {
-    const before = ZOOMS[zoom]!;
-    zoom = Math.max(0, Math.min(ZOOMS.length - 1, wanted));
-    const by = ZOOMS[zoom]! / before;
+    const before = box.scrollWidth;
     // The middle of what is seen stays there.
     const [x, y] = [box.scrollLeft + box.clientWidth / 2, box.scrollTop + box.clientHeight / 2];
-    size(ZOOMS[zoom]!);
+    zoom = Math.max(least(), Math.min(ZOOMS.length - 1, wanted));
+    sheet.style.setProperty("--times", String(ZOOMS[zoom]));
+    box.classList.toggle("zoomed", zoom > 1);
+    const by = box.scrollWidth / before;
     box.scrollTo(x * by - box.clientWidth / 2, y * by - box.clientHeight / 2);
-    smaller.setAttribute("aria-disabled", String(zoom === 0));
-    larger.setAttribute("aria-disabled", String(zoom === ZOOMS.length - 1));
+    tell();
   };
   const turned = (event: WheelEvent) => {
     if (!event.ctrlKey) return;
@@ -100,8 +108,8 @@ export function zoomBar(size: (times: number) => void, box: HTMLElement, of: str
     zoomTo(zoom + (event.deltaY < 0 ? 1 : -1));
   };
   box.addEventListener("wheel", turned, { passive: false });
-  zoomTo(0);
-  return make("div", { class: "bar zoom", role: "group", "aria-label": `Size of ${of}` }, smaller, larger, button("Whole", () => zoomTo(0)));
+  new ResizeObserver(tell).observe(box);
+  return make("div", { class: "bar zoom", role: "group", "aria-label": `Size of ${of}` }, smaller, larger, button("Whole", () => zoomTo(0)), hint);
 }
 
 let count = 0;

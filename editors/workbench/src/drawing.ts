@@ -35,7 +35,7 @@ export function drawingPanel(go: (line: number) => void, open: (line: number) =>
   let listed: ContourRow[] | null = null;
   const paper = scroller("div", "Drawing of the program", { class: "canvas" });
   const box = scroller("div", "Drawing of all contours; arrow keys move it", { class: "all contoursolve" }, paper);
-  const zoom = zoomBar((times) => (paper.style.width = `${100 * times}%`), box, "the drawing");
+  const zoom = zoomBar(paper, box, "the drawing");
   const rows = placeList("Contours", go);
   const said = make("p", { class: "muted" });
 

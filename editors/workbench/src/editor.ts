@@ -17,7 +17,6 @@ export const markEffect = StateEffect.define<Marks>();
 export const litEffect = StateEffect.define<readonly [number, number] | null>();
 const openFixes = StateEffect.define<boolean>();
 
-
 export function moveMarks<Kind extends Marks>(all: Kind, changes: ChangeDesc): Kind {
   const findings = all.findings.map((each) => ({ ...each, begin: changes.mapPos(each.begin, 1), end: changes.mapPos(each.end, -1) }));
   return { ...all, findings };
@@ -178,7 +177,7 @@ function toFinding(way: 1 | -1): (view: EditorView) => boolean {
 
 export type Heard = { changed: (changes: ChangeSet) => void; selected: () => void; fix: (finding: number, fix: number) => void };
 
-export function newState(text: string, heard: Heard, isReadOnly = false): EditorState {
+export function newState(text: string, heard: Heard): EditorState {
   return EditorState.create({
     doc: text,
     extensions: [
@@ -193,7 +192,6 @@ export function newState(text: string, heard: Heard, isReadOnly = false): Editor
       fixesAtWord(heard.fix),
       keymap.of([{ key: "F8", run: toFinding(1), shift: toFinding(-1) }, ...searchKeymap, ...historyKeymap, ...defaultKeymap]),
       EditorView.contentAttributes.of({ "aria-label": "Program", tabindex: "0", spellcheck: "false", autocapitalize: "off", autocorrect: "off" }),
-      EditorState.readOnly.of(isReadOnly),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) {
           const own = update.transactions.filter((each) => each.docChanged && !each.annotation(fromPython)).map((each) => each.changes);

@@ -13,11 +13,7 @@ export const PROGRAM = "program"; // the tool that the program states
 // The programmed point seen from the centre of the nose, Z to the right and X up.
 const WAYS = ["↗ Z+ X+", "↖ Z- X+", "↙ Z- X-", "↘ Z+ X-", "→ Z+", "↑ X+", "← Z-", "↓ X-", "• the centre"];
 const TIPS = [["", "not chosen"] as const, ...WAYS.map((way, place) => [String(place + 1), `${place + 1}  ${way}`] as const)];
-const SIDES = [
-  ["", "as the program says"],
-  ["left", "left of the way (G41)"],
-  ["right", "right of the way (G42)"],
-] as const;
+const SIDES = [["", "as the program says"], ["left", "left of the way (G41)"], ["right", "right of the way (G42)"]] as const;
 const PAUSE = 200; // ms without a key after which values count
 
 const foundAt = (findings: Finding[]): Place[] => findings.map((each) => ({ line: each.line, text: each.message, kind: each.severity === "error" ? "unsolved" : "several" }));

@@ -16,19 +16,14 @@ import { Views } from "./views";
 const VIEWS = { program: "Program", drawing: "Drawing", contour: "Contour", tool: "Tool", variables: "Variables", result: "Result" };
 const REST = 250; // ms without a key after which the drawing and the contour follow
 
-const COMMANDS: readonly Option[] = [
-  ["verify", "Verify"],
-  ["report", "Report"],
-  ["dxf", "Drawing as DXF"],
-  ["png", "Picture as PNG"],
-];
+const COMMANDS: readonly Option[] = [["verify", "Verify"], ["report", "Report"], ["dxf", "Drawing as DXF"], ["png", "Picture as PNG"]];
 
 // What stands beside the text of one program.
 class Beside {
-  readonly seq = { drawing: -1, tool: -1, variables: -1 }; // of the texts for which they were made
+  readonly of = { drawing: "", tool: "", variables: "", result: "" }; // versions of which they were made
   svg: string | null = null;
   took = 0; // ms until that was there
-  looked: [number, number, number] | null = null; // first line, last line, seq
+  looked: [number, number, string] | null = null; // first line, last line, version
   tool: ToolState = { radius: "", tip: "", side: "" };
   tooled: Tooled | null = null;
   toolTrouble = "";
@@ -105,7 +100,7 @@ export class ProgramPane {
     this.drawing.show(svg);
     if (made) this.result.show(made);
     this.own.looked = null;
-    this.own.seq.variables = -1;
+    this.own.of.variables = "";
     this.contour.open(null);
     this.views.choose(made || this.views.view !== "result" ? this.views.view : "drawing");
     this.follow();
@@ -130,6 +125,14 @@ export class ProgramPane {
     return program === this.program ? (reply ?? null) : null;
   }
 
+  // The same with the place where is told why there is none; that nobody answers is told at the top, too.
+  private orTold<Reply extends object>(program: Program, question: () => Record<string, unknown>, tell: (why: string) => void): Promise<Reply | null> {
+    return orTrouble(program.answer<Reply>(question), (why) => {
+      tell(why.message);
+      if (!why.reply) this.around.changed(program, why);
+    });
+  }
+
   // What follows the text ----------------------------------------------------------------------------------------
 
   private follow(): void {
@@ -147,6 +150,7 @@ export class ProgramPane {
     this.drawing.light(this.here?.line ?? null);
     this.lightRow();
     this.showTool();
+    this.result.mark(this.own.of.result !== program.version);
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.settle(), REST);
   }
@@ -182,20 +186,20 @@ export class ProgramPane {
     if (!program) return;
     // Nothing can be drawn of a program for no control; the head says why there is none.
     if (!program.view.control) return this.drawing.show(null);
-    const { seq } = program.view;
+    const { version } = program;
     const own = this.own;
     // An edit waits for a drawing that is under way: that of a long program comes when its user rests longer.
     const isDrawn = views.isShown("drawing") || (views.isShown("tool") && !own.tooled);
-    if (isDrawn && own.seq.drawing !== seq) this.rest = setTimeout(() => void this.draw(program), 2 * own.took);
+    if (isDrawn && own.of.drawing !== version) this.rest = setTimeout(() => void this.draw(program), 2 * own.took);
     if (views.isShown("contour") && !this.isActing && !this.isHeld) void this.look(program);
-    if (views.isShown("variables") && own.seq.variables !== seq) void this.setVariables(own.values, own.start);
-    if (views.isShown("tool") && own.tooled && own.seq.tool !== seq) void this.setTool(own.tool);
+    if (views.isShown("variables") && own.of.variables !== version) void this.setVariables(own.values, own.start);
+    if (views.isShown("tool") && own.tooled && own.of.tool !== version) void this.setTool(own.tool);
   }
 
   private async draw(program: Program): Promise<void> {
     const beside = this.besides.get(program)!;
     if (program.view.examined < program.view.lines) return;
-    beside.seq.drawing = program.view.seq;
+    beside.of.drawing = program.version;
     const begin = performance.now();
     const drawn = await program.ask<{ svg: string | null }>(() => ({ do: "drawing" }));
     if (!drawn) return;
@@ -209,7 +213,7 @@ export class ProgramPane {
   private async look(program: Program): Promise<void> {
     const here = this.here ?? this.nearest;
     const beside = this.own;
-    const now: Beside["looked"] = here ? [here.line, here.last, program.view.seq] : null;
+    const now: Beside["looked"] = here ? [here.line, here.last, program.version] : null;
     if (String(now) === String(beside.looked)) return;
     beside.looked = now;
     const looked = now ? await program.ask<Looked>(() => ({ do: "look", line: now[0] })) : null;
@@ -228,7 +232,7 @@ export class ProgramPane {
       const acted = await program.ask<Acted>(() => ({ do: "act", line: beside.looked?.[0] ?? this.line.number, action }), this.isHeld);
       if (program !== this.program) return;
       // The text is what the explorer made it: it need not look again.
-      if (acted) beside.looked = acted.line !== null && acted.last !== null ? [acted.line, acted.last, program.view.seq] : null;
+      if (acted) beside.looked = acted.line !== null && acted.last !== null ? [acted.line, acted.last, program.version] : null;
       this.contour.changed({ number: action["number"], ...(acted?.changed ?? acted?.state) }, acted?.words);
     } finally {
       this.isActing -= 1;
@@ -279,11 +283,8 @@ export class ProgramPane {
     const own = this.own;
     Object.assign(own, { tool: wanted, tooled: null, toolTrouble: "" });
     if (wanted.radius) {
-      own.tooled = await orTrouble(program.answer<Tooled>(() => ({ do: "tool", ...this.stated(wanted) })), (why) => {
-        if (why.reply) own.toolTrouble = why.message;
-        else this.around.changed(program, why);
-      });
-      own.seq.tool = program.view.seq;
+      own.tooled = await this.orTold<Tooled>(program, () => ({ do: "tool", ...this.stated(wanted) }), (why) => (own.toolTrouble = why));
+      own.of.tool = program.version;
     }
     if (program === this.program) this.showTool();
   }
@@ -297,7 +298,7 @@ export class ProgramPane {
   private async setVariables(values: Record<string, number>, start: string): Promise<void> {
     const { program } = this;
     if (!program) return;
-    Object.assign(this.own, { values, start }).seq.variables = program.view.seq;
+    Object.assign(this.own, { values, start }).of.variables = program.version;
     const reply = await this.asked<Varied>(() => ({ do: "variables", values, start }));
     if (!reply) return;
     this.variables.show(reply, program !== this.variedOf, start);
@@ -317,13 +318,16 @@ export class ProgramPane {
     if (answer) await this.command("convert", { to: control.value });
   }
 
+  // What it made; where it fails, why stands in the place of what was made before.
   private async command(what: string, options: Record<string, unknown>): Promise<void> {
     const program = this.program;
-    const made = await program?.ask<Made>(() => ({ do: what, ...options }));
-    if (!program || !made) return;
-    this.besides.get(program)!.made = made;
-    if (program !== this.program) return;
-    this.result.show(made);
+    if (!program) return;
+    const own = this.own;
+    const question = () => ((own.of.result = program.version), { do: what, ...options });
+    own.made = (await this.orTold<Made>(program, question, (message) => (own.made = { name: "", message, isWrong: true }))) ?? own.made;
+    if (program !== this.program || !own.made) return;
+    this.result.show(own.made);
+    this.follow();
     this.views.choose("result");
     this.views.focus("result");
   }

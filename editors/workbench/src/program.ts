@@ -46,6 +46,8 @@ export class Program implements Work {
   get base() { return this.view.base; }
   get text() { return this.state.doc.toString(); }
   get isEmpty() { return this.state.doc.length === 0; }
+  /** Of what is made of the text as it is, read for its control. */
+  get version() { return [this.view.id, this.view.seq, this.view.control?.name, this.pending ? "typed" : ""].join(" "); }
   get isChanged() { return this.saved === null || !this.state.doc.eq(this.saved); }
 
   refusal = () => Promise.resolve("");

@@ -38,7 +38,7 @@ export interface Hello {
   open?: string;
 }
 
-export type Made = { name: string; text?: string; base64?: string; message: string; details?: string };
+export type Made = { name: string; text?: string; base64?: string; message: string; details?: string; isWrong?: boolean };
 
 // Where words stand: line, and columns.
 export type Words = Record<string, [number, number, number]>;

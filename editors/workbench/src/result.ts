@@ -5,9 +5,10 @@ import type { Made } from "./protocol";
 const TYPES: Record<string, string> = { png: "image/png", html: "text/html", dxf: "image/vnd.dxf" };
 
 export function resultPanel(open: (name: string, text: string) => void, save: ((made: Made) => void) | null) {
+  const older = make("p", { class: "wrong", role: "status", hidden: true, text: "Of the program before the last change. Do it again for the program as it is." });
   const node = make("div", { class: "result" });
   const show = (made: Made): void => {
-    const { name, text, base64, details } = made;
+    const { name, text, base64, details, isWrong } = made;
     const kind = name.split(".").at(-1)?.toLowerCase() ?? "";
     const content = base64 === undefined ? (text ?? "") : bytesOf(base64);
     const html = () => (typeof content === "string" ? content : new TextDecoder().decode(content));
@@ -17,8 +18,9 @@ export function resultPanel(open: (name: string, text: string) => void, save: ((
       : text ? scroller("pre", name, { text })
       : "";
     node.replaceChildren(
-      make("h2", { text: name || "Result" }),
-      make("p", { class: "said", role: "status", text: made.message }),
+      make("h2", { text: name || (isWrong ? "Nothing was made" : "Result") }),
+      older,
+      make("p", { class: isWrong ? "said wrong" : "said", role: "status", text: made.message }),
       takeAlong(
         name,
         content,
@@ -31,5 +33,6 @@ export function resultPanel(open: (name: string, text: string) => void, save: ((
       details ? make("details", {}, make("summary", { text: "Details" }), scroller("pre", "Details", { text: details })) : "",
     );
   };
-  return { node, show };
+  const mark = (isOlder: boolean) => (older.hidden = !isOlder);
+  return { node, show, mark };
 }
