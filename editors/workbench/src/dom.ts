@@ -102,12 +102,11 @@ export function zoomBar(sheet: HTMLElement, box: HTMLElement, of: string): HTMLE
     box.scrollTo(x * by - box.clientWidth / 2, y * by - box.clientHeight / 2);
     tell();
   };
-  const turned = (event: WheelEvent) => {
+  box.addEventListener("wheel", (event) => {
     if (!event.ctrlKey) return;
     event.preventDefault();
     zoomTo(zoom + (event.deltaY < 0 ? 1 : -1));
-  };
-  box.addEventListener("wheel", turned, { passive: false });
+  }, { passive: false });
   new ResizeObserver(tell).observe(box);
   return make("div", { class: "bar zoom", role: "group", "aria-label": `Size of ${of}` }, smaller, larger, button("Whole", () => zoomTo(0)), hint);
 }

@@ -14,11 +14,7 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
   let most = MOST;
   const reason = make("p", {});
   const list = make("ol", {});
-  const show = () => {
-    most += 10 * MOST;
-    render();
-  };
-  const more = button("", show, { hidden: true });
+  const more = button("", () => ((most += 10 * MOST), render()), { hidden: true });
   const box = scroller("div", "List of findings", { class: "scroll" }, reason, list, more);
   const title = make("h2", { "aria-live": "polite" });
 

@@ -155,10 +155,7 @@ export class ProgramPane {
     this.rest = setTimeout(() => this.settle(), REST);
   }
 
-  private get line() {
-    const { state } = this.program!;
-    return state.doc.lineAt(state.selection.main.head);
-  }
+  private get line() { return this.program!.state.doc.lineAt(this.program!.state.selection.main.head); }
 
   private lightRow = (): void => this.contour.light(this.line.number, this.program!.state.selection.main.head - this.line.from);
 

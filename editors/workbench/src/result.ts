@@ -33,6 +33,5 @@ export function resultPanel(open: (name: string, text: string) => void, save: ((
       details ? make("details", {}, make("summary", { text: "Details" }), scroller("pre", "Details", { text: details })) : "",
     );
   };
-  const mark = (isOlder: boolean) => (older.hidden = !isOlder);
-  return { node, show, mark };
+  return { node, show, mark: (isOlder: boolean): void => void (older.hidden = !isOlder) };
 }
