@@ -3,7 +3,9 @@
 import shutil
 import signal
 import sys
+from collections import defaultdict
 from importlib.util import find_spec
+from zlib import crc32
 
 import pytest
 from hypothesis import settings
@@ -28,6 +30,9 @@ PROGRAMS = {
 }
 """The programs of which tests with a marker need one, and how to get them."""
 
+SLOW = {"slow", *PROGRAMS, "editor", "notebook", "desktop", "site"}
+"""The markers of tests that are not run by default."""
+
 PACKAGES = {
     "browser": ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy"),
     "desktop": ("PyInstaller", "ezdxf", "htpy", "pygls", "resvg_py", "starlette", "uvicorn"),
@@ -46,6 +51,21 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--desktop", metavar="FOLDER", help="where PyInstaller has built the program without Python")
     group.addoption("--pyodide", metavar="FOLDER", help="npm's package pyodide, unpacked, which the page loads")
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
+
+
+QUICK_CASES = 4
+"""Of a test with more cases, so many are run by default, drawn by their names; the others are slow."""
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    cases = defaultdict(list)
+    for item in items:
+        if isinstance(item, pytest.Function) and not any(mark.name in SLOW for mark in item.iter_markers()):
+            cases[item.path, item.originalname].append(item)
+    for each in cases.values():
+        for item in sorted(each, key=lambda item: crc32(item.name.encode()))[QUICK_CASES:]:
+            item.add_marker("slow")
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

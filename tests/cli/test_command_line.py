@@ -270,6 +270,7 @@ def test_every_column_of_numbers_has_its_unit():
         assert head.count(f"[{unit}]") == head.count("[") == 5
 
 
+@pytest.mark.slow
 def test_color_goes_only_to_who_wants_it(monkeypatch):
     bad = ["check", "--block", "G111 X100. A180. B120.", "--start", "X40. Z0."]
     monkeypatch.delenv("NO_COLOR", raising=False)
@@ -629,6 +630,7 @@ def test_bad_input_gives_one_clear_finding(name, save):
     assert is_harmless or not any(each["end"] for each in document["contours"])
 
 
+@pytest.mark.slow
 @some_of(
     "name",
     [
@@ -898,6 +900,7 @@ def test_rules_choose_whether_a_determined_block_that_the_manual_refuses_is_solv
     assert found["off"] == ("overdetermined", {"words-redundant": "warning"})
 
 
+@pytest.mark.slow
 def test_a_finding_about_a_fact_that_is_stated_apart_stands_at_its_block():
     arguments = (*ONE, "--fact", "X of V2 = 100", "--fact", "X of V1 = 42")
     _, output, _ = run("solve", *arguments)

@@ -277,6 +277,7 @@ def test_an_arc_whose_radii_differ_is_named_with_both(diff):
     assert "is 5.0000 mm at its start and 4.9753 mm at its end" in found["difference"]["new"]["reason"]
 
 
+@pytest.mark.slow
 def test_what_is_not_solved_is_said(diff, tmp_path):
     broken = PROGRAMS.joinpath("shaft_broken.nc").read_text()
     found = diff(SHAFT, broken)

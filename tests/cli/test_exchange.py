@@ -181,6 +181,7 @@ def test_gitlab_has_its_fields_for_each_finding(save, tmp_path, monkeypatch):
     assert quality(save(CLEAN)) == []
 
 
+@pytest.mark.slow
 def test_a_fingerprint_of_gitlab_is_unique_and_stays_when_lines_are_inserted_above(save):
     save(BROKEN, "other.nc")
     before = [row["fingerprint"] for row in quality(save(BROKEN + BROKEN), "other.nc")]

@@ -234,6 +234,7 @@ def test_a_sweep_keeps_permissions_and_follows_links_as_a_report_does(name, tmp_
     assert [*(tmp_path / "there").iterdir()] == [real]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="no limit of files on Windows")
 def test_what_a_full_disk_leaves_behind_is_named(tmp_path):
     """A limit on the size of files stands in for the disk: the parts fit, the whole does not."""

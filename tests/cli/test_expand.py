@@ -869,6 +869,7 @@ main(["expand", "--in-place", sys.argv[2]])
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")
 @pytest.mark.parametrize(
     ("steps", "least"), [((5, 39), 2), pytest.param(range(1, 40), 9, marks=pytest.mark.slow)], ids=["some", "all"]

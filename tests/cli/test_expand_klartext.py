@@ -56,6 +56,7 @@ def test_what_is_written_is_not_expanded_again(comments):
     assert all(each.code == "no-contour" for each in contoursolve.solve(once).diagnostics)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arcs", ["center", "radius"])
 def test_drawn_programs_run_where_they_were_drawn(arcs):
     rng, shown = Random(5), set[str]()

@@ -174,6 +174,7 @@ def test_each_question_shows_the_line_before_and_after(answers, fitting, status)
 # Laws -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @few_and_many(4, 30)
 def test_fixing_damaged_programs_leaves_no_safe_fix_and_every_other_byte(count):
     applied = 0
@@ -243,6 +244,7 @@ def test_a_fix_that_brings_another_error_is_not_applied_and_said():
 # Baselines ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_baseline_hides_what_was_there_by_the_text_of_the_block():
     name = save(START + IGNORED + "\n" + START + TOO_LARGE)
     done = check(name, "--write-baseline", "known.json", status=0)

@@ -33,6 +33,7 @@ def long_program(lines: int) -> str:
     return "\n".join(rows) + "\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [
     ("check",),
     pytest.param(("solve", "--format", "json"), marks=pytest.mark.slow),
@@ -98,6 +99,7 @@ def test_plain_lines_are_not_read_into_words(move, contour, control, monkeypatch
     assert counts[1] < 1_100
 
 
+@pytest.mark.slow
 def test_a_line_with_variables_is_read_once_and_again_with_numbers(monkeypatch, tmp_path):
     program, counts = tmp_path / "long.nc", list[int]()
     read = list[int]()

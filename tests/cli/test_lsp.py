@@ -576,6 +576,7 @@ def test_formatting_numbers_blocks_where_that_is_wanted():
 AMBIGUOUS = "G00 X40. Y0\nG02 X60. Y20. R30. ,R2.\nG01 Y60.\n"
 
 
+@pytest.mark.slow
 def test_the_control_comes_from_a_comment_the_project_the_editor_or_the_program(tmp_path):
     (tmp_path / "project").mkdir()
     (tmp_path / "project" / "contoursolve.toml").write_text('control = "haas-lathe"\n')

@@ -113,6 +113,7 @@ def test_the_architecture_page_shows_what_each_stage_makes() -> None:
     assert tried >= 20
 
 
+@pytest.mark.slow
 def test_the_page_by_hand_shows_what_is_calculated() -> None:
     failed, tried = doctest.testfile(str(ROOT / "docs" / "by-hand.md"), module_relative=False)
     assert not failed

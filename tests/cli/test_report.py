@@ -99,6 +99,7 @@ def test_the_page_loads_nothing_and_every_link_leads_somewhere(path):
     assert set(spoken) <= set(names)
 
 
+@pytest.mark.slow
 def test_lines_lead_to_contours_and_findings_and_these_lead_back():
     page = page_of(contoursolve.solve_file(BROKEN))
     links = [each["href"] for each in page.all("a")]
@@ -132,6 +133,7 @@ def test_rows_and_findings_have_the_names_of_the_picture():
         assert f".contoursolve article:has([{name}]:is(:hover,:focus-within,:target)) [{name}]" in page.text
 
 
+@pytest.mark.slow
 def test_a_page_of_more_names_than_it_lights_has_no_rules_and_does_not_speak_of_them(monkeypatch):
     assert "all that belongs to it is marked" in page_of(contoursolve.solve_file(BROKEN)).shown
     monkeypatch.setattr("contoursolve.output.html.MOST_NAMES", 3)
@@ -166,10 +168,12 @@ def test_a_program_without_a_contour_has_a_page(text):
     assert "no contour" in page.shown
 
 
+@pytest.mark.slow
 def test_the_same_program_gives_the_same_bytes():
     assert page_of(contoursolve.solve_file(BROKEN)).text == page_of(contoursolve.solve_file(BROKEN)).text
 
 
+@pytest.mark.slow
 def test_the_command_writes_one_page_and_tells_by_its_status_whether_there_are_errors(tmp_path):
     target = tmp_path / "page.html"
     code, output = run(BROKEN, "-o", target)

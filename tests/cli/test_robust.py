@@ -303,6 +303,7 @@ def test_a_fork_while_a_thread_solves_leaves_no_child_waiting():
     subprocess.run([sys.executable, "-W", "ignore", "-c", FORKS], check=True, timeout=120)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="needs file names with a colon")
 def test_no_line_is_a_command_to_who_reads_it(folder):
     names = ["::error::x.nc", "a\n::warning::y.nc"]

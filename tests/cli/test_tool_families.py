@@ -106,6 +106,7 @@ def test_a_tool_is_in_the_unit_of_the_block():
     assert (found["unit"], found["ranges"][0]["high"]["value"]) == ("inch", pytest.approx(0.2))
 
 
+@pytest.mark.slow
 @few_and_many(8, 80)
 def test_random_contours_end_where_check_says(count: int, tmp_path: Path):
     """What fits at the largest radius fits at smaller ones, and does not at larger ones, contour by contour."""
@@ -216,6 +217,7 @@ def test_lines_that_are_no_path_are_named_and_units_may_change(tmp_path: Path):
 # sweep ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_family_is_what_solve_says_row_by_row(tmp_path: Path):
     words = (*G111, *NOSE, "--vary", "P=0:60:15", "--vary", "tool=0.2,8,25", "--vary", "K=-30,-1.5")
     done = call("sweep", *words, "-o", tmp_path / "a.csv", "--workers", "2")

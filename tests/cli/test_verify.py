@@ -389,6 +389,7 @@ def random_programs(count: int) -> Iterator[tuple[str, str]]:
             yield "\n".join(generate_nct.disturbed(rng, drawn)), control
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [2, pytest.param(12, marks=pytest.mark.slow)])
 def test_random_programs_of_every_form_are_right(desk, count):
     """Whatever becomes of the blocks is worked out again, and one number that is off is found."""
@@ -1011,6 +1012,7 @@ KINDS = {
 FEW_CONTROLS = [pytest.param(name, marks=[pytest.mark.slow] * (n % 4 > 0)) for n, name in enumerate(DIALECTS)]
 
 
+@pytest.mark.slow
 @few_and_many(1, 4)
 @pytest.mark.parametrize("control", FEW_CONTROLS)
 def test_what_is_tampered_with_is_caught_for_every_control(control, count):
@@ -1169,6 +1171,7 @@ def asks(word: str, line: int, value: float | None, unit: str = "mm") -> dict[st
     return {"word": word, "line": line, "unit": unit, "value": value}
 
 
+@pytest.mark.slow
 def test_facts_from_the_command_line_are_given_again(desk):
     for text, fact, options in (
         (block("X100. A180. B120."), "length of line 1 = 30", ()),
@@ -1498,6 +1501,7 @@ def places(value: Any, place: Place = ()) -> Iterator[Place]:
             yield from places(each, (*place, name))
 
 
+@pytest.mark.slow
 @FUZZ
 @given(data=st.data())
 def test_whatever_is_put_in_a_result_gets_an_answer(desk, data):

@@ -266,6 +266,7 @@ def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs, stride):
         assert_path(motions[1:], path, within(each, "fanuc"))
 
 
+@pytest.mark.slow
 @some_of("post", ["same", "linuxcnc", "fanuc"], one_in=3)
 @pytest.mark.parametrize("stride", [5, pytest.param(1, marks=pytest.mark.slow)])
 def test_diff_finds_every_program_equal_and_each_coordinate_that_is_off_by_a_hundredth(post, stride):

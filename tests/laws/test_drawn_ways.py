@@ -298,6 +298,7 @@ def result_of(answer: Answer) -> object:
 _OPEN = {"position-unknown", "mode-unknown"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("control", "seed"),
     [

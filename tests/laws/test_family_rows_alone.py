@@ -194,6 +194,7 @@ def test_what_refuses_a_block_by_a_value_of_its_rows_alone_names_the_value(block
 BENT = "G17 G90 G1 X10 Y0\nCT X20 Y5"
 
 
+@pytest.mark.slow
 def test_a_range_goes_on_where_an_arc_turns_over():
     found = feasible(BENT, "2:Y", within=(-20, 20), **SINUMERIK)
     assert not found.is_complete
@@ -204,12 +205,14 @@ def test_a_range_goes_on_where_an_arc_turns_over():
     assert 5e-5 not in feasible(BENT, "2:Y", within=(5e-6, 20), **SINUMERIK)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("goal", "value"), [("C Y20", 20 - 300**0.5), ("C Y-20", 300**0.5 - 20)])
 def test_a_value_is_found_on_either_side_of_where_an_arc_turns_over(goal, value):
     (hit,) = find_word(BENT, "2:Y", goal, within=(-9, 9), **SINUMERIK).hits
     assert hit.value == pytest.approx(value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("block", "words", "within", "options"),
     [
@@ -262,6 +265,7 @@ def test_tolerances_are_told_of_the_end_of_a_chain_and_of_centres(point):
     assert found.spread[0].worst == pytest.approx({"P3": 0.136603, "end": 0.136603, "C2": 0.05}[point], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_what_contours_rest_on_is_told_of_all_of_them():
     ready = family(HANDED_ON, vary={"2:CCA": [30, 90]}, **KLARTEXT)
     (answer,) = solve(HANDED_ON, **KLARTEXT).answers

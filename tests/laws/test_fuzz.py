@@ -165,6 +165,7 @@ def test_mutated_whole_programs_are_answered(count):
             raise AssertionError(f"solve({text!r}, control={control!r})") from error
 
 
+@pytest.mark.slow
 def test_windows_cover_every_contour_and_most_are_solved():
     answers = [solve(text, control=control).answers[0] for text, control in windows()]
     assert len(answers) == sum(len(solve(text, control=control).answers) for text, control in PROGRAMS.values())

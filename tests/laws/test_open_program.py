@@ -176,6 +176,7 @@ def test_an_edit_of_a_program_that_runs_solves_what_depends_on_it_alone(
         compare(program, program.text, "yasnac-lx3")
 
 
+@pytest.mark.slow
 @some_of("path", PROGRAMS, only=PROGRAMS[::6], ids=lambda path: path.name)
 def test_random_edits(path: Path) -> None:
     edit_at_random(decode(path.read_bytes(), path.name), path.name, CONTROLS.get(path.name), 1, 3)
@@ -189,6 +190,7 @@ def test_many_random_edits(path: Path, seed: int) -> None:
     edit_at_random(decode(path.read_bytes(), path.name), path.name, control, 100 + seed, 8)
 
 
+@pytest.mark.slow
 @some_of("seed", range(40), only=range(2))
 def test_random_edits_of_programs_that_run(seed: int) -> None:
     control = sorted(small_interpreter.CONTROLS)[seed % len(small_interpreter.CONTROLS)]

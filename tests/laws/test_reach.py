@@ -73,6 +73,7 @@ def spoiled(texts: list[str], mistakes) -> list[str]:
     return texts
 
 
+@pytest.mark.slow
 @law(st.sampled_from(CONTROLS), st.lists(BLOCKS, min_size=8, max_size=12), MISTAKES, few=64, many=200)
 def test_what_is_told_without_a_trial_is_what_trials_tell(control, blocks, mistakes):
     end = {"fanuc-lathe": "Z999.", "heidenhain": "L X+999", "siemens-840d": "X999"}.get(control, "X999.")

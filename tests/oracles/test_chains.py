@@ -170,6 +170,7 @@ def test_standard_facts_are_as_many_as_determine_a_chain() -> None:
         assert rank(chain, facts[1:]) == len(chain.variables) - 1
 
 
+@pytest.mark.slow
 def test_random_facts_determine_the_chain_and_come_again_with_their_seed() -> None:
     kinds = Counter[str]()
     for random, chain in many(60, 1000):

@@ -166,6 +166,7 @@ def told_twice(size: int) -> str:
     return "\n".join([*lines, "99 END PGM T MM", ""])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [8, 24])
 def test_what_is_tied_with_what_takes_one_elimination_however_long_the_chain(
     size: int, monkeypatch: pytest.MonkeyPatch

@@ -80,6 +80,7 @@ def test_a_line_meets_a_circle_in_two_points_and_both_are_listed():
     assert [fix.replacement.split("\n")[2] for fix in finding.fixes] == ["FSELECT 2", "FSELECT 1"]
 
 
+@pytest.mark.slow
 def test_settings_tell_what_numbers_choose_and_what_comes_without_them():
     ignoring = contoursolve.solve(FKEXAMP1, settings={"heidenhain.fselect": "ignore"}).answers[0]
     assert ignoring.status.value == "ambiguous"
@@ -142,6 +143,7 @@ def test_a_circle_that_may_slide_lacks_one_word():
     assert finding.message.startswith("one word is missing, so arc 3 and line 5 are open")
 
 
+@pytest.mark.slow
 def test_data_that_agree_are_accepted_with_a_note_and_others_are_told_by_how_much():
     agreeing = solved(chain("FL AN+60 LEN57.321", "FL X+80 Y+20 AN-30"))
     assert agreeing.contour is not None
@@ -220,6 +222,7 @@ def test_a_coordinate_that_rounding_alone_parts_from_zero_is_told_as_zero():
     assert not any("e-" in text for text in texts)
 
 
+@pytest.mark.slow
 def test_many_arcs_on_one_circle_are_told_and_not_searched(monkeypatch):
     calls = []
     monkeypatch.setattr(
@@ -357,6 +360,7 @@ def has_drawn(chain):
     return any(max(map(dist, points, drawn)) <= WITHIN for points in ends)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "seeds",
     [
@@ -370,6 +374,7 @@ def test_a_chain_that_its_data_just_determine_is_among_the_solutions_and_none_is
     assert len(missed) <= max(1, len(seeds) // 100), missed[:3]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seeds", [range(0), pytest.param(range(12), marks=pytest.mark.slow)])
 def test_the_construction_has_the_solutions_that_elimination_finds_in_the_same_order(monkeypatch, seeds):
     """Two ways that share no code from the equations to the numbers."""
@@ -408,6 +413,7 @@ def test_an_end_that_no_direction_puts_on_its_circle_conflicts():
         assert answer.contour is None or answer.contour.end == pytest.approx((-27, -8), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_search_that_an_earlier_choice_does_not_touch_gives_each_choice_the_same_and_says_that_it_is_open(
     monkeypatch,
 ):

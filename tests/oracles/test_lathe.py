@@ -65,6 +65,7 @@ def test_forms_of_this_control_show_that_a_program_is_for_it():
         assert contoursolve.solve(MANUAL + block).control == "yasnac-lx3"
 
 
+@pytest.mark.slow
 @few_and_many(3, 12)
 def test_g112_is_the_drawing_it_was_written_from(count):
     rng = random.Random(112)
@@ -90,6 +91,7 @@ def test_g11_g12_and_g01_are_the_drawings_they_were_written_from(count):
             assert getattr(getattr(found, "turn", None), "value", "") == expected.turn
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [40, pytest.param(250, marks=pytest.mark.slow)])
 def test_verdicts_on_disturbed_blocks_are_those_of_the_oracle(count):
     rng = random.Random(146)

@@ -115,6 +115,7 @@ def test_276_of_4096_sets_are_legal():
     assert sum(not refuses(letters) for letters in SETS) == 276
 
 
+@pytest.mark.slow
 def test_every_set_has_one_contour_with_a_status(results):
     assert all(len(result.answers) == 1 for result in results.values())
 

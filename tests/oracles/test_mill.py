@@ -130,6 +130,7 @@ def compare(program: Sequence[str], expected: Run) -> str:
     return expected.status
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("instances", COUNTS)
 def test_blocks_that_nobody_drew_are_solved_or_refused_as_the_sheet_says(instances):
     rng = Random(1600)
@@ -244,6 +245,7 @@ def test_a_mistake_in_a_long_chain_is_found_in_its_block_and_soon(kind, code, bl
     assert len(finding.fixes) < 10
 
 
+@pytest.mark.slow
 def test_lines_of_a_chain_that_are_parallel_are_shown_in_both_of_their_blocks():
     (answer,) = solve_mill(
         ("G17 G90 G41 G0 X90 Y10", "G1 ,A150", "X10 Y20 ,A225", "X10 Y80 ,A225"), depth="full"

@@ -743,6 +743,7 @@ def test_the_end_of_a_line_is_within_the_certified_radius_wherever_the_sketch_be
     assert off <= Fraction(drawn.certificate.radius)
 
 
+@pytest.mark.slow
 @few_and_many(9, 40)
 def test_the_exact_intersection_of_a_pair_is_within_the_certified_radius(count: int) -> None:
     random = Random(1633)
@@ -776,6 +777,7 @@ def test_the_exact_intersection_of_a_pair_is_within_the_certified_radius(count: 
             assert_certified(answer, [exact])
 
 
+@pytest.mark.slow
 def test_what_the_command_line_prints_is_within_the_radius_that_it_prints() -> None:
     random = Random(12)
     with mp.workdps(60):

@@ -179,6 +179,7 @@ def test_sets_of_words_of_the_mill_are_refused_as_the_sheet_says(form):
         assert warned == ({"nct-q-unused"} if form in ("line-line", "chain") and "Q" in two else set()), sorted(words)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", MILL)
 def test_a_legal_set_of_words_of_the_mill_leaves_nothing_free(form):
     """It may say something twice, where that must agree: a point of a circle that has a centre and another point."""

@@ -111,6 +111,7 @@ class Drawn:
         return self.radius * TIPS[self.tip] if self.spelling.is_lathe else 0j
 
 
+@pytest.mark.slow
 @few_and_many(14, 100)
 def test_random_contours(count: int, tmp_path: Path):
     """No path comes nearer to any wall than the radius; each stays at it, where something is left out, too; what fits

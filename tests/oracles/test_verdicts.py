@@ -124,6 +124,7 @@ def analyse(matrix):
     return whole, tied, free
 
 
+@pytest.mark.slow
 def test_shipped_verdicts_equal_those_of_numpy_at_random_values():
     wrong = {}
     for key, row in TABLE.items():

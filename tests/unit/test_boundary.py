@@ -230,6 +230,7 @@ def test_what_is_sampled_says_how_finely_and_is_never_called_proven():
     assert "complete" not in region_data(found)
 
 
+@pytest.mark.slow
 def test_every_value_of_a_region_has_the_outcome_of_its_single_solve():
     block, options, words, within = REGIONS["two roundings"]
     found = region(block, words, within, **options)

@@ -276,6 +276,7 @@ def test_ties_are_all_minimal_dependent_sets_and_conflicts_all_minimal_inconsist
     assert ties_seen > conflicts_seen + count / 2
 
 
+@pytest.mark.slow
 @FOR_DIAGNOSES
 def test_status_is_that_of_the_ranks(count):
     for words, answer in random_diagnoses(count):
@@ -337,6 +338,7 @@ def test_freedoms_are_the_null_space_seen_at_each_point(count):
     assert min(seen[dimension] for dimension in (0, 1, 2)) > count / 10
 
 
+@pytest.mark.slow
 @few_and_many(10, 40)
 def test_identities_hold_for_every_consistent_block_that_has_them(count):
     random, seen = Random(4), set()
@@ -508,6 +510,7 @@ def same_contour(one: Any, other: Any, tolerance: float = AGREEMENT) -> bool:
     return all(hypot(a[0] - b[0], a[1] - b[1]) <= tolerance for a, b in pairs)
 
 
+@pytest.mark.slow
 @FOR_BLOCKS
 def test_fix_applied_solves_the_block_and_removes_its_findings(count):
     seen = Counter()
@@ -758,6 +761,7 @@ def exact_v1(a: Decimal, b: Decimal, x: Decimal, z: Decimal) -> tuple[Any, Any]:
         return s * u[0], 20 + s * u[1]
 
 
+@pytest.mark.slow
 @some_of("half_turn", [0, 180], one_in=2)
 @pytest.mark.parametrize("sign", [1, pytest.param(-1, marks=pytest.mark.slow)])
 @some_of("aside", ["on the way", "10 mm aside"], one_in=2)
@@ -788,6 +792,7 @@ def test_lines_ever_more_parallel_are_never_solved_wrongly(half_turn, sign, asid
         assert "solved" not in statuses[3:] or aside != "on the way"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1, pytest.param(-1, marks=pytest.mark.slow)])
 @some_of("side", [1, -1], one_in=2)
 @some_of("circle", ["I-50", "X-50 Y0 R50", "X-50 Y0 I-50"], one_in=3)
@@ -863,6 +868,7 @@ def test_what_if_without_an_edit_is_solve(count):
         assert same == answer, case.text
 
 
+@pytest.mark.slow
 @few_and_many(2, 30)
 def test_what_if_does_what_its_words_say(count):
     for case, _ in broken_blocks(count):

@@ -159,6 +159,7 @@ def changed_lines(old, new):
     return {number: new for number, (old, new) in enumerate(pairs, 1) if old != new}
 
 
+@pytest.mark.slow
 @some_of(
     ("name", "line", "key"),
     [("shaft.nc", 68, "B"), ("roller.nc", 27, "K"), ("cover.nc", 16, "15:Y"), ("plate.nc", 64, ",A")],
@@ -262,6 +263,7 @@ def act(now, rng):
     return rng.choice(ways)()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
     [
@@ -293,6 +295,7 @@ def test_whatever_the_reader_does_the_view_shows_what_the_text_comes_to(text, ti
     assert len(seen) > 1
 
 
+@pytest.mark.slow
 def test_a_range_on_a_slider_ends_where_single_solves_say_so():
     now = explore.begin(WHOLE, **START)
     for each in view_of(now)["fields"]:

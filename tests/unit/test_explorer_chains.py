@@ -101,6 +101,7 @@ def test_words_that_say_something_twice_have_no_handles():
     assert {"LEN", "R", "7:X"} <= moved
 
 
+@pytest.mark.slow
 def test_what_lacks_is_offered():
     now = begin(OPEN)
     fixes = [fix for finding in view_of(now)["findings"] for fix in finding["fixes"]]

@@ -110,6 +110,7 @@ def begun(control, text):
     return explore.begin(text, line=line, control=control)
 
 
+@pytest.mark.slow
 @some_of(("control", "text", "computed"), CASES, only=("fanuc-lathe-0", "nct-99m-0", "siemens-840d-0"))
 def test_a_word_with_a_variable_stays_and_moves_of_others_keep_every_character(control, text, computed):
     now = begun(control, text)

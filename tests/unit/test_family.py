@@ -290,6 +290,7 @@ def filled(block, options, values):
     return text_of(block, words, words.values()), options | {"facts": facts, "start": start}
 
 
+@pytest.mark.slow
 @some_of("name", SEVERAL, one_in=4)
 @pytest.mark.parametrize("share", [0.25, pytest.param(1, marks=pytest.mark.slow)])
 def test_facts_choices_and_start_points_vary_as_words_do(name, share):

@@ -97,6 +97,7 @@ def test_the_default_stays_one_solution_and_refuses_a_block_without_its_choice()
         found.solution("P2")
 
 
+@pytest.mark.slow
 def test_solutions_are_a_dimension_of_arrays_tables_and_executors():
     block, _, word, _ = BLOCKS["a line from a circle without Q"]
     vary = {word: np.linspace(60, 200, 8), "3:Y": [42.857, 35.0]}

@@ -312,6 +312,7 @@ def test_an_angle_beside_both_coordinates_is_checked_or_refused():
     assert errors(solve(closing, control=LATHE, settings=strict)) == []
 
 
+@pytest.mark.slow
 def test_without_the_guard_only_the_same_direction_is_refused():
     free = {"fanuc-lathe.guard-deg": "0"}
     near = ("G01 X40. ,A179.5", "G01 Z-20. ,A90.5", "G01 ,A180.\nX60. Z-47. ,A179.5")
@@ -439,6 +440,7 @@ def test_random_steps_with_signs_come_out_as_the_oracle_says(control, count):
     assert verdicts["refused"] > count / 10
 
 
+@pytest.mark.slow
 def test_a_sweep_across_the_sign_says_what_solve_says():
     text = "G01 Z-25. R{}\nX{}"
     radii, ends = [-12.0, -5.0, 0.0, 5.0, 12.0], [-10.0, 5.0, 20.0, 40.0]
@@ -624,6 +626,7 @@ def test_a_sweep_tells_of_each_angle_what_a_single_solve_tells(settings):
         assert StatusCode(code).status is answer.status, angle
 
 
+@pytest.mark.slow
 def test_rows_of_two_angles_that_the_control_compares_are_solved_one_by_one():
     angles = {"2:,A": [30.0, 40.0, 134.5, 135.0], "3:,A": [-45.0, -40.0, -45.9, 30.5]}
     table = family(SWEPT, vary=angles)

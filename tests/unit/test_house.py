@@ -213,6 +213,7 @@ USES = {
 }
 
 
+@pytest.mark.slow
 def test_nothing_heavy_is_needed_for_what_is_done_most():
     """One after the other in one process."""
     told = f"print(*sorted({HEAVY} & sys.modules.keys()))"

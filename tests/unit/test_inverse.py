@@ -526,6 +526,7 @@ def test_places_of_elements_are_those_of_the_points_and_corners_that_end_them():
         tolerance_for(block, "A", keep="N2 Z", within=0.01, **options)
 
 
+@pytest.mark.slow
 def test_lengths_and_directions_are_kept_as_facts_name_them():
     length = tolerance_for(BLOCK, "A", keep="length of line 2", within=0.01, start=START)
     direction = tolerance_for(BLOCK, "B", keep="direction of line 2", within=0.1, start=START)

@@ -211,6 +211,7 @@ def pairs(count: int, code: str) -> str:
     return head + "".join(texts) + f"{'Z' if code == 'fanuc-lathe' else 'X'}{17.3205 * count + 30:.4f}\n"
 
 
+@pytest.mark.slow
 @some_of("control", ["nct-99m", "siemens-840d", "fanuc-lathe"], only={"nct-99m"})
 def test_time_goes_by_the_number_of_angle_pairs(control, monkeypatch):
     """What Python does goes by their number, and no matrix that is decomposed grows with it. Each spare fact was held
@@ -246,6 +247,7 @@ ROWS = {
 """Lines that go on straight ahead, each with a corner behind it that is none."""
 
 
+@pytest.mark.slow
 @some_of("control", ROWS, only={"fanuc-mill"})
 def test_time_goes_by_the_number_of_corners_that_are_none(control, monkeypatch):
     """Every repair of one corner was solved as a whole, although all others were there still."""
@@ -285,6 +287,7 @@ def increments(count: int, code: str) -> str:
     return head + "".join(pair.format(size=20 if each == count // 2 else 1) for each in range(count))
 
 
+@pytest.mark.slow
 @some_of("control", ["nct-99m", "fanuc-lathe"], only={"nct-99m"})
 def test_time_goes_by_the_number_of_pairs_that_are_refused(control):
     def steps(count: int) -> int:
@@ -344,6 +347,7 @@ LOOPS = {
 """What begins a loop of which nobody knows how often it runs, and what ends it."""
 
 
+@pytest.mark.slow
 @some_of("kind", LOOPS, only=("WHILE", "GOTOB"))
 def test_loops_in_one_another_end_as_soon_as_nothing_new_follows(kind):
     """Each ran four times in each pass of the one around it; with long ones in them, they were followed no further."""

@@ -41,6 +41,7 @@ def test_a_chain_so_many_times_as_long_takes_about_so_many_times_the_work(name):
     assert long <= 1.3 * TIMES * short
 
 
+@pytest.mark.slow
 def test_trials_on_a_chain_solve_what_they_change_and_no_more():
     """Of 100 steps of two facts each, a trial without one word leaves nearly all as they are."""
     enumerate_module._roots_of.cache_clear()
@@ -50,6 +51,7 @@ def test_trials_on_a_chain_solve_what_they_change_and_no_more():
     assert solved <= 300 < 1_500 <= asked + solved
 
 
+@pytest.mark.slow
 def test_numbers_for_a_missing_word_are_tried_on_what_they_move_alone(monkeypatch):
     """Of 80 steps, each of the 8 words that may be missing moves a few."""
     build, built = Builder.run, list[str]()
@@ -60,6 +62,7 @@ def test_numbers_for_a_missing_word_are_tried_on_what_they_move_alone(monkeypatc
     assert len(built) < 300
 
 
+@pytest.mark.slow
 def test_of_a_long_chain_no_more_words_are_tried_than_of_a_short_one(monkeypatch):
     find, counts = Trial.find, list[int]()
 

@@ -67,6 +67,7 @@ def plane_axes(family):
 SHOWN = (("a taper", "line 1.room"), ("a chain with a boss", "length"), ("a question", "asked.P"))
 
 
+@pytest.mark.slow
 @some_of(("name", "result"), SHOWN, only=["a chain with a boss"])
 def test_a_line_of_equal_value_runs_where_single_solves_have_its_value(name, result):
     block, box, options = BOXES[name]
@@ -181,6 +182,7 @@ def data_of(page):
     return json.loads(text)
 
 
+@pytest.mark.slow
 @some_of("name", BOXES, only=["a taper", "a chain with a boss"])
 def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
     family = family_of(name, 13)

@@ -241,6 +241,7 @@ def test_random_blocks_of_each_form_go_where_the_closed_form_goes(form, seed, pl
     assert_as_drawn(form, seed, plane)
 
 
+@pytest.mark.slow
 @law(st.integers(0, 10**9), st.sampled_from(FORMS), st.integers(0, 5), few=2, many=20)
 def test_a_word_that_is_lost_makes_no_other_contour(seed, form, number):
     drawn = random_block(Random(seed), form)

@@ -401,6 +401,7 @@ def test_a_png_without_a_font_for_its_texts_is_refused(monkeypatch):
         draw_answer(answers_of("solved")[0]).png()
 
 
+@pytest.mark.slow
 def test_svg_needs_no_package_and_png_names_the_one_it_needs(monkeypatch):
     program = (
         "import sys, contoursolve; from contoursolve.pictures import draw_answer\n"
@@ -544,6 +545,7 @@ CROWDED = "G00 X40 Z2\nG111 A180 K-30 B120 X100"
 """Without points it is hardly larger than the mark of a point."""
 
 
+@pytest.mark.slow
 def test_no_label_lies_along_a_path():
     crowded = contoursolve.solve(CROWDED, control="yasnac-lx3").answers
     for answer in [*crowded, *(answer for name in KINDS for answer in answers_of(name))]:

@@ -355,6 +355,7 @@ print(*formatter.format(result)[0])
 """
 
 
+@pytest.mark.slow
 def test_ipython_asks_for_all_kinds_and_a_terminal_for_text():
     done = subprocess.run([sys.executable, "-c", SHELL], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == [f"{SVG} {HTML} {TEXT}", TEXT]

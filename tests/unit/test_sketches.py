@@ -221,6 +221,7 @@ def test_a_page_is_told_all_as_plain_data():
         assert 'data-element="line 1"' in view["picture"]["svg"]
 
 
+@pytest.mark.slow
 def test_a_key_costs_little():
     """A chain of 12 elements that lacks one entry: evaluations of its equations, and solved programs."""
     whole = sketch("turned_shaft")

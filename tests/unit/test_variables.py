@@ -27,6 +27,7 @@ VARIABLE = "heidenhain-parameter"
 KLARTEXT = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL AN+60\n3 FL X+Q1 Y+20 AN-30\n4 END PGM A MM\n"
 
 
+@pytest.mark.slow
 def test_check_says_for_which_values_a_contour_exists_and_what_ends_them():
     first, below, why = notes(START + BLOCK.replace("#101", "5."))
     assert (first, why) == ("#100 makes a contour from 50.000 on", "#100: #100 is set by nothing before")

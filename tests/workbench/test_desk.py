@@ -180,6 +180,7 @@ def test_the_variables_of_a_subprogram_have_fields_and_their_values_show_what_it
     assert page.ask("variables", values=given, start="X60. Z2.")["contours"][0]["status"] == "solved"
 
 
+@pytest.mark.slow
 def test_programs_that_nobody_has_used_lately_rest_and_come_back_as_they_were(monkeypatch):
     desk = Desk()
     pages = [Page(desk, f"window {number}") for number in range(2 * MOST_EXAMINED)]

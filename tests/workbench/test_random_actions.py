@@ -112,7 +112,7 @@ def walk(folder, steps, seed):
 
 
 def test_random_actions_raise_nothing_and_lose_no_text(tmp_path):
-    walk(tmp_path, 40, 1)
+    walk(tmp_path, 12, 1)
 
 
 @pytest.mark.slow
