@@ -423,16 +423,16 @@ def convert(
     target = to if isinstance(to, Dialect) else configure(find_dialect(to), told.settings)
     if language_of(target) is None:
         raise ConversionError(
-            f"contours cannot be written in the words of {target.name}: its blocks are of another kind"
+            f"contours cannot be written in the words of {target.title} ({target.name}): its blocks are of another kind"
         )
     dialect = choose_alike(told.control, gcode.parse(text, name), told.request(name), told.settings)
     if dialect is not None:
         target = for_kind(target, told.settings or {}, machine_of(dialect).value)
     if dialect is not None and machine_of(dialect) is not machine_of(target):
-        kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
+        one, other = (f"{each.title} ({each.name}, a {machine_of(each).value})" for each in (dialect, target))
         switches = (each.name for each in (dialect, target) if any(one.name == "machine" for one in each.settings))
         advice = "".join(f"; for a lathe, set {name}.machine=lathe" for name in switches)
-        raise ConversionError(f"a program is converted for the same kind of machine: {kinds}{advice}")
+        raise ConversionError(f"a program is converted for the same kind of machine, not from {one} to {other}{advice}")
     post = post_of(target)
     found = expand(text, post=post, comments=comments, control=dialect, units=told.units, rules=told.rules, name=name)
     found = replace(found, text=found.text and restate_control(found.text, target.name, target.modes.settings))

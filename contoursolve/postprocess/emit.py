@@ -103,18 +103,24 @@ def emit(
 
     A last move without words tells how far off that is.
     """
-    parts = ceil(segment.sweep / longest(form)) if isinstance(segment, ArcSegment) else 1
+    parts = parts_of(segment, form)
     places = {axis: low / form.mm for axis, (low, _) in beside.items()}
-    for number, part in enumerate((segment,) if parts <= 1 else _split(segment, parts), 1):
+    for number, part in enumerate(parts, 1):
         move = _Writer(part, here, form).move(is_rapid)
         here, words, off = move.end, list(move.words), move.deviation
         for axis, (low, high) in beside.items():
-            exact, base = (low + (high - low) * number / parts) / form.mm, places[axis] * form.is_incremental
+            exact, base = (low + (high - low) * number / len(parts)) / form.mm, places[axis] * form.is_incremental
             words.append(axis + form.number(exact - base))
             places[axis] = base + float(form.number(exact - base))
             off = max(off, abs(places[axis] - exact) * form.mm)
         code = 0 if is_rapid and not move.words else move.code
         yield MotionBlock(code, tuple(words), here, off) if beside else move
+
+
+def parts_of(segment: Segment, form: Format) -> tuple[Segment, ...]:
+    """An element as the parts that have blocks of their own: an arc that is too long for one is several."""
+    parts = ceil(segment.sweep / longest(form)) if isinstance(segment, ArcSegment) else 1
+    return (segment,) if parts <= 1 else tuple(_split(segment, parts))
 
 
 def _split(arc: Segment, parts: int) -> Iterator[Segment]:

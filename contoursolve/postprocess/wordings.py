@@ -13,7 +13,7 @@ from contoursolve.diagnosis import write_word
 from contoursolve.gcode import number_of
 from contoursolve.geometry import Arc, CornerShape, Unit, Values as Known, scalar
 from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, size_as
-from contoursolve.postprocess.emit import Format, emit
+from contoursolve.postprocess.emit import Format, emit, parts_of
 from contoursolve.postprocess.post_processors import SAME, Arcs
 from contoursolve.reading import ContourForm, Dialect, State
 from contoursolve.solving import ArcSegment, Point, Segment
@@ -233,9 +233,9 @@ class GCodeSpeller(Speller):
     def _written_out(self, segment: Segment, form: Format) -> Iterator[WrittenBlock]:
         """Plain moves, rounded so that an arc stays one; increments count from where rounding has led before."""
         here = _rounded(segment.start, form) if form.is_incremental else segment.start
-        for move in emit(segment, here, form, is_rapid=not self.line):
-            ends = map(_near, segment.end, move.end)
-            steps = (end - at * form.is_incremental for end, at in zip(ends, here, strict=True))
+        moves = emit(segment, here, form, is_rapid=not self.line)
+        for part, move in zip(parts_of(segment, form), moves, strict=True):
+            steps = (end - at * form.is_incremental for end, at in zip(part.end, here, strict=True))
             exact = dict(zip(self.plane.axes, steps, strict=True))
             if isinstance(segment, ArcSegment):
                 center = (at - begin for at, begin in zip(segment.center, here, strict=True))
@@ -292,15 +292,6 @@ def _rounded(place: Point, form: Format) -> Point:
         float(form.number(at / form.mm * n)) * form.mm / n for at, n in zip(place, form.scales, strict=True)
     )
     return first, second
-
-
-def _near(exact: float, rounded: float) -> float:
-    """An exact coordinate, or a point on the way that was chosen where it was rounded."""
-    return exact if abs(exact - rounded) < _STEP else rounded
-
-
-_STEP = 0.002
-"""mm. A coordinate is rounded by less."""
 
 
 def changed_axes(segment: Segment) -> Iterator[int]:

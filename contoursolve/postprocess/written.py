@@ -98,7 +98,7 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
     target = for_kind(target, {}, kind.value)
     if machine_of(target) is not kind:
         made = {MachineKind.LATHE: "turned", MachineKind.MILL: "milled"}[kind]
-        reason = f"the contour is {made}, and {target.name} is a {machine_of(target).value}"
+        reason = f"the contour is {made}, and this control is for {machine_of(target).value}s"
         return Written(target.name, target.title, (), reason)
     rounded, found = with_roundings(drawn), list[WrittenContour]()
     search = _Search([drawn] if rounded == drawn else [drawn, rounded], target, answer)
@@ -111,27 +111,27 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
         plain = _Search([drawn], target, answer, is_plain=True).first()
         found += [plain.written] if plain else []
     found.sort(key=lambda each: (each.cost, each.lines))
-    return Written(target.name, target.title, tuple(found), _reason(target.name, found, search))
+    return Written(target.name, target.title, tuple(found), _reason(found, search))
 
 
-def _reason(name: str, found: Sequence[WrittenContour], search: "_Search") -> str:
+def _reason(found: Sequence[WrittenContour], search: "_Search") -> str:
     """That the control has no words, or why its first candidate has no words of this control alone, though some
     numbers are computed."""
     if not found:
-        return f"{name} accepts no blocks for this contour, not even plain ones"
+        return "this control accepts no blocks for this contour, not even plain ones"
     best, others = found[0], sum(not each.is_plain for each in found)
     if best.written_out:
-        return f"{name} has no word for {' and '.join(best.written_out)}: a block of its own makes it"
+        return f"this control has no word for {' and '.join(best.written_out)}: a block of its own makes it"
     if not (best.is_plain and best.cost.computed):
         return ""
     if others:
         ways = "1 further way has" if others == 1 else f"{others} further ways have"
-        return f"plain lines and arcs are the shortest; {ways} {name}'s own words"
+        return f"plain lines and arcs are the shortest; {ways} the control's own words"
     if search.refused:
-        return f"these are plain lines and arcs: {name} refuses its own words for this contour ({search.refused})"
+        return f"these are plain lines and arcs: the control refuses its own words for this contour ({search.refused})"
     if any(not each.is_plain for several in search.kinds.values() for each in several):
         return "plain lines and arcs are the shortest"
-    return f"these are plain lines and arcs: {name} has no other words for this contour"
+    return "these are plain lines and arcs: the control has no other words for this contour"
 
 
 Moves = Mapping[str, tuple[MotionBlock, ...]]

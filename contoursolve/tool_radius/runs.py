@@ -161,10 +161,12 @@ def find_runs(path: ToolPath, asked: ToolRequest, dialect: Dialect) -> list[Cutt
             )
     is_stated = any(code in SIDES for _, code in stock.switches)
     groups = list(_groups(path, is_stated=is_stated))
-    if not is_stated and asked.side is None and any(group.travels for group in groups):
+    first = next((group.travels[0] for group in groups if group.travels), None)
+    if not is_stated and asked.side is None and first is not None:
+        where = f"{first.file or 'program'} line {first.line}, {first.text.strip()}"
         raise ToolError(
-            f"nothing says on which side of the contour the tool runs; write {' or '.join(texts.values())} before it, "
-            "or state the side: left or right"
+            f"{where}: nothing says on which side of the contour the tool runs; "
+            f"write {' or '.join(texts.values())} before it, or state the side: left or right"
         )
     found = [run for group in groups if (run := _run(group, path.axes, stock, asked.side)) is not None]
     return [stock.left(run, found) for run in found] if is_stated else found

@@ -6,7 +6,7 @@ from typing import Any, Literal
 from contoursolve import sketches
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import plain
-from contoursolve.postprocess import NumberGround, Written, WrittenContour, ending_of
+from contoursolve.postprocess import NumberGround, Written, WrittenContour, WrittenWord, ending_of
 from contoursolve.sketches import ContourSketch
 from contoursolve.workbench.fields import ActionError, Data, read_field
 
@@ -50,8 +50,13 @@ def _candidate(written: WrittenContour) -> Data:
         "is_plain": written.is_plain,
         "written_out": [*written.written_out],
         "deviation_mm": written.deviation,
-        "words": [{"text": each.text, "rests": _GROUNDS[each.ground]} for each in words],
+        "words": [{"text": each.text, "rests": _GROUNDS[each.ground], "off": _off(each)} for each in words],
     }
+
+
+def _off(word: WrittenWord) -> str:
+    """The amount by which rounding puts a word off; empty for an exact one."""
+    return f"{word.off:.1g} {word.unit.value} off" if word.off else ""
 
 
 def sketch_in(text: str) -> Data:

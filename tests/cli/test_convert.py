@@ -131,7 +131,11 @@ def test_the_command_writes_a_file_and_says_what_became_of_it(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "status", "said"),
     [
-        ((SHAFT, "--to", "fanuc-mill"), 2, "yasnac-lx3 is a lathe, fanuc-mill a mill"),
+        (
+            (SHAFT, "--to", "fanuc-mill"),
+            2,
+            "not from YASNAC LX3 lathe control (yasnac-lx3, a lathe) to Fanuc mills (fanuc-mill, a mill)",
+        ),
         ((SHAFT,), 2, "say for which control: --to nct-99m|fanuc-lathe|fanuc-mill|haas-lathe|haas-mill"),
         ((PLATE, "--to", "nct-99m"), 2, "say which with --control nct-99m|fanuc-mill|haas-mill"),
         ((SHAFT.with_name("plate.nc"), "--to", "fanuc-mill"), 1, "has no point and is"),

@@ -44,7 +44,7 @@ def call(*words: str | Path) -> Result:
         (("--tool", "R0.8", "--tip", "12", "--side", "left"), "there is no tip 12; the tips have the numbers 0 to 9"),
         (("--tool", "8mm", "--tip", "3", "--side", "left"), "'8mm' is no tool; write R8"),
         (("--tool", "R0.8", "--side", "left"), "a turning tool needs the number of its imaginary tip"),
-        (NOSE, "nothing says on which side of the contour the tool runs"),
+        (NOSE, "program line 1, G01 X20. Z-10.: nothing says on which side of the contour the tool runs"),
         (("--tool", "program", "--side", "left"), "nothing says which tool cuts program line 1"),
         (("--tip", "3"), "--tip goes with --tool"),
         (("--side", "left"), "--side goes with --tool"),

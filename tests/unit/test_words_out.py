@@ -170,7 +170,7 @@ def test_the_command_writes_a_whole_program(control: str, tmp_path: Path):
         ("LEN = 40\nY = 25", ("--to", "isg"), 1, "contour 1: guess = { X = -31.2250, Y = 25.0000 } in line 1 chooses"),
         ("AN = 30", ("--to", "isg"), 1, "error[words-missing]"),
         ("X = 0\nY = 0", ("--to", "isg"), 2, "the contour has no length, so that it has no words"),
-        ("X = 30\nY = 10", ("--to", "fanuc-lathe"), 2, "the contour is milled, and fanuc-lathe is a lathe"),
+        ("X = 30\nY = 10", ("--to", "fanuc-lathe"), 2, "the contour is milled, and this control is for lathes"),
         ("X = 30\nY = 10", ("--all",), 2, "--all goes with --to"),
         ("X = 30\nY = 10", ("-o", "new.nc"), 2, "-o goes with --to, and without --all and --format json"),
         ("X = 30\nY = ten", ("--to", "isg"), 2, "the file is no TOML"),
@@ -255,7 +255,7 @@ def test_sketches_are_written_for_three_controls(path: Path, number: int):
 def test_a_control_of_the_other_kind_says_so():
     plate = contoursolve.solve("G17 G90 G00 X0 Y0\nG01 X40. ,R5.\nY30.", control="fanuc-mill")
     found = contoursolve.write(plate, "yasnac-lx3")
-    assert (found.candidates, found.reason) == ((), "the contour is milled, and yasnac-lx3 is a lathe")
+    assert (found.candidates, found.reason) == ((), "the contour is milled, and this control is for lathes")
     shaft = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
     table = contoursolve.write_for_all(shaft)
     assert [each.control for each in table] == [*contoursolve.DIALECTS]
@@ -271,11 +271,11 @@ def test_a_control_of_the_other_kind_says_so():
 def test_a_corner_without_a_word_has_its_own_block():
     shaft = contoursolve.solve("G00 X40. Z0.\nG111 X100. A150. K-30. B110. C3.")
     found = contoursolve.write(shaft, "fanuc-lathe")
-    assert found.reason == "fanuc-lathe has no word for corner 1: a block of its own makes it"
+    assert found.reason == "this control has no word for corner 1: a block of its own makes it"
     check_all(shaft.answers[0], found)
     bow = contoursolve.solve("G17 G90 G00 X0 Y0\nG01 X40. ,R5.\nG03 X60. Y20. R25.", control="fanuc-mill")
     told = contoursolve.write(bow, "haas-mill")
-    assert told.reason.startswith("haas-mill has no word for corner 1")
+    assert told.reason.startswith("this control has no word for corner 1")
     check_all(bow.answers[0], told)
 
 
@@ -293,14 +293,14 @@ AN = 0
 LEN = 20
 """
 WHY_PLAIN = [
-    (BY_LENGTH, "siemens-840d", "plain lines and arcs are the shortest; 3 further ways have siemens-840d's own words"),
-    (BY_LENGTH, "fanuc-mill", "these are plain lines and arcs: fanuc-mill has no other words for this contour"),
+    (BY_LENGTH, "siemens-840d", "plain lines and arcs are the shortest; 3 further ways have the control's own words"),
+    (BY_LENGTH, "fanuc-mill", "these are plain lines and arcs: the control has no other words for this contour"),
     (
         "guessed_meeting",
         "yasnac-lx3",
         (
-            "these are plain lines and arcs: yasnac-lx3 refuses its own words for this contour (g112-touches: the line "
-            "through V2 just touches the arc, so the path has no corner there)"
+            "these are plain lines and arcs: the control refuses its own words for this contour (g112-touches: the "
+            "line through V2 just touches the arc, so the path has no corner there)"
         ),
     ),
 ]
@@ -373,3 +373,13 @@ def test_random_contours_are_the_same_for_all_controls(
     for found in contoursolve.write_for_all(solved[0]):
         if found.candidates:
             check_all(solved[0], found)
+
+
+def test_a_point_inside_an_arc_is_computed_where_it_is_rounded():
+    """An arc that is too long for CR= is three: the points between them are told with what rounding puts them off."""
+    arc = contoursolve.solve("G17 G00 X0 Y0\nG01 X20.\nG03 X7. Y15. R-12.3 ,R1.\nG01 X-40.", control="fanuc-mill")
+    words = [word for each in contoursolve.write(arc, "siemens-840d").candidates for word in each.blocks[0].words]
+    assert [(word.ground.value, f"{word.off:.4f}") for word in words if word.text in ("X31.288", "Y12.011")] == [
+        ("computed and rounded", "0.0001"),
+        ("computed and rounded", "0.0003"),
+    ]

@@ -47,7 +47,7 @@ def test_a_sketch_is_opened_known_written_and_saved(desk, tmp_path) -> None:
     words = ask(desk, "sketch_words", sketch=sketch, control="fanuc-lathe")
     wanted = contoursolve.write(read_sketch(TEXT), "fanuc-lathe").candidates
     assert [each["block"] for each in words["candidates"]] == ["\n".join(each.lines) for each in wanted]
-    assert {"text": "Z-30.5", "rests": "drawing"} in words["candidates"][0]["words"]
+    assert {"text": "Z-30.5", "rests": "drawing", "off": ""} in words["candidates"][0]["words"]
     assert [ask(desk, "sketch_words", sketch=sketch, control=each)["ending"] for each in ENDINGS] == [*ENDINGS.values()]
     rows = ask(desk, "sketch_words", sketch=sketch, control=None)["rows"]
     assert {row["control"] for row in rows if row["block"]} >= {"fanuc-lathe", "haas-lathe", "yasnac-lx3"}

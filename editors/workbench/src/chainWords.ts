@@ -3,7 +3,7 @@ import { button, make, offer, scroller, select, takeAlong } from "./dom";
 import { AXES, type Sketch } from "./chainSketch";
 import { type ControlName, orTrouble } from "./protocol";
 
-type Word = { text: string; rests: string }; // drawing, round, computed
+type Word = { text: string; rests: string; off: string }; // drawing, round, computed
 type Candidate = { title?: string; block: string; program: string; words?: Word[] };
 type Written = { candidates: Candidate[]; reason: string; ending: string }; // of the files of its programs
 type Row = { title: string; block: string; reason: string }; // for a control
@@ -52,7 +52,7 @@ export function wordsPanel(controls: () => ControlName[], open: (name: string, t
 
   function candidate({ title, block, program, words = [] }: Candidate, number: number, name: string): HTMLElement {
     const counts = RESTS.map(([kind, text]) => [text, words.filter((word) => word.rests === kind).length] as const).filter(([, count]) => count);
-    const computed = words.filter((word) => word.rests === "computed").map((word) => make("span", { class: "word computed", text: word.text, title: RESTS[2][1] }));
+    const computed = words.filter((word) => word.rests === "computed").map((word) => make("span", { class: "word computed", text: `${word.text} (${word.off})`, title: RESTS[2][1] }));
     const told = counts.map(([text, count]) => `${count} ${count === 1 ? "word" : "words"} ${text}`).join(", ");
     return make(
       "section",
