@@ -1,5 +1,6 @@
 """Adds to findings why they are so and what to write instead, and which checks a contour went through."""
 
+import re
 from collections.abc import Iterable, Iterator, Sequence, Set
 
 from msgspec.structs import replace
@@ -93,7 +94,23 @@ def diagnose(
         for number in (main, *_both(findings)):
             ordered = _expected_first(findings[number], repairs.repairs, answer.claim)
             findings[number] = with_fixes(findings[number], answer, ordered)
+    findings = [replace(each, notes=(*each.notes, *_places_of_blocks(answer.claim, each))) for each in findings]
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
+
+
+def _places_of_blocks(claim: ParsedContour, finding: Diagnostic) -> Iterator[str]:
+    """The program lines of the elements that a finding names by the numbers of their blocks, if it names program lines,
+    too."""
+    told = " ".join((finding.message, finding.help, *finding.notes, *(each.description for each in finding.fixes)))
+    if "program line" not in told:
+        return
+    for block, names in zip(claim.blocks, claim.makes, strict=False):
+        number = block.find("N")
+        if number is None or number.number is None or number.number == block.line:
+            continue
+        for name in (f"{kind} {number.number:f}" for kind in ("line", "arc")):
+            if name in names and re.search(rf"(?<!program ){name}\b", told):
+                yield f"{name} is block {number.number:f}, in program line {block.line}"
 
 
 def _expected_first(finding: Diagnostic, repairs: tuple[Repair, ...], claim: ParsedContour) -> tuple[Repair, ...]:

@@ -1,6 +1,7 @@
 """Answers of the desk that make something of a program: drawings, other programs, pages; with a tool, with values."""
 
 import base64
+import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
@@ -9,7 +10,7 @@ import contoursolve
 from contoursolve.comparison import Document, verify
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import importing
-from contoursolve.execution import named_variables
+from contoursolve.execution import NamedVariable, named_variables
 from contoursolve.notebook import (
     Product,
     converted,
@@ -91,7 +92,7 @@ def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
     values = read_field(action, "values", dict, {})
     if not all(isinstance(each, int | float) and abs(each) <= MOST_VALUE for each in values.values()):
         raise ActionError(f"values of variables are numbers up to {MOST_VALUE:,}")
-    found = named_variables(language, view.lines()) if language is not None else []
+    found = sorted(named_variables(language, view.lines()) if language is not None else (), key=_by_number)
     start = read_field(action, "start", str, "").strip() or None
     result = contoursolve.solve(program.text, control=program.dialect, name=program.name, variables=values, start=start)
     return {
@@ -110,6 +111,11 @@ def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
         "findings": _told(view, result),
         "contours": [contour_row(each, each.lines[0], each.lines[-1]) for each in result.answers],
     }
+
+
+def _by_number(variable: NamedVariable) -> list[tuple[int, str]]:
+    """The order of variables as people count them: #3 before #10."""
+    return [(int(each), "") if each.isdecimal() else (0, each) for each in re.split(r"(\d+)", variable.name)]
 
 
 def _told(view: ProgramView, result: Result) -> Sequence[Data]:

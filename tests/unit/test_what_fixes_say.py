@@ -135,3 +135,11 @@ def test_the_first_fix_of_an_angle_is_the_one_that_is_expected():
     (finding,) = solve(program, control="yasnac-lx3").diagnostics
     assert finding.labels[0].text == "expected 170.000 deg"
     assert finding.fixes[0].description.startswith("write B170. for B-10. (the other way along the line)")
+
+
+def test_an_element_that_has_the_number_of_its_block_is_told_with_its_program_line():
+    """The control's screen shows the numbers of blocks, and findings name the lines of the file."""
+    text = "0 BEGIN PGM R MM\n1 L X+0 Y+10 R0\n2 FL AN+15\n3 FC DR- R25 CCX+50 CCY+20\n4 FL X+90 Y+10\n5 END PGM R MM"
+    (finding,) = solve(text, control="heidenhain").diagnostics
+    assert "arc 3 is open: add AN, LEN or IX in program line 5" in finding.message
+    assert finding.notes == ("arc 3 is block 3, in program line 4",)

@@ -168,8 +168,8 @@ def test_the_variables_of_a_subprogram_have_fields_and_their_values_show_what_it
     page = Page(Desk())
     page.ask("open", name="q.nc", control="fanuc-lathe", text="#5=10\nG00 X40. Z0.\nG01 Z-30. ,R#5\nX#1 ,A#2 F#5041\n")
     asked = page.ask("variables")
-    assert [(each["name"], each["set_on"]) for each in asked["fields"]] == [("#5", 1), ("#1", None), ("#2", None)]
-    assert [each["number"] for each in asked["fields"]] == [10.0, None, None]
+    assert [(each["name"], each["set_on"]) for each in asked["fields"]] == [("#1", None), ("#2", None), ("#5", 1)]
+    assert [each["number"] for each in asked["fields"]] == [None, None, 10.0]
     # The drawing names its state so.
     assert [asked["contours"][0][each] for each in ("status", "told")] == ["underdetermined", "incomplete"]
     assert page.ask("variables", values={"#1": 100.0, "#2": 120})["contours"][0]["status"] == "solved"
