@@ -345,7 +345,7 @@ def test_converted_for_the_controls_of_the_same_machine_and_verified_in_a_senten
 
     page = opened()
     page.get_by_role("button", name="New program").click()
-    page.locator(".cm-content").focus()
+    page.locator(".cm-content").click()
     page.keyboard.type("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
     page.locator(".drawing svg").first.wait_for()
     do(page, "Convert")
