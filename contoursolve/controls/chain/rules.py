@@ -160,7 +160,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     cut, arc, angled, vertex = manual.cut, manual.arc, manual.angled, manual.vertex
     yield row(
         "corner-without-next",
-        "{words}: a corner needs an element behind it, and none follows",
+        "{words}: a corner needs an element after it, and none follows",
         "put the next cutting move right behind it, or delete it",
         some(*corners) & some(LAST) & ~some(RAPID),
         ANY,

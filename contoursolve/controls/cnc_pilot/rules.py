@@ -38,7 +38,7 @@ _ROWS = (
     _row("center-from-open", "{words}: the centre counts from where the arc begins, and that is still open",
          "write G12 or G13 with the centre in coordinates", _ASSUMED, some(*_CENTER[:2]) & some(FROM_OPEN), (ARC,),
          _CROSSING, ("G12 X58 Z-52 I38 K-40", "G2 X58 Z-52 I10 K-10")),
-    _row("corner-without-next", "{words}: a corner needs an element behind it, and none follows",
+    _row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
          "put the next element right behind it, or delete it", BOOK.printed("p. 147: B at the end of the element"),
          some(ROUNDING, CHAMFER) & some(LAST), _ANY, _CUT, ("\nG1 Z-40\nG1 X65", "")),
     _row("feed-range", "{words}: the share of the feed is above 0, and 1 at most",

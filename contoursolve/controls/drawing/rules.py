@@ -31,7 +31,7 @@ _SAID: Mapping[str, tuple[str, str]] = {
         "say that it is not tangent, and give its direction AN",
     ),
     "corner-without-next": (
-        "{words}: a corner needs an element behind it, and none follows",
+        "{words}: a corner needs an element after it, and none follows",
         "add the next line or arc, or leave the corner out",
     ),
     "turns-back": (

@@ -103,7 +103,7 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
         ),
         Rule(
             code=f"{machine.prefix}-corner-without-next",
-            message="{words}: a corner needs an element behind it, and none follows",
+            message="{words}: a corner needs an element after it, and none follows",
             help="put the next cutting move right behind it, or delete it",
             source=machine.source(_ALARM_LIST),
             alarm=machine.alarm("051 or 052 (no move, or no cutting move, behind a corner)"),

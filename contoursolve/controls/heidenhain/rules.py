@@ -153,7 +153,7 @@ def _rows(words: PlaneWords) -> tuple[Rule, ...]:
              _CORNER.replace("4 L X+40 Y+30", "4 CC X+60 Y+0\n5 C X+60 Y+20 DR-"), ("4 CC X+60 Y+0\n", "")),
         _row("radius-missing", "CR is an arc by its radius, and R is missing", "add R",
              BOOK.printed("path functions"), some(NO_RADIUS), (PLAIN,), _BOW, (" R20", "")),
-        _row("corner-without-next", "{words}: a corner needs an element behind it, and none follows",
+        _row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
              "put the next line or arc right behind it, or delete it", _CORNERS,
              some(*CORNERS) & some(LAST_CORNER) & ~some(FIRST_CORNER), _ANY, _CORNER, ("4 L X+40 Y+30\n", "")),
         _row("corner-first", "{words}: a corner needs a line or an arc right before it, and none is there",

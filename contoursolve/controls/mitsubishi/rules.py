@@ -70,7 +70,7 @@ _FORMAT = _alarm("P395 (address or format)")
 _ROWS = (
     _row("two-corners", "{words}: a block takes ,C or ,R, not both", "keep one of them",
          BOOK.assumed("not described"), all_of(*_CORNER), _ANY, _CUT, (",C5.", ",C5. ,R5."), alarm=_FORMAT),
-    _row("corner-without-next", "{words}: a corner needs an element behind it, and none follows",
+    _row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
          "put the next element right behind it, or delete it",
          BOOK.assumed("corner chamfering: the first block"), some(*_CORNER) & some(LAST) & ~some(RAPID), _ANY,
          _CUT, ("\nX40.", "\nM8\nX40."), ("\nX40.", "\nG00 X40.")),
