@@ -190,7 +190,7 @@ READING_RULES = (
         help="write the number, or state the value: --let {stated}",
         source=_READING,
         about=ReadIssue.VARIABLE,
-        slip={"size": "{variable}"},
+        slip={"size": "{variable}", "right": "{with_variable}"},
     ),
     Rule(
         code="word-unused",

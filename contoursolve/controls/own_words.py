@@ -55,6 +55,8 @@ G_CODES: Mapping[str, str] = {
     "end_on": "X80 Y-80",
     "comment": "({said})",
     "variable": "#101",
+    "known": "#500",
+    "with_variable": "{known}={size}\n{start}{line} {before} {corner}{known}\n{turn}",
     "nowhere": "GOTO 20\n",
     "jump": "IF[#1 EQ 1]GOTO5\nG20\nN5 ",
     "place": "{start_again}",
@@ -102,23 +104,23 @@ class OwnWords(Struct, frozen=True):
     """Further right programs, by the codes of rules: with words that no other example has."""
 
     def tell(self, *rules: Rule) -> tuple[Rule, ...]:
-        """The rules of the control with examples in its words. A row behind another one about the same event, that
-        holds everywhere, is never asked for, and left out."""
+        """The rules of the control, which have examples in its words when they are asked for. A row after another one
+        about the same event, that holds everywhere, is never asked for, and left out."""
         reasons = {code: reason for reason, codes in self.absent.items() for code in codes.split()}
         first = {rule.about: rule for rule in reversed(rules) if rule.about and not rule.roles}
         kept = [rule for rule in rules if rule.about is None or rule.roles or first[rule.about] is rule]
-        told = (self._told(rule, reasons.get(rule.code, "")) for rule in kept)
-        return tuple(self._with_more(rule) if rule.code in self.right else rule for rule in told)
+        return tuple(replace(rule, absent=reasons.get(rule.code, rule.absent), fill=self._fill) for rule in kept)
 
-    def _with_more(self, rule: Rule) -> Rule:
-        more = (_filled(text, {**self.gaps, "program": _PROGRAM}) for text in self.right[rule.code])
-        return replace(rule, accepted=(*rule.accepted, *more))
+    def _fill(self, rule: Rule) -> Rule:
+        told, more = self._with_slip(rule), self.right.get(rule.code, ())
+        filled = (_filled(text, {**self.gaps, "program": _PROGRAM}) for text in more)
+        return replace(told, accepted=(*told.accepted, *filled), fill=None)
 
-    def _told(self, rule: Rule, reason: str) -> Rule:
+    def _with_slip(self, rule: Rule) -> Rule:
         own = self.slips.get(rule.code, {})
         slip = {**rule.slip, **own}
-        if reason or (rule.rejected and not own):
-            return replace(rule, absent=reason) if reason else rule
+        if rule.absent or (rule.rejected and not own):
+            return rule
         try:
             right = _filled(slip.get("right", "{program}"), {**self.gaps, "program": slip.get("program", _PROGRAM)})
             wrong = _filled(slip.get("wrong", "{program}"), {**self.gaps, "program": _PROGRAM, **slip})

@@ -146,7 +146,7 @@ def _rule(rule: Rule) -> list[str]:
 
 def controls_of(rule: Rule) -> list[str]:
     """The controls that have a rule."""
-    return [name for name, dialect in DIALECTS.items() if rule in dialect.rules]
+    return [name for name, dialect in DIALECTS.items() if rule in (*dialect.rules, *dialect.catalogue)]
 
 
 def _family(family: Family) -> Iterator[str]:

@@ -141,8 +141,8 @@ def _rule(rule: Rule) -> Iterator[h.Node]:
         ("applies to", ", ".join(controls_of(rule))),
     ]
     yield table("The rule", ("", ""), facts)
-    yield from _examples("Wrong", rule.rejected)
-    yield from _examples("Right", rule.accepted)
+    yield from _examples("Wrong", rule.told.rejected)
+    yield from _examples("Right", rule.told.accepted)
 
 
 def _examples(title: str, examples: Iterable[str]) -> Iterator[h.Node]:

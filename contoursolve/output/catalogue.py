@@ -84,7 +84,7 @@ def _alarm(rule: Rule) -> str:
 def rule_lines(rule: Rule, controls: Sequence[str]) -> list[str]:
     """Everything about one rule: in words, a wrong block, a right one, the place in the manual; where several controls
     have it, it is the row of the first one."""
-    lines = [f"{rule.code} ({rule.severity.value}): {rule.title}", ""]
+    rule, lines = rule.told, [f"{rule.code} ({rule.severity.value}): {rule.title}", ""]
     facts = [
         ("what to do", rule.advice),
         *([("good to know", rule.note)] if rule.note else []),

@@ -109,8 +109,8 @@ class Dialect:
 
     @property
     def catalogue(self) -> tuple[Rule, ...]:
-        """The rules that a program of this control can meet."""
-        return tuple(rule for rule in self.rules if not rule.absent)
+        """The rules that a program of this control can meet, with their examples."""
+        return tuple(rule.told for rule in self.rules if not rule.absent)
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:

@@ -1,11 +1,11 @@
 """A rule is a row: a condition on the words of a block, what it says, its source, alarm and examples."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from contoursolve.diagnostics import Alarm, Severity, Shown, Source
 from contoursolve.geometry import BlockRole, names_of_roles
@@ -253,7 +253,7 @@ def _slots(slots: tuple[Slot | str, ...]) -> tuple[Slot, ...]:
     return tuple((slot,) if isinstance(slot, str) else slot for slot in slots)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Rule(Shown):
     """One row of the catalogue.
 
@@ -290,6 +290,13 @@ class Rule(Shown):
     """A file beside its examples: the name, and the text from the second line on."""
     absent: str = ""
     """The reason why no program of the control meets it; such a row is not listed."""
+    fill: "Callable[[Rule], Rule] | None" = field(default=None, repr=False)
+    """The maker of its examples in a control's words; None where it has them."""
+
+    @cached_property
+    def told(self) -> "Rule":
+        """The same rule with its examples, which are made when they are asked for."""
+        return self.fill(self) if self.fill else self
 
     def holds(self, own: Stated) -> bool:
         """Whether it finds something in what the blocks of its role state."""

@@ -223,13 +223,21 @@ def words_page(manual: Manual) -> Iterator[str]:
         yield from _word_section(manual, typed(row.address, manual), row.address, row.meaning, _kind(row, dialect), row)
     for code in contour_codes(dialect):
         yield from _word_section(manual, code.text, code.text, code.meaning, "a code of contours", code)
-    variable = next((rule for rule in dialect.catalogue if rule.about is ReadIssue.VARIABLE), None)
-    if variable:
-        text = next(iter(re.findall(r"#\d+|\b[RPQ]\d{1,3}\b", variable.rejected[0])), "")
-        name = "#500" if text.startswith("#") else text
-        yield f"\n## {name}, a variable\n"
-        yield f"A number may be a variable: `{text}`. Its value is that of the program, or of `--let {text}=NUMBER`.\n"
-        yield f"* What goes wrong with it: [{variable.code}](../{manual.place(variable.code)})"
+    yield from _variable_section(manual)
+
+
+def _variable_section(manual: Manual) -> Iterator[str]:
+    rule = next(rule for rule in manual.dialect.catalogue if rule.about is ReadIssue.VARIABLE)
+    wrong, right = manual.shown[rule.code]
+    is_followed = manual.dialect.modes.language is not None
+    example = right[-1] if is_followed else wrong[0]
+    name = re.findall(r"#\d+|\b[RPQ]\d{1,3}\b", example.text)[0]
+    yield f"\n## {name}, a variable\n"
+    value = f"Its value is that of the program, or of `--let {name}=NUMBER`" if is_followed else plain(rule.advice)
+    yield f"A number may be a variable: `{name}`. {value[0].upper()}{value[1:]}.\n"
+    yield f"* What goes wrong with it: [{rule.code}](../{manual.place(rule.code)})"
+    if is_followed:
+        yield from _right_block(manual, rule.code, example, name)
 
 
 def typed(address: str, manual: Manual) -> str:
@@ -273,7 +281,7 @@ def _word_section(
     yield f"`{name}`: {plain(meaning)}\n"
     yield f"* Unit: {plain(kind)}"
     yield f"* Source: {plain(str(row.source))}"
-    where = re.compile(rf"(?<![\w,#]){re.escape(name)}(?![A-Za-z])")
+    where, is_code = re.compile(rf"(?<![\w,#]){re.escape(name)}(?![A-Za-z])"), isinstance(row, Code)
     touching = [each for each in manual.dialect.settings if where.search(f"{each.meaning} {' '.join(each.values)}")]
     if touching:
         told = ", ".join(f"`{each.name}` ({plain(each.meaning)})" for each in touching)
@@ -281,27 +289,35 @@ def _word_section(
     wrong = [
         code
         for code, (examples, _) in manual.shown.items()
-        if any(
-            address in each.marked or (isinstance(row, Code) and code.startswith(address.lower())) for each in examples
-        )
+        if any(address in each.marked or (is_code and code.startswith(address.lower())) for each in examples)
     ]
     if wrong:
         links = ", ".join(f"[{code}](../{manual.place(code)})" for code in sorted(wrong))
         yield f"* What goes wrong with it: {links}"
     right = sorted(
         (
-            each
-            for _, examples in manual.shown.values()
+            (each, code)
+            for code, (_, examples) in manual.shown.items()
             for each in examples
-            if address in each.addresses or (len(name) > 1 and where.search(each.text))
+            if address in each.addresses or ((is_code or len(name) > 1) and where.search(each.text))
         ),
-        key=lambda each: (not each.picture, len(each.text), each.text),
+        key=lambda shown: (not shown[0].picture, len(shown[0].text), shown[0].text),
     )
     if right:
-        yield "\nRight:\n"
-        yield from fenced(right[0].text)
-        if right[0].picture:
-            yield f"\n![A right block with {name}](../pictures/{right[0].picture}){{ width=420 loading=lazy }}"
+        yield from _right_block(manual, right[0][1], right[0][0], name)
+    elif any(code in wrong for code in ("word-idle", "word-unused")):
+        yield "\nNo contour of this control uses it: contoursolve reads it, and warns where it says nothing."
+    else:
+        raise SystemExit(f"{manual.control} has no right block with {name}: add one to `right` in its examples.py")
+
+
+def _right_block(manual: Manual, code: str, right: Shown, name: str) -> Iterator[str]:
+    rule = next(rule for rule in manual.dialect.catalogue if rule.code == code)
+    with_options = f", with `{rule.options.replace(THIS_CONTROL, manual.control)}`" if rule.options else ""
+    yield f"\nRight{with_options}:\n"
+    yield from fenced(right.text)
+    if right.picture:
+        yield f"\n![A right block with {name}](../pictures/{right.picture}){{ width=420 loading=lazy }}"
 
 
 def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:

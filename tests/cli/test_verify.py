@@ -933,7 +933,7 @@ OF_SEVERAL = {PAGES / "plate.nc": "fanuc-mill"}
 def examples() -> Iterator[Any]:
     """Every example of every rule of every control, and every worked example, with its control."""
     for name, control in DIALECTS.items():
-        for rule in control.rules:
+        for rule in control.catalogue:
             for number, text in enumerate((*rule.rejected, *rule.accepted)):
                 yield pytest.param(name, text, id=f"{name} {rule.code} {number}")
     for path in WORKED:
@@ -1019,7 +1019,7 @@ def test_what_is_tampered_with_is_caught_for_every_control(control, count):
     """Every kind of number, in the contour alone and with its like in the list of solutions, and contours that are
     missing: in so many examples of the rules of a control."""
     rng, kinds, caught = Random(control), set[str](), 0
-    texts = [text for rule in DIALECTS[control].rules for text in rule.accepted]
+    texts = [text for rule in DIALECTS[control].catalogue for text in rule.accepted]
     for text in rng.sample(texts, len(texts)):
         result = json.loads(solution(text, "--control", control))
         if not result["contours"] or not result["contours"][0]["end"] or not result["contours"][0]["points"]:

@@ -131,7 +131,7 @@ def rules() -> Iterator[Case]:
     for control, dialect in DIALECTS.items():
         is_first = control in FIRST
         for rule in filter(lambda rule: is_recorded(rule.code, control), dialect.rules):
-            for example in (*rule.rejected, *rule.accepted):
+            for example in (*rule.told.rejected, *rule.told.accepted):
                 for form in (next(forms), next(others)) if is_first else (next(forms),):
                     yield Case((*form, "-", "--control", control), example, files)
 

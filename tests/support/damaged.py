@@ -19,7 +19,7 @@ REMARK = "\u00e4\u00f6\u00fc \u00b0"
 @cache
 def right_programs(control: str) -> list[str]:
     """The programs of a control's own examples that have a contour and no error."""
-    examples = dict.fromkeys(text for rule in DIALECTS[control].rules for text in rule.accepted)
+    examples = dict.fromkeys(text for rule in DIALECTS[control].catalogue for text in rule.accepted)
     results = ((text, solve(text, control=control)) for text in examples)
     return [text for text, each in results if any(one.contour for one in each.answers) and not each.has_errors]
 

@@ -103,7 +103,7 @@ def test_an_editor_is_answered_before_anything_is_loaded_that_solves() -> None:
 
 @cache
 def examples() -> list[str]:
-    rules = (rule for each in DIALECTS.values() for rule in each.rules)
+    rules = (rule for each in DIALECTS.values() for rule in each.catalogue)
     return [text for rule in rules for text in (*rule.accepted, *rule.rejected)]
 
 

@@ -11,7 +11,7 @@ from contoursolve.controls import DIALECTS
 REJECTED = [
     (name, text)
     for name, dialect in DIALECTS.items()
-    for rule in dialect.rules
+    for rule in dialect.catalogue
     for text in dict.fromkeys(rule.rejected)
 ]
 

@@ -62,6 +62,7 @@ _SLIPS = {
         "wrong": "{start}G1 X50 Z-20 A26.565\nG1 Z-40",
         "options": "--set CONTROL.redundant-angle=error",
     },
+    "value-variable": {"right": "{program}"},
     "half-circle": {"wrong": "FERTIGTEIL\nG0 X40 Z-20\nG2 X80 Z-20 R9.9995"},
     "touches": {"wrong": "FERTIGTEIL\nG0 X40 Z0\nG1 A0 Q1\nG12 X80 Z-52 I30 K-52"},
     "double": {"wrong": "FERTIGTEIL\nG0 X40 Z0\nG1 Z-40\nG13 Z-80 X? I20 K-60"},
@@ -88,4 +89,8 @@ _ABSENT = {
     "line-backwards radius-differs corner-nowhere corner-straight contour-sensitive",
     "no block is known to cause it here": "count-open only-unproven not-verified search-unfinished word-mistyped",
 }
-WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT)
+_RIGHT = {
+    "cnc-pilot-corner-without-next": ("{start}G1 XI20 B2\nG1 ZI-40",),
+    "cnc-pilot-feed-range": ("{start}G1 X50 B2 E0.5\n{turn}",),
+}
+WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

@@ -1,5 +1,6 @@
 """CNC PILOT: which words may stand together, and what has no solution. No alarm number is known."""
 
+from dataclasses import replace
 from decimal import Decimal
 from functools import partial
 
@@ -12,7 +13,7 @@ from contoursolve.controls.heidenhain.elements import ARC, LINE
 from contoursolve.controls.heidenhain.lexicon import CHAMFER, ROUNDING
 from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Severity
-from contoursolve.reading import Rule, Value, all_of, some
+from contoursolve.reading import ReadIssue, Rule, Value, all_of, some
 from contoursolve.solving import NoteKind, RefusalKind
 
 _ANY, _CENTER, _LEAST = (LINE, ARC), ("ICCZ", "ICCX", "CCZ", "CCX"), Decimal("0.0001")
@@ -76,4 +77,6 @@ _ROWS = (
          BOOK.printed("errors of a contour, a later control"), Value(("X",), Decimal(0)), _ANY, _CUT, ("X65", "X-4"),
          severity=Severity.WARNING),
 )  # fmt: skip
-RULES = WORDS.tell(*_ROWS, *COMMON_RULES, *GEOMETRY_RULES)
+_HELP = "write the number: contoursolve does not follow the variables of this control"
+_COMMON = (replace(rule, help=_HELP) if rule.about is ReadIssue.VARIABLE else rule for rule in COMMON_RULES)
+RULES = WORDS.tell(*_ROWS, *_COMMON, *GEOMETRY_RULES)

@@ -125,6 +125,7 @@ _BESIDE_ARCS = dict.fromkeys(("radius-too-small", "circle-undefined", "radius-di
 _VANISHED = {"wrong": "{start}G01 X0 {corner}{size}\nM8\n{turn}", **_OFF}
 _STRAIGHT = {"turn": "{hardly_turned}", "options": "--set CONTROL.guard-corner=error"}
 _ALLOWED = "--set CONTROL.arcs=on"
+_BEFORE_AN_ARC = ("{start}G01 Z-20. ,R2.\nX40.\nG02 X60. Z-30. I10. K0",)
 FANUC_LATHE_WORDS = OwnWords(
     _TURNING,
     {
@@ -137,6 +138,7 @@ FANUC_LATHE_WORDS = OwnWords(
         "fanuc-corner-straight": _STRAIGHT,
     },
     _ABSENT,
+    {"fanuc-arc": _BEFORE_AN_ARC},
 )
 FANUC_MILL_WORDS = OwnWords(
     _MILLING,
@@ -155,6 +157,7 @@ HAAS_LATHE_WORDS = OwnWords(
     {**_TURNING, "angle": "A", "of_others": ",A5.", "foreign": "Q5."},
     {**_BESIDE_ARCS, "haas-corner-straight": _STRAIGHT},
     _ON_HAAS,
+    {"haas-arc": _BEFORE_AN_ARC},
 )
 HAAS_MILL_WORDS = OwnWords(
     _MILLING,
@@ -172,4 +175,11 @@ HAAS_MILL_WORDS = OwnWords(
         },
     },
     _ON_MILLS,
+    {
+        "haas-center-and-radius": (
+            "{start}{arc_blocks}",
+            "{start}G01 X40. ,C6.\nG02 X60. Y20. R20.",
+            "G18 G90 G00 X0 Z0\nG01 X40. ,C6.\nG03 X60. Z20. I20. K0",
+        ),
+    },
 )

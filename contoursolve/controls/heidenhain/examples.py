@@ -5,6 +5,9 @@ from contoursolve.controls.own_words import AS_WRITTEN, G_CODES, NO_CODES, NO_CO
 _GAPS = {
     **G_CODES,
     "start": "0 BEGIN PGM A MM\n1 L X+0 Y+0\n",
+    "above": "0 BEGIN PGM A MM\n1 L X+0 Y+30\n",
+    "turned_center": "5 FC DR- R12 ICCPR+40 RCCPR3 ICCPA-30 RCCPA3 CCA+0",
+    "away": "0 BEGIN PGM A MM\n1 L X+50 Y+0\n",
     "contour": "{block}\n3 {corner}{size}{more}\n{turn}",
     "block": "2 L X+40 Y+0",
     "corner": "RND R",
@@ -87,7 +90,22 @@ _RIGHT = {
     "heidenhain-tangent-first": (
         "{start}2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30{tail}",
         "{start}2 L X+20 Y+0\n3 CT X+40 Y+20{tail}",
+        "{start}2 CC X+50 Y+0\n3 L X+30 Y+0\n4 CTP PR+30 PA+90\n5 RND R2\n6 L X+80 Y+30{tail}",
     ),
-    "heidenhain-tool-axis": ("{start}2 L Z+5\n3 L X+40 Y+0\n4 RND R5\n5 L X+40 Y+30{tail}",),
+    "heidenhain-tool-axis": ("{start}2 L Z+5\n3 L IZ-7\n4 L X+40 Y+0\n5 RND R5\n6 L X+40 Y+30{tail}",),
+    "heidenhain-centre-missing": (
+        "{start}2 L X+20 Y+0\n3 CC X+20 Y+20\n4 C X+40 Y+20 DR+\n5 RND R3\n6 L X+80 Y+20{tail}",
+        "{start}2 L X+30 Y+0\n3 CC X+50 Y+0\n4 LP PR+30 PA+90\n5 RND R2\n6 L X+80 Y+30{tail}",
+    ),
+    "heidenhain-pole-half": (
+        "{away}2 FPOL X+0 Y+0\n3 FL PR+50 IPA+40\n4 FL IPR+10 PA+60\n5 FL IPR+5 IPA+20 RPR4 RPA3{tail}",
+        "{above}2 FPOL X+0 Y+0\n3 FC DR- R20 CCPR+36.0555 CCPA+56.31\n4 FLT AN-10 LEN50{tail}",
+        "{above}2 FPOL X+0 Y+0\n3 FC DR- R20 CCX+20 CCY+30 CCA+60\n4 FL AN-10\n{turned_center}\n6 FSELECT1{tail}",
+    ),
+    "heidenhain-block-missing": (
+        "{start}2 FL X+30 Y+5\n3 FL AN+90 LEN20\n4 FL IX+10 RX2 IY+40 RY2{tail}",
+        "{above}2 FC DR- R20 CCX+20 CCY+30\n3 FLT\n4 FCT DR- R12 ICCX+70 RCCX2 ICCY+15 RCCY2 CCA+0{tail}",
+    ),
+    "heidenhain-block-no-line": ("{start}2 FL AN+20 LEN40\n3 FL IAN+50 LEN30\n4 FL LEN20 IAN+30 RAN2{tail}",),
 }
 WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

@@ -17,6 +17,7 @@ _GAPS = {
     **gaps_of(EXAMPLES),
     "comment": "({said})",
     "variable": "P101",
+    "known": "P1",
     "jump": "$IF P1==1\nG70\n$ENDIF\n",
     "nowhere": "$GOTO N20\n",
     "call": "LL CALLED",
@@ -78,6 +79,9 @@ _ABSENT = {
 _RIGHT = {
     "isg-two-corners": ("{start}G1 X30 #CHR=5\nX40 Y40", "{start}G1 X30 #CHF=5\nX40 Y40"),
     "isg-corner-size": ("{start}G1 X30\nG301 I5\nG1 X40 Y40",),
-    "isg-center-and-radius": ("{start}G1 X40 #RND=6\nG2 X60 Y20 R20",),
+    "isg-center-and-radius": (
+        "{start}G1 X40 #RND=6\nG2 X60 Y20 R20",
+        "G18 G90 G0 X0 Z0\nG1 X40 #RND=6\nG3 X60 Z20 I20 K0",
+    ),
 }
 WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

@@ -84,6 +84,7 @@ _ABSENT = {
     "no two arcs meet that have no ends of their own": "point-is-start circles-apart line-backwards double",
 }
 _RIGHT = {
+    "mitsubishi-angle-range": ("{start}G01 X40. ,A30. ,R5.\nX80.",),
     "mitsubishi-center-and-radius": ("{start}G01 X40. ,C6.\nG02 X60. Y20. R20.",),
     "mitsubishi-outside-plane": ("G18 G90 G00 X0 Z0\nG01 X40. ,C6.\nG02 X60. Z20. I20. K0",),
 }

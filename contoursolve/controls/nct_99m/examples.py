@@ -45,6 +45,10 @@ _ABSENT = {
     "its corners lie where both elements are known": "corner-nowhere cut-free",
 }
 _RIGHT = {
+    "nct-axis-outside-plane": (
+        "G17 G90 G0 X0 Y0 U0\nG1 U40 ,A45\nX80 ,A0",
+        "G17 G90 G0 X0 Y0 V0\nG1 V40 ,A45\nX80 ,A0",
+    ),
     "nct-two-corners": ("G18 G90 G0 X0 Z0\nG1 X40 ,C6\nG2 X60 Z20 I20 K0",),
 }
 WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

@@ -18,6 +18,7 @@ _GAPS = {
     **gaps_of(EXAMPLES),
     "comment": "; {said}",
     "variable": "R101",
+    "known": "R1",
     "jump": "IF R1==1 GOTOF FIVE\nG70\nFIVE: ",
     "nowhere": "GOTOF END\n",
     "call": "CALLED",

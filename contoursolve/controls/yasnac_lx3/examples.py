@@ -16,6 +16,7 @@ _GAPS = {
     "move": "G01 X120. Z-80.",
     "move_whole": "G01 X120 Z-80",
     "foreign": "R5.",
+    "with_variable": "{known}=-30.\n{start}G111 A180. K{known} B120. X100.",
     "of_others": ",A30.",
     "other_corner": "C2.",
     "end_word": "X100.",
