@@ -108,7 +108,9 @@ def _written(answer: Answer, sizes: Iterable[Mapping[Span, float]]) -> Iterator[
         size = min((each[word.span] for each in sizes if word.span in each), default=None)
         if given is None or size is None or size >= abs(given.value):
             continue
-        text = write_word(word.address, copysign(size, given.value), claim.lexicon, unit, AT_MOST)
+        # A control may tell a chamfer from a rounding by the sign, which is none of the size's.
+        signed = copysign(size, given.value if word.number is None else word.number)
+        text = write_word(word.address, signed, claim.lexicon, unit, AT_MOST)
         if Decimal(number_of(text, word.address)):
             is_rounded = float(abs(given.value)) - size < _ROUNDED
             yield change(word, text, Why.ROUNDED if is_rounded else Why.FITS)

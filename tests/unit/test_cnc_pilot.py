@@ -54,6 +54,12 @@ def test_what_the_sheet_wants_said_of_a_wrong_program_is_said(name):
     assert not any(each.alarm for each in found)
 
 
+@pytest.mark.parametrize(("corner", "fitting"), [("B-15", "B-5"), ("B15", "B5")])
+def test_of_a_corner_too_large_the_largest_one_of_its_kind_is_offered_first(corner, fitting):
+    (found,) = check(f"G0 X30 Z0\nG1 X50 {corner}\nG1 Z-5\nG1 X70", control="cnc-pilot")
+    assert found.fixes[0].description.startswith(f"write {fitting} for {corner}")
+
+
 def test_a_contour_below_the_turning_centre_is_told():
     told = {each.code: each.severity.value for each in check("G0 X20 Z0\nG1 X-4", control="cnc-pilot")}
     assert told == {"axis-crossed": "warning", "cnc-pilot-below-centre": "warning"}
