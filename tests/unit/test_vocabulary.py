@@ -272,6 +272,13 @@ def test_a_contour_that_needs_it_is_refused_with_its_name_alone(lines, name):
     assert not any(each.fixes for each in found)
 
 
+@pytest.mark.parametrize("control", ["fanuc-mill", "nct-99m", MITSUBISHI])
+def test_behind_a_contour_that_ends_by_itself_it_refuses_nothing(control):
+    result = contoursolve.solve(f"{MILL}G1 X30. ,R5.\nX40. Y40.\nG54.1 P3", control=control)
+    assert told(result.diagnostics) == [("not-read", "info", "contoursolve does not read G54.1 yet")]
+    assert result.answers[0].status is Status.SOLVED
+
+
 @pytest.mark.parametrize(
     ("control", "block", "name"),
     [

@@ -79,7 +79,8 @@ class ChainFinder:
                 is_tied = True
                 following, here = self._next(blocks, following, here, modes)
             if following is None or not self._is_motion(blocks[following], here, modes):
-                members[-1] = replace(last, unread=self._unread(blocks, following, here, modes))
+                if self._needs_next(last, blocks, following, here):
+                    members[-1] = replace(last, unread=self._unread(blocks, following, here, modes))
                 break
             before, here = here, self._apply(here, blocks[following], modes)
             is_over = self._begins_in_intersection(last, blocks[following], here)
@@ -368,6 +369,14 @@ class ChainFinder:
                 self._programmed(following, here) or self.language.angle.address in self._stated(following, here)
             )
         return self._is_open(last)
+
+    def _needs_next(self, last: Member, blocks: Sequence[Block], following: int | None, here: State) -> bool:
+        """Whether an element may be another one with the next block: it has a corner or no end, or that block may meet
+        it in an intersection."""
+        if following is None or self._has_corner(last) or self._is_open(last):
+            return True
+        is_met = self.language.meeting.joining is Joining.OVER_DEFINED
+        return is_met and bool(self._programmed(blocks[following], here))
 
     def _unread(self, blocks: Sequence[Block], following: int | None, here: State, modes: Modes) -> Word | None:
         """The word that shapes the next block in a way that is not read."""
