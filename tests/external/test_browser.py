@@ -15,6 +15,7 @@ from browsing import Watched
 from serving import SECONDS, wait_for
 
 import contoursolve
+from contoursolve.diagnosis import status_text
 
 pytestmark = pytest.mark.browser
 
@@ -194,7 +195,7 @@ def check_told(page):
     (first, second), (state, *_) = told(page)
     result = contoursolve.solve(BLOCK.replace("A180.", f"A{first}").replace("P5.", f"P{second}"), start="X40. Z0.")
     answer = result.answers[0]
-    assert state.startswith(answer.status.value.replace("-", " "))
+    assert state.startswith(status_text(answer.status))
     is_empty = page.locator(f"{MAP} .drawing.empty").count() == 1
     assert is_empty == (answer.contour is None)
     if answer.contour is not None:
@@ -228,7 +229,7 @@ def test_a_map_answers_to_the_pointer_and_to_keys_without_a_kernel(browser, tmp_
             seen.append(page.locator(f"{MAP} .small .path").get_attribute("d"))
             page.screenshot(path=artefacts / f"map-{kind}-{scheme}-{len(seen)}.png")
         assert len({*seen}) == 3
-        assert told(page)[1] == ["no solution: corner too large"]
+        assert told(page)[1] == ["without a solution: corner too large"]
         stage = page.locator(f"{MAP} .stage")
         stage.focus()
         for _ in range(30):
