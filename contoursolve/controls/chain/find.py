@@ -79,8 +79,7 @@ class ChainFinder:
                 is_tied = True
                 following, here = self._next(blocks, following, here, modes)
             if following is None or not self._is_motion(blocks[following], here, modes):
-                if self._needs_next(last, blocks, following, here):
-                    members[-1] = replace(last, unread=self._unread(blocks, following, here, modes))
+                members[-1] = replace(last, unread=self._unread(last, blocks, following, here, modes))
                 break
             before, here = here, self._apply(here, blocks[following], modes)
             is_over = self._begins_in_intersection(last, blocks[following], here)
@@ -370,17 +369,19 @@ class ChainFinder:
             )
         return self._is_open(last)
 
-    def _needs_next(self, last: Member, blocks: Sequence[Block], following: int | None, here: State) -> bool:
+    def _needs_next(self, last: Member, following: Block, here: State) -> bool:
         """Whether an element may be another one with the next block: it has a corner or no end, or that block may meet
         it in an intersection."""
-        if following is None or self._has_corner(last) or self._is_open(last):
-            return True
-        is_met = self.language.meeting.joining is Joining.OVER_DEFINED
-        return is_met and bool(self._programmed(blocks[following], here))
+        meets = self.language.meeting.joining is Joining.OVER_DEFINED and bool(self._programmed(following, here))
+        return meets or self._has_corner(last) or self._is_open(last)
 
-    def _unread(self, blocks: Sequence[Block], following: int | None, here: State, modes: Modes) -> Word | None:
-        """The word that shapes the next block in a way that is not read."""
+    def _unread(
+        self, last: Member, blocks: Sequence[Block], following: int | None, here: State, modes: Modes
+    ) -> Word | None:
+        """The word that shapes the next block, on which the last element depends, in a way that is not read."""
         if following is None or blocks[following].macro is not None:
+            return None
+        if not self._needs_next(last, blocks[following], here):
             return None
         # What is no code has no number that says what it does.
         codes = codes_of(blocks[following], modes)
