@@ -44,7 +44,8 @@ _BLOCK_BEGUN = re.compile(r"\s*+/?+\s*+(?>(?:[Nn]\d++)?)\s*+(?P<code>(?>(?:[Gg]\
 def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
     """The meaning of the word under the cursor and the points it fixes, or the whole contour; None elsewhere."""
     line, column = opened.places.place(position)
-    answer, block = opened.program.contour_at(line), _block(opened, line)
+    is_known = opened.program.is_examined(line, line)
+    answer, block = opened.program.contour_at(line) if is_known else None, _block(opened, line)
     word = next((each for each in block.words if each.span.column <= column < each.span.end_column), None)
     if answer is not None:
         ran = next((each for each in answer.claim.blocks if each.line == line), block)
@@ -56,11 +57,9 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
         text = _about_contour(answer, is_drawn=is_drawn, beside=tool_beside(opened, answer))
         return _shown(opened, _with_tool(opened, text, line), _lines_of(opened, line))
     text = _about_plain_word(opened, word) if word is not None else ""
-    examined = opened.program.examined
-    if text and examined < line:
-        text += (
-            f"\n\nThe contours here are not known yet: {examined} of {len(opened.program.blocks)} lines are examined."
-        )
+    if text and not is_known:
+        done, lines = opened.program.examined, len(opened.program.blocks)
+        text += f"\n\nThe contours here are not known yet: {done} of {lines} lines are examined."
     return _hover(opened, text, word) if text and word is not None else None
 
 

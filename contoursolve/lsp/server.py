@@ -43,7 +43,7 @@ MOMENT, TURNS = 0.01, 16
 """Seconds for which is examined before messages are looked at, and turns of the loop that one takes to be read and
 answered."""
 
-SOON = 0.05
+SOON = 0.5
 """Seconds after which a hover says what it can."""
 
 LONG = 1.0
@@ -173,13 +173,16 @@ class Server(LanguageServer):
         if workspace and workspace.code_lens and workspace.code_lens.refresh_support:
             self.workspace_code_lens_refresh(None)
 
-    async def examined(self, uri: str, line: int | None = None, patience: float = inf) -> Opened | None:
-        """A program with all of it examined, or its lines up to one, or as far as that gets in so many seconds; None if
-        it is not open."""
-        end, pause = monotonic() + patience, None if line is None else MOMENT
+    async def examined(self, uri: str, lines: tuple[int, int] | None = None, patience: float = inf) -> Opened | None:
+        """A program with all of it examined, or the lines from one to another, which are before all others, or as far
+        as that gets in so many seconds; None if it is not open."""
+        end, pause = monotonic() + patience, None if lines is None else MOMENT
         while uri in self.checking and not self.checking[uri].done() and monotonic() < end:
-            if line is not None and self.is_configured.is_set() and self.opened[uri].program.examined >= line:
-                break
+            if lines is not None and self.is_configured.is_set():
+                program = self.opened[uri].program
+                if program.is_examined(*lines):
+                    break
+                program.look(*lines)
             await asyncio.wait([self.checking[uri]], timeout=pause)
         return self.opened.get(uri)
 
@@ -241,10 +244,11 @@ def _handler(method: str, patience: float | None) -> Callable[[Any], Any]:
     async def handle(params: Any) -> Any:
         from contoursolve.lsp.answers import ANSWERS  # noqa: PLC0415 - as in `initialized`
 
-        uri, last = params.text_document.uri, None
+        uri, lines = params.text_document.uri, None
         if patience is not None:
-            last = (params.range.end if hasattr(params, "range") else params.position).line + 1
-        opened = await server.examined(uri, last, inf if patience is None else patience)
+            ends = (params.range.start, params.range.end) if hasattr(params, "range") else (params.position,) * 2
+            lines = ends[0].line + 1, ends[1].line + 1
+        opened = await server.examined(uri, lines, inf if patience is None else patience)
         return None if opened is None else ANSWERS[method](opened, params)
 
     return handle
@@ -369,7 +373,7 @@ async def picture(params: Any) -> Any:
     """The contour under the cursor as a picture, with the places of its words."""
     from contoursolve.lsp import commands  # noqa: PLC0415 - as in `initialized`
 
-    opened = await server.examined(params.textDocument.uri, params.position.line + 1)
+    opened = await server.examined(params.textDocument.uri, (params.position.line + 1,) * 2)
     if opened is None:
         return None
     return commands.picture_of(opened, types.Position(params.position.line, params.position.character))

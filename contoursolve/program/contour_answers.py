@@ -27,6 +27,9 @@ BEHIND = 32
 MOST_EXPLAINED = 100
 """Wrong results of one contour that are explained and mended, where it runs again and again."""
 
+_MOST_NESTED = 2
+"""Explanations of contours, one for the other, that are made while a program is followed ahead."""
+
 
 def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: Pending) -> Answer:
     """The answer to a contour, with the values that it asks for filled in; its findings are not explained yet."""
@@ -141,6 +144,26 @@ class Answers:
         own = next((at for at, block in enumerate(behind, 1) if block.line in lines), 0)
         window = _window(self.dialect, answer, pending, pending.ahead, self.parts, own)
         return tuple(mend_behind(answer, found, window))
+
+
+class TooFarError(Exception):
+    """What is wrong in too many contours in a row has to be explained before it is known where one of them ends."""
+
+
+class AnswersAhead(Answers):
+    """The same of a program that is followed ahead of its examination. What is wrong in a contour rests on those before
+    it. Raises TooFarError."""
+
+    _nested = 0
+
+    def explain(self, answer: Answer, pending: Pending) -> Answer:
+        if answer.contour is None and self._nested == _MOST_NESTED:
+            raise TooFarError
+        self._nested += 1
+        try:
+            return super().explain(answer, pending)
+        finally:
+            self._nested -= 1
 
 
 class Learned(Struct, frozen=True):

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Context, Depth, explain_call, explain_codes_by_name, report
+from contoursolve.diagnosis import Answer, Context, Depth, explain_call, explain_codes_by_name, report
 from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.execution import EventKind, ProgramEvent
 from contoursolve.gcode import Block, Blocks, Passage, in_passages, words_of
-from contoursolve.program.contour_answers import BEHIND, Answers, AnswersInPasses
+from contoursolve.program.contour_answers import BEHIND, Answers, AnswersAhead, AnswersInPasses
 from contoursolve.program.lookahead import Line, Lookahead, View
 from contoursolve.program.named_words import untouched
 from contoursolve.program.outside_contours import (
@@ -55,6 +55,9 @@ known, and later."""
 _WHOLE = 32_768
 """The same for a program that has been read: the more there are of a kind, the less each of them takes."""
 
+_MOST_AWAITED = 16
+"""Contours in a row, each of which begins where the one before ends, that are followed and not solved."""
+
 
 class Cursor(Struct, frozen=True):
     """Place of the walk over a program: the knowledge before one of its blocks."""
@@ -90,7 +93,7 @@ class WalkStep(Struct, frozen=True):
 class Examination:
     """The walk over one program of a control. Its contours are solved one by one, or `together`; if it `goes_on`, those
     behind one that is refused are checked from where its best fix ends. A program that `is_run` may come to a line
-    again and again."""
+    again and again; one `is_ahead` that is followed, and not examined."""
 
     def __init__(
         self,
@@ -100,9 +103,11 @@ class Examination:
         *,
         goes_on: bool = False,
         is_run: bool = False,
+        is_ahead: bool = False,
     ) -> None:
         self.asked, self.dialect = asked, dialect
-        self.answers = (AnswersInPasses if is_run else Answers)(asked, dialect, self._parts)
+        answers = AnswersInPasses if is_run else AnswersAhead if is_ahead else Answers
+        self.answers = answers(asked, dialect, self._parts)
         self.queue = Queue(dialect, together, self.answers, goes_on=goes_on)
         self._context = Context(asked.rules, asked.unit)
         is_counted = dialect.modes.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
@@ -226,15 +231,16 @@ class Examination:
 
     # All of them -------------------------------------------------------------------------------------------------
 
-    def walk(self, lines: Iterable[Line]) -> Iterator[Step | Pending]:
-        """Every block and every contour, in order, contours as they are found."""
-        cursor, ahead = self.begin, Lookahead(lines)
+    def walk(self, lines: Iterable[Line], cursor: Cursor | None = None) -> Iterator[tuple[Step | Pending, Cursor]]:
+        """Every block and every contour from a cursor, or from the beginning, in order, contours as they are found; and
+        the cursor before each."""
+        cursor, ahead = cursor or self.begin, Lookahead(lines)
         ways = Ways(lambda: self.begin.state, self.dialect.modes)
         while (line := ahead.line) is not None:
             if isinstance(line, ProgramEvent):
                 if line.kind is EventKind.LEAVE:
                     # Where the profile of a cycle ended.
-                    yield Step((), cursor.state, findings=cursor.findings)
+                    yield Step((), cursor.state, findings=cursor.findings), cursor
                     cursor = replace(cursor, findings=())
                 cursor = replace(self.happen(line, cursor), state=ways.state_behind(line, cursor.state))
                 ahead.go_on(1)
@@ -245,10 +251,21 @@ class Examination:
             if taken is None:
                 ahead.read_on()
                 continue
-            yield taken.step
+            yield taken.step, cursor
             cursor = taken.behind()
             ahead.go_on(taken.lines)
-        yield from self.end(cursor)
+        yield from ((step, cursor) for step in self.end(cursor))
+
+    def follow(self, lines: Blocks, cursor: Cursor) -> Iterator[tuple[Step, Cursor]]:
+        """The same of one `is_ahead`, without answers: a contour is solved where somebody asks for its end, as few do.
+        Raises TooFarError, and so does who asks."""
+        self.queue.together = _OneByOne()
+        for step, before in self.walk(self._passages(lines), cursor):
+            yield step.step if isinstance(step, Pending) else step, before
+            # Who asks for the end of the last one of many in a row asks for all of them, one in another.
+            if isinstance(step, Pending) and step.wave >= _MOST_AWAITED:
+                self.queue.settle()
+            self.queue.pending = []
 
     def _next(self, ahead: Lookahead, cursor: Cursor) -> WalkStep | None:
         """The step at the next line; None where it depends on lines that are not read yet."""
@@ -273,12 +290,15 @@ class Examination:
         size, most = (_WHOLE, _WHOLE) if is_whole else (_FIRST, _WINDOW)
         if self.queue.together is None:
             size, most = 1, 1
-        found = self.walk(self._plain.among(in_passages(lines)) if isinstance(lines, Blocks) else lines)
-        while window := [*islice(found, size)]:
+        walk = self.walk(self._passages(lines) if isinstance(lines, Blocks) else lines)
+        while window := [step for step, _ in islice(walk, size)]:
             self.queue.settle()
             yield from tell(window, outside)
             size = min(2 * size, most)
         yield from tell_rest(outside)
+
+    def _passages(self, lines: Blocks) -> Iterator[Block | Passage]:
+        return self._plain.among(in_passages(lines))
 
     def resume(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> Iterator[tuple[Step, int, Cursor]]:
         """The steps of a program that is at hand from a block on, one by one, each with the number of lines from its
@@ -289,6 +309,14 @@ class Examination:
             taken = self.take(view, self.find(view, cursor.state), cursor)
             cursor, index = taken.behind(), index + taken.lines
             yield taken.step.step if isinstance(taken.step, Pending) else taken.step, view.reach, cursor
+
+
+class _OneByOne:
+    """Solves each contour by itself, none before it is asked for."""
+
+    def solve(self, _: Sequence[ParsedContour], examine: Sequence[Callable[[], Answer]]) -> list[Answer]:
+        """The answers to contours whose start is known."""
+        return [each() for each in examine]
 
 
 def _findings_of_event(event: ProgramEvent, context: Context, modes: Modes) -> Iterator[Diagnostic]:

@@ -7,11 +7,11 @@ part did at the same place; from there on, the old parts hold.
 
 from bisect import bisect_left, bisect_right
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from functools import partial
-from itertools import accumulate, islice, takewhile
+from itertools import accumulate, chain, islice, takewhile
 from typing import overload
 
 from msgspec import Struct
@@ -23,10 +23,11 @@ from contoursolve.execution import needs_running, surroundings_of
 from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse_block, split_lines
 from contoursolve.geometry import Length
 from contoursolve.program.agreeing_controls import choose_alike
+from contoursolve.program.contour_answers import TooFarError
 from contoursolve.program.examination import Cursor, Examination
 from contoursolve.program.named_words import has_named, is_named_for_all
 from contoursolve.program.no_contour import conclusions, nothing_to_solve
-from contoursolve.program.pipeline import Result, Run, frame_of, run
+from contoursolve.program.pipeline import Result, Run, frame_of
 from contoursolve.program.project_file import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import (
     PLANE,
@@ -191,6 +192,13 @@ class OpenProgram:
         self._parts: list[_Part] = []
         self._moves: list[_Move] = []
         self._walk: Iterator[None] | None = None
+        self._ahead: tuple[int, Step, Cursor, Iterator[tuple[Step, Cursor]]] | None = None
+        """How far the program is followed: a line, the step and the cursor there, and what goes on."""
+        self._looked: dict[tuple[int, int], bool] = {}
+        """The lines that are examined before their turn, or that were to be."""
+        self._seeds: list[_Part] = []
+        """The parts of these."""
+        self._is_looking = False
         self._diagnostics: tuple[Diagnostic, ...] | None = None
         self._examination: Examination | None = None
         self._unread: Result | None = None
@@ -315,7 +323,7 @@ class OpenProgram:
         if not (gone or new):
             return
         self._lines.change(first, last, new)
-        self._diagnostics = self._walk = self._unread = None
+        self._forget()
         old = self.dialect
         # Where blocks show several controls, the reason names their lines.
         is_shown = self._shows_something_else(gone, new)
@@ -386,7 +394,7 @@ class OpenProgram:
 
     def _begin(self) -> None:
         """Make everything stale."""
-        self._diagnostics, self._walk, self._unread = None, None, None
+        self._forget()
         self._parts, self._moves, self._examination = [], [], None
         self._lines.spell(self.syntax)
         # A program that calls or computes is examined as a whole, or that names words for all of it.
@@ -399,6 +407,13 @@ class OpenProgram:
             self._examination = Examination(asked, self.dialect, goes_on=True)
             known = self._examination.begin
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
+
+    def _forget(self) -> None:
+        """Leave what was begun with another text."""
+        self._diagnostics = self._walk = self._unread = self._ahead = None
+        for part in self._seeds:
+            part.is_stale = True
+        self._looked, self._seeds, self._is_looking = {}, [], False
 
     def _marked_lines(self) -> Iterator[int]:
         """The indices of the lines that may name words."""
@@ -433,14 +448,91 @@ class OpenProgram:
     @property
     def examined(self) -> int:
         """The number of lines, from the first one on, of which all is up to date."""
-        fresh = takewhile(lambda part: not part.is_stale, self._parts)
-        return sum(part.count for part in fresh) if self._examination is not None else len(self._lines)
+        if self._examination is None:
+            return 0 if self._unread is None else len(self._lines)
+        return sum(part.count for part in takewhile(lambda part: not part.is_stale, self._parts))
+
+    def is_examined(self, first: int, last: int) -> bool:
+        """Whether all is up to date from one line to another."""
+        looked = (lines for lines, is_done in self._looked.items() if is_done)
+        return any(begin <= first and last <= end for begin, end in looked) or self.examined >= last
+
+    def look(self, first: int, last: int) -> None:
+        """Have `check` examine these lines before all others, unless it is under way to some: the program is followed
+        up to them, which takes less than to examine it. One that runs is examined as it runs."""
+        is_new = not self._is_looking and (first, last) not in self._looked
+        if self._examination is not None and is_new and not self.is_examined(first, last):
+            self._walk, self._is_looking = chain(self._look(first, last), self._examine()), True
+
+    def _look(self, first: int, last: int) -> Iterator[None]:
+        """Follow the program up to some lines, and examine them."""
+        self._looked[first, last] = False
+        try:
+            if self._examination is not None:
+                yield from self._examine_ahead(self._examination, first, last)
+                self._looked[first, last] = True
+        except TooFarError:
+            self._ahead = None
+        self._is_looking = False
+
+    def _examine_ahead(self, examination: Examination, first: int, last: int) -> Iterator[None]:
+        line, known = yield from self._follow(first, examination)
+        index = begin = self._split(line - 1, known)
+        for step, reach, behind in examination.resume(self._lines, line - 1, known):
+            # What is told here may ask where the tool is, and nobody is to wait for that then.
+            known.state.known()
+            index += self._take(index, begin, step, reach, known)
+            self._seeds.append(self._parts[index - 1])
+            line, known = line + len(step.blocks), behind
+            yield
+            if line > last:
+                return
+
+    def _follow(self, wanted: int, examination: Examination) -> Generator[None, None, tuple[int, Cursor]]:
+        """The first line of what is on a line, and the cursor before it, from where the program is followed to, or else
+        from its first stale part on."""
+        if self._ahead is None or self._ahead[0] > wanted:
+            index = next(at for at, part in enumerate(self._parts) if part.is_stale)
+            self._bring_up(self._parts[index])
+            first, known = sum(part.count for part in self._parts[:index]), self._parts[index].known
+            rest = Blocks("".join(self._lines.texts[first:]), first + 1, self._lines.syntax)
+            walk = Examination(examination.asked, examination.dialect, goes_on=True, is_ahead=True).follow(rest, known)
+            self._ahead = first + 1, *next(walk), walk
+        while True:
+            line, step, known, walk = self._ahead
+            count = step.passage.count if step.passage is not None else len(step.blocks)
+            found = next(walk, None) if line + count <= wanted else None
+            if found is None:
+                break
+            self._ahead = line + count, *found, walk
+            yield
+        if step.passage is not None and line < wanted:
+            passed = examination.pass_by(step.passage.part(0, wanted - line), known)
+            return wanted, passed.behind()
+        return line, known
+
+    def _split(self, first: int, known: Cursor) -> int:
+        """The index of the part that begins at the index of a line, where this is known."""
+        starts = [*accumulate((part.count for part in self._parts), initial=0)]
+        index = bisect_left(starts, first)
+        if starts[index] != first:
+            index -= 1
+            cut = self._parts[index]
+            behind = _Part(known, starts[index + 1] - first, age=len(self._moves), is_stale=True)
+            cut.count, cut.is_stale = first - starts[index], True
+            self._parts.insert(index + 1, behind)
+            index += 1
+        return index
 
     def _examine(self) -> Iterator[None]:
         """Examine each stale part and what follows from it, step by step. Wherever this stops, the parts together are
         the whole program."""
         examination, parts = self._examination, self._parts
         if examination is None:
+            if self._unread is None:
+                whole = Run(self._program(), self.request, kept=self._kept)
+                yield from whole.ahead()
+                self._unread = whole.collect()
             return
         while (index := next((at for at, part in enumerate(parts) if part.is_stale), -1)) >= 0:
             line = sum(part.count for part in parts[:index])
@@ -506,8 +598,8 @@ class OpenProgram:
     def found(self) -> Iterator[tuple[Diagnostic, tuple[int, ...]]]:
         """Each finding, with the lines that its fixes replace."""
         if self._examination is None:
-            whole = self._whole()
-            yield from ((finding, whole.lines_of(finding)) for finding in whole.diagnostics)
+            if (whole := self._unread) is not None:
+                yield from ((finding, whole.lines_of(finding)) for finding in whole.diagnostics)
             return
         asked = self._examination.asked
         yield from ((each, (each.span.line,)) for each in conclusions(asked, self._lines))
@@ -544,12 +636,6 @@ class OpenProgram:
             finding = nothing_to_solve(asked, self._lines)
             yield finding, (finding.span.line,)
 
-    def _whole(self) -> Result:
-        """All that is known of a program that is not examined in parts."""
-        if self._unread is None:
-            self._unread = run(self._program(), self.request, kept=self._kept)
-        return self._unread
-
     def _program(self) -> Program:
         """The program with its blocks as they are."""
         blocks = tuple(self._lines[: len(self._lines) - (self._lines.texts[-1] == "")])
@@ -558,7 +644,7 @@ class OpenProgram:
     def result(self) -> Result:
         """The program with all that is found in it, once `check` has returned True."""
         if self._examination is None or self.dialect is None:
-            return self._whole()
+            return self._unread or frame_of(self._program(), self.request)
         from contoursolve.program.batch import Batch  # noqa: PLC0415 - an editor asks for findings alone
 
         asked, now = self._examination.asked, len(self._moves)
@@ -576,8 +662,9 @@ class OpenProgram:
     @property
     def contours(self) -> Iterator[OpenContour]:
         """The contours, in the order of the program."""
-        if self._examination is None and self.dialect is not None:
-            yield from (OpenContour(each.lines[0], each.lines[-1], each) for each in self._whole().answers)
+        if self._examination is None:
+            answers = self._unread.answers if self._unread else ()
+            yield from (OpenContour(each.lines[0], each.lines[-1], each) for each in answers)
             return
         start = 0
         for part in self._parts:

@@ -1,6 +1,7 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 from msgspec import Struct, field
@@ -19,7 +20,7 @@ from contoursolve.program.named_words import has_named, with_named
 from contoursolve.program.no_contour import conclusions, look_without_control, nothing_to_solve
 from contoursolve.program.recognise import begins_for_another
 from contoursolve.program.request import Request
-from contoursolve.program.running import KeptSteps, lines_alone, steps_as_run
+from contoursolve.program.running import KeptSteps, Running, lines_alone, steps_as_run
 from contoursolve.program.solve_queue import Step, Together
 from contoursolve.program.told_outside import Outside
 from contoursolve.reading import Dialect, ReadIssue, contours_of, state_facts
@@ -169,6 +170,17 @@ class Run:
         self.asked, self._together, self._kept = asked, together, kept
         self._machine = machine_for(program, dialect, asked.around) if dialect is not None else None
 
+    @cached_property
+    def _running(self) -> Running | None:
+        """The run of a program that calls or computes."""
+        if self._machine is None or self.asked.dialect is None:
+            return None
+        return Running(self._examination(self.asked.dialect), self._machine, self._kept)
+
+    def ahead(self) -> Iterator[None]:
+        """The run of a program that calls or computes, step by step; what is told of it waits for its end."""
+        return iter(()) if self._running is None else self._running.walk
+
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
         # A machine has read them.
         blocks = self._machine.main.blocks if self._machine is not None else self.frame.program.blocks
@@ -190,19 +202,16 @@ class Run:
             yield nothing_to_solve(asked, blocks)
 
     def _steps(self) -> Iterator[Step]:
-        blocks, asked, machine = self.frame.program.blocks, self.asked, self._machine
+        blocks, asked = self.frame.program.blocks, self.asked
         if asked.dialect is None:
             return tell([look_without_control(asked, blocks)], Outside(None, is_strict=asked.is_strict))
-        examination = Examination(
-            asked,
-            asked.dialect,
-            self._together,
-            goes_on=asked.depth.is_full,
-            is_run=machine is not None,
-        )
-        if machine is not None:
-            return steps_as_run(examination, machine, self.profiles, self.called, self._kept)
-        return examination.steps(blocks)
+        if self._running is not None:
+            return steps_as_run(self._running, self.profiles, self.called)
+        return self._examination(asked.dialect).steps(blocks)
+
+    def _examination(self, dialect: Dialect) -> Examination:
+        is_run = self._machine is not None
+        return Examination(self.asked, dialect, self._together, goes_on=self.asked.depth.is_full, is_run=is_run)
 
     @property
     def is_strict(self) -> bool:
@@ -233,4 +242,6 @@ def walk(
     examination = Examination(asked, cast("Dialect", asked.dialect), together, is_run=machine is not None)
     if machine is None:
         return examination.steps(lines)
-    return steps_as_run(examination, machine) if told is None else examination.steps(lines_alone(machine, told))
+    return (
+        steps_as_run(Running(examination, machine)) if told is None else examination.steps(lines_alone(machine, told))
+    )

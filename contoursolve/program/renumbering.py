@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass, replace as with_fields
 from enum import Enum
+from functools import partial
 from operator import is_
 from typing import Any, Protocol
 
@@ -13,6 +14,7 @@ from msgspec.structs import replace
 from contoursolve.diagnostics import Fix, LineChange, OpenNumber, Span
 from contoursolve.gcode import Block
 from contoursolve.geometry import Plane
+from contoursolve.reading import Awaited
 
 
 class Renumbering(Protocol):
@@ -43,6 +45,8 @@ def renumbered(record: Any, now: Renumbering) -> Any:
         return now.place(record)
     if isinstance(record, Enum | Plane):
         return record
+    if isinstance(record, Awaited):
+        return record.then(partial(renumbered, now=now))
     if isinstance(record, tuple):
         parts = [renumbered(each, now) for each in record]
         return record if all(map(is_, parts, record)) else tuple(parts)

@@ -1,6 +1,6 @@
 """The walk over a program that calls or computes: as it runs, on each of its ways."""
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import chain
@@ -30,15 +30,11 @@ _OPENING = (EventKind.LOST, EventKind.STOPPED, EventKind.PART)
 
 
 def steps_as_run(
-    examination: Examination,
-    machine: Machine,
-    profiles: list[CycleProfile] | None = None,
-    called: list[Answer] | None = None,
-    kept: "KeptSteps | None" = None,
+    running: "Running", profiles: list[CycleProfile] | None = None, called: list[Answer] | None = None
 ) -> Iterator[Step]:
     """Every block and every contour of a program as it runs, on each of its ways, told in the order in which it is
-    written. At the end, the profiles of cycles are added to `profiles`, contours of other files to `called`. Steps that
-    are `kept` of an earlier run are not taken again."""
+    written. At the end, the profiles of cycles are added to `profiles`, contours of other files to `called`."""
+    examination, machine = running.examination, running.machine
     asked, blocks = examination.asked, machine.main.blocks
     outside = Outside(examination.dialect, is_strict=asked.is_strict)
     told = list[Diagnostic]()
@@ -46,11 +42,11 @@ def steps_as_run(
         context = Context(asked.rules, asked.unit)
         marks, found = Marks().look(blocks, context)
         told = [*found, *marks.finish(context)]
-    steps = _Running(examination, machine, kept).steps()
+    deque(running.walk, 0)
     examination.queue.settle()
     yield from in_text_order(
         blocks,
-        chain(tell(steps, outside), tell_rest(outside)),
+        chain(tell(running.found, outside), tell_rest(outside)),
         machine.passed_over,
         asked.rules,
         told,
@@ -85,7 +81,8 @@ class KeptSteps:
 
     def begin(self, asked: Request) -> None:
         """Begin a run; what ran before it with other options is forgotten."""
-        self._old = self._new if asked == self._asked else {}
+        # A run that was left has not come to all of them.
+        self._old = self._old | self._new if asked == self._asked else {}
         self._asked, self._new, self._visits = asked, {}, Counter()
 
     def take(
@@ -119,10 +116,12 @@ class KeptSteps:
         return found
 
 
-class _Running:
-    """One run of a program. Ways are followed in turn: the cursor goes from one to the other."""
+class Running:
+    """One run of a program, made by whoever goes on with its `walk`; what is `found` is complete at its end. Ways are
+    followed in turn: the cursor goes from one to the other. Steps that are `kept` of an earlier run are not taken
+    again."""
 
-    def __init__(self, examination: Examination, machine: Machine, kept: KeptSteps | None) -> None:
+    def __init__(self, examination: Examination, machine: Machine, kept: KeptSteps | None = None) -> None:
         self.examination, self.machine, self.cursor = examination, machine, examination.begin
         self.kept = kept
         if kept is not None:
@@ -131,12 +130,12 @@ class _Running:
         self.found: list[Step | Pending] = []
         self._last: tuple[Sequence[Block], int] | None = None
         """The blocks that were read last, and the index behind what was taken of them."""
+        self.walk = self._go()
 
-    def steps(self) -> list[Step | Pending]:
-        self.ways.follow(self.machine.run(), self._read, self.found, self._happen)
+    def _go(self) -> Iterator[None]:
+        yield from self.ways.follow(self.machine.run(), self._read, self.found, self._happen)
         first = self.examination.dialect.initial_state(self.examination.asked.unit)
         self.found += self.examination.end(replace(self.cursor, state=first))
-        return self.found
 
     def _read(self, held: Sequence[Block], index: int, state: State, is_open: bool) -> tuple[int, State] | None:
         """Take what begins at a block, on the way that has come to it; see `Ways.follow`."""

@@ -1,7 +1,7 @@
 """The ways through a program that runs: nobody knows which of them it takes, and where they meet only what all of them
 agree on is known."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from functools import partial, reduce
 from itertools import chain
@@ -79,9 +79,9 @@ class Ways:
         self.settled: int | None = None
         """The mark of the last of these of which nothing new followed."""
 
-    def read_on(self, blocks: Sequence[Block], read: Read, *, is_open: bool) -> None:
-        """Follow each way through some blocks, as far as it is known what they are; ways that have come equally far
-        meet. `is_open` tells whether a contour may go on behind them."""
+    def read_on(self, blocks: Sequence[Block], read: Read, *, is_open: bool) -> Iterator[None]:
+        """Follow each way through some blocks, step by step, as far as it is known what they are; ways that have come
+        equally far meet. `is_open` tells whether a contour may go on behind them."""
         moving = [_Moving(way, [*way.unread, *blocks] if way.unread else blocks) for way in self.now]
         stopped = list[ControlFlowPath]()
         while moving and not (self._is_beyond and min(each.place for each in moving) >= 0):
@@ -99,6 +99,7 @@ class Ways:
                 continue
             one.index += found[0]
             one.way = _behind(one.way, found[1], one.blocks[one.index - 1].line)
+            yield
         self.now = [] if self._is_beyond else _meet_all(stopped, self._reason, self.modes)
 
     def follow(
@@ -107,15 +108,15 @@ class Ways:
         read: Read,
         found: list[Any],
         happen: Callable[[ProgramEvent], bool],
-    ) -> None:
-        """Follow each way through a program as it runs. What was `found` since a head is dropped where `happen` says
-        that it is found anew."""
+    ) -> Iterator[None]:
+        """Follow each way through a program as it runs, step by step. What was `found` since a head is dropped where
+        `happen` says that it is found anew."""
         heads, blocks = dict[int, int](), list[Block]()
         for line in chain(lines, (None,)):
             if isinstance(line, Block):
                 blocks.append(line)
                 continue
-            self.read_on(blocks, read, is_open=line is not None and line.kind.is_open)
+            yield from self.read_on(blocks, read, is_open=line is not None and line.kind.is_open)
             blocks = []
             if line is None:
                 return

@@ -1,5 +1,6 @@
 """Following a program through its contours, one after the other, and a contour through its blocks."""
 
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from operator import lt
@@ -84,7 +85,7 @@ def contours_as_run(
             machine.settled = ways.settled
         return is_anew
 
-    ways.follow(machine.run() if machine is not None else blocks, read, met, happen)
+    deque(ways.follow(machine.run() if machine is not None else blocks, read, met, happen), 0)
     return met
 
 

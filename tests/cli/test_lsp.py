@@ -336,18 +336,36 @@ def test_a_hover_does_not_wait_for_the_end_of_a_long_program(served):
     one = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nG01 Z-60.\n"
 
     async def use(editor: Editor) -> None:
-        editor.open(SHAFT, one * 20_000)
-        wanted = types.HoverParams(**about(editor, SHAFT, at(59_999, 20)))
+        editor.open(SHAFT, one * 10_000)
+        wanted = types.HoverParams(**about(editor, SHAFT, at(29_999, 20)))
         late = await editor.ask(editor.client.text_document_hover_async(wanted))
         assert late.contents.value.startswith("**K-30.** Z distance from start to virtual intersection")
-        assert re.search(r"not known yet: \d+ of 60001 lines are examined\.$", late.contents.value)
-        near = types.InlayHintParams(types.TextDocumentIdentifier(SHAFT), types.Range(at(1, 1), at(2, 1)))
+        assert re.search(r"not known yet: \d+ of 30001 lines are examined\.$", late.contents.value)
+        # What is in sight is examined before all others.
+        near = types.InlayHintParams(types.TextDocumentIdentifier(SHAFT), types.Range(at(3_001, 1), at(3_002, 1)))
         (hint,) = await editor.ask(editor.client.text_document_inlay_hint_async(near))
         assert hint.label == "ends at Z-50.2073 X100.0000"
         assert SHAFT not in editor.statuses
-        wanted = types.HoverParams(**about(editor, SHAFT, at(2, 20)))
-        first = await editor.ask(editor.client.text_document_hover_async(wanted))
-        assert "fixes V1: Z-30.0000 X40.0000" in first.contents.value
+        wanted = types.HoverParams(**about(editor, SHAFT, at(3_002, 20)))
+        seen = await editor.ask(editor.client.text_document_hover_async(wanted))
+        assert "fixes V1: Z-30.0000 X40.0000" in seen.contents.value
+        assert SHAFT not in editor.statuses
+
+    served(use)
+
+
+def test_a_hover_does_not_wait_for_a_program_that_runs(served):
+    async def use(editor: Editor) -> None:
+        editor.open(
+            SHAFT,
+            "".join(
+                f"#1={40 + n % 7}.\nG00 X#1 Z0.\nG111 X100. A180. K-3{n % 10}. B120. P5. Q5.\n" for n in range(2_000)
+            ),
+        )
+        wanted = types.HoverParams(**about(editor, SHAFT, at(5_997, 20)))
+        late = await editor.ask(editor.client.text_document_hover_async(wanted))
+        assert late.contents.value.endswith("not known yet: 0 of 6001 lines are examined.")
+        assert SHAFT not in editor.statuses
 
     served(use)
 

@@ -80,6 +80,7 @@ def test_a_program_with_variables_is_examined_again_for_another_control() -> Non
     program = OpenProgram(text)
     for control in (None, "fanuc-lathe"):
         program.configure(control, {})
+        assert program.check()
         compare(program, text, control)
 
 
@@ -101,6 +102,20 @@ def edit_at_random(text: str, name: str, control: str | None, seed: int, edits: 
                 raise AssertionError(f"{name}, seed {seed}, edit {number}: {begin} {end} {new!r}") from error
         else:
             program.check(draw.randrange(1, 5))
+            look(program, draw.randrange(1, len(program.blocks) + 1), control)
+
+
+def look(program: OpenProgram, line: int, control: str | None) -> None:
+    """What is examined before its turn is what `solve` finds there."""
+    program.look(line, line)
+    while not program.is_examined(line, line) and not program.check(1):
+        pass
+    if not program.trouble:
+        now, fresh = program.contour_at(line), contoursolve.solve(program.text, control=control)
+        wanted = next((each for each in fresh.answers if each.lines[0] <= line <= each.lines[-1]), None)
+        assert (now is None) == (wanted is None)
+        if now is not None and wanted is not None:
+            assert (now.lines, now.contour, now.diagnostics) == (wanted.lines, wanted.contour, wanted.diagnostics)
 
 
 def test_the_result_of_many_contours_on_lines_that_have_moved_is_that_of_the_text(
