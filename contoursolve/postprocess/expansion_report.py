@@ -46,7 +46,7 @@ class FixedWords(Struct, frozen=True):
 
     @property
     def sentence(self) -> str:
-        """What is written, and what that means."""
+        """The words, the numbers that stand for them in what is written, and the meaning of that."""
         words, numbers = join(self.words), join(self.numbers)
         are = "is" if len(self.words) == 1 else "are"
         return f"{words} {are} written as {numbers}: other values of the variables no longer count"

@@ -147,7 +147,7 @@ class Answers:
 
 
 class TooFarError(Exception):
-    """What is wrong in too many contours in a row has to be explained before it is known where one of them ends."""
+    """Too many wrong contours in a row would have to be explained before it is known where one of them ends."""
 
 
 class AnswersAhead(Answers):
