@@ -259,7 +259,11 @@ def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Tr
 def _weighed(repair: Repair, trial: Trial) -> Repair:
     """A repair with what is known of it without the blocks around it."""
     edits, marked = repair.edits, trial.marked
-    kind = sum(cost_of(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True))
+    kinds = [cost_of(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True)]
+    # Corners that share an element which is too short for them do not fit for one reason.
+    is_fitted = all(edit.why is Why.FITS for edit in edits) or all(trial.drops_corner(edit) for edit in edits)
+    is_one = bool(edits) and is_fitted and not any(repair.slips)
+    kind = max(kinds) if is_one else sum(kinds)
     kind += _NAUGHT * sum(_is_naught(edit) for edit in edits)
     kind += _SIGNED * sum(edit.why is Why.AGREES and _has_other_sign(edit) for edit in edits)
     lines = [edit.span.line if edit.span else edit.line for edit in edits]

@@ -143,3 +143,17 @@ def test_an_element_that_has_the_number_of_its_block_is_told_with_its_program_li
     (finding,) = solve(text, control="heidenhain").diagnostics
     assert "arc 3 is open: add AN, LEN or IX in program line 5" in finding.message
     assert finding.notes == ("arc 3 is block 3, in program line 4",)
+
+
+@pytest.mark.parametrize(
+    ("blocks", "fix"),
+    [
+        ("G1 Z-20 RND=5\nX32 RND=2\nZ-40", "delete RND=5; delete RND=2"),
+        ("G1 Z-20 RND=5\nX34 RND=2\nZ-40", "write RND=0.5 for RND=5; write RND=0.5 for RND=2"),
+        ("G1 X34 RND=5\nZ-20", "write RND=1 for RND=5"),
+    ],
+)
+def test_the_first_fix_of_a_corner_that_does_not_fit_is_about_corners(blocks, fix):
+    """Not about a diameter, which X16 or X3.2 for X32 would change: the part would be another one."""
+    finding = solve(f"G18 G90 DIAMON\nG0 X32 Z0\n{blocks}\nM30", control="siemens-840d").diagnostics[0]
+    assert finding.fixes[0].description.startswith(fix)

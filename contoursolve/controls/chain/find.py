@@ -378,15 +378,15 @@ class ChainFinder:
     def _unread(
         self, last: Member, blocks: Sequence[Block], following: int | None, here: State, modes: Modes
     ) -> Word | None:
-        """The word that shapes the next block, on which the last element depends, in a way that is not read."""
+        """The word that shapes the next block, on which the last element depends, in a way that is not read; what is no
+        code may have been meant as one on which it depends."""
         if following is None or blocks[following].macro is not None:
-            return None
-        if not self._needs_next(last, blocks[following], here):
             return None
         # What is no code has no number that says what it does.
         codes = codes_of(blocks[following], modes)
         unknown = (replace(code, number=None) for code in codes if isinstance(code, Word))
-        return modes.unread(blocks[following], apply_modes(here, blocks[following], modes)) or next(unknown, None)
+        word = modes.unread(blocks[following], apply_modes(here, blocks[following], modes))
+        return (word if self._needs_next(last, blocks[following], here) else None) or next(unknown, None)
 
     def _keeps_angle(self, member: Member) -> bool:
         """Whether a line with one coordinate runs at the angle that stays in force."""
