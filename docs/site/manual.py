@@ -33,13 +33,13 @@ _GENERAL = _READING | {rule.code for rule in (*COMMON_RULES, *GEOMETRY_RULES)}
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """An example as a page shows it: the program, what is said of it, and its picture, or nothing; and the addresses of
-    its words, and of those that the finding marks."""
+    """An example as a page shows it: the program, what is said of it, and its picture, or nothing; and its words by
+    address, and the addresses of those that the finding marks."""
 
     text: str
     told: str
     picture: str
-    addresses: frozenset[str]
+    words: Mapping[str, str]
     marked: frozenset[str]
 
 
@@ -127,11 +127,8 @@ def _shown(dialect: Dialect, rule: Rule, text: str, pictures: dict[str, str], *,
     if name and name not in pictures:
         pictures[name] = draw_result(result).svg
     message = f"{told.message}; {told.help}" if told else ""
-    return Shown(text, message, name, _addresses(result), _marked(result, told) if told else frozenset())
-
-
-def _addresses(result: Result) -> frozenset[str]:
-    return frozenset(word.address for block in result.program.blocks for word in block.words)
+    words = {word.address: word.text for block in result.program.blocks for word in block.words}
+    return Shown(text, message, name, words, _marked(result, told) if told else frozenset())
 
 
 def _marked(result: Result, told: Diagnostic) -> frozenset[str]:
@@ -195,7 +192,7 @@ def _rule_section(manual: Manual, rule: Rule) -> Iterator[str]:
             if each.told:
                 yield f"\n> {plain(each.told)}"
             if each.picture:
-                yield f"\n![{title} block of {rule.code}](../pictures/{each.picture}){{ width=420 loading=lazy }}"
+                yield f"\n![{title} block of {rule.code}](../pictures/{each.picture}){{ width=640 loading=lazy }}"
     if rule.file:
         name, _, text = rule.file.partition("\n")
         yield f"\nThe file `{name}` beside it:\n"
@@ -241,8 +238,11 @@ def _variable_section(manual: Manual) -> Iterator[str]:
 
 
 def typed(address: str, manual: Manual) -> str:
-    """An address as it is typed: with an equals sign where numbers of it need one."""
-    texts = (each.text for pair in manual.shown.values() for examples in pair for each in examples)
+    """An address as it is typed: with an equals sign where numbers of it need one; of RND R5, that without the 5."""
+    every = [each for pair in manual.shown.values() for examples in pair for each in examples]
+    word, texts = next((each.words[address] for each in every if address in each.words), ""), (e.text for e in every)
+    if address.isalpha() and not word.startswith(address[:3]):
+        return word.rstrip("+-.0123456789 ") or address
     name = address.partition("=")[0]
     has_sign = len(name) > 1 and any(f"{name}=" in text for text in texts)
     return address if "=" in address or not has_sign else f"{address}="
@@ -299,7 +299,7 @@ def _word_section(
             (each, code)
             for code, (_, examples) in manual.shown.items()
             for each in examples
-            if address in each.addresses or ((is_code or len(name) > 1) and where.search(each.text))
+            if address in each.words or ((is_code or len(name) > 1) and where.search(each.text))
         ),
         key=lambda shown: (not shown[0].picture, len(shown[0].text), shown[0].text),
     )
@@ -317,7 +317,7 @@ def _right_block(manual: Manual, code: str, right: Shown, name: str) -> Iterator
     yield f"\nRight{with_options}:\n"
     yield from fenced(right.text)
     if right.picture:
-        yield f"\n![A right block with {name}](../pictures/{right.picture}){{ width=420 loading=lazy }}"
+        yield f"\n![A right block with {name}](../pictures/{right.picture}){{ width=640 loading=lazy }}"
 
 
 def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:

@@ -90,7 +90,10 @@ def test_every_rule_stands_on_a_page_of_its_control_with_its_examples_and_grade(
         for part in (rule.title, rule.advice, str(rule.source), *lines):
             assert " ".join(part.split()) in told[rule.code], rule.code
     for row in DIALECTS[control].modes.lexicon.addresses.values():
-        assert any(row.meaning in told.get(name, "") for name in (row.address, f"{row.address}=")), row.address
+        typed = {"ROUNDING": "RND R", "CHAMFER": "CHF"}.get(row.address, f"{row.address}=")
+        text = told.get(row.address) or told[typed]
+        assert row.meaning in text, row.address
+        assert "Right" in text or "No contour of this control uses it" in text, row.address
 
 
 @pytest.mark.parametrize("number", ["146", "055, PS0055", "21892", "402-0008", "10751", "P33"])
@@ -134,4 +137,25 @@ def test_the_search_works_in_a_page_that_is_opened_as_a_file(site) -> None:
             first = [page.get_by_role("option").nth(at).get_attribute("href") or "" for at in range(3)]
             assert any(re.search(r"words\.html.*-(word|variable)$", each) for each in first), (word, first)
         assert all(urlsplit(address).scheme in ("file", "data", "blob") for address in asked)
+        browser.close()
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [1280, 390])
+def test_the_texts_of_pictures_are_at_least_9_px_high(site, width) -> None:
+    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - skipped without it
+
+    with sync_playwright() as play:
+        program = shutil.which("chromium") or shutil.which("chromium-browser")
+        browser = play.chromium.launch(executable_path=program, args=["--no-sandbox", "--disable-gpu"])
+        page = browser.new_page(viewport={"width": width, "height": 900})
+        for name in ("rules/fanuc-lathe/words.html", "notebooks/02_why_is_my_block_refused.html"):
+            page.goto((site / name).as_uri())
+            shown = page.eval_on_selector_all("img[src$='.svg']", "all => all.map(img => [img.src, img.width])")
+            assert len(shown) >= 4
+            for source, wide in shown:
+                drawn = Path(unquote(urlsplit(source).path)).read_text(encoding="utf-8")
+                sizes = [float(size) for size in re.findall(r'font-size="([\d.]+)"', drawn)]
+                assert min(sizes) * wide / float(re.search(r'viewBox="0 0 ([\d.]+)', drawn)[1]) >= 9, source
+            assert page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
         browser.close()

@@ -125,7 +125,11 @@ _BESIDE_ARCS = dict.fromkeys(("radius-too-small", "circle-undefined", "radius-di
 _VANISHED = {"wrong": "{start}G01 X0 {corner}{size}\nM8\n{turn}", **_OFF}
 _STRAIGHT = {"turn": "{hardly_turned}", "options": "--set CONTROL.guard-corner=error"}
 _ALLOWED = "--set CONTROL.arcs=on"
-_BEFORE_AN_ARC = ("{start}G01 Z-20. ,R2.\nX40.\nG02 X60. Z-30. I10. K0",)
+_TURNED = (
+    "{start}G01 W-20. ,R5.\nU20. W-10.",
+    "{start}G01 Z-20. ,R2.\nX40.\nG02 X60. Z-30. I10. K0",
+    "{start}G01 Z-20. ,R2.\nX40.\nG02 X60. Z-30. R10.",
+)
 FANUC_LATHE_WORDS = OwnWords(
     _TURNING,
     {
@@ -138,7 +142,7 @@ FANUC_LATHE_WORDS = OwnWords(
         "fanuc-corner-straight": _STRAIGHT,
     },
     _ABSENT,
-    {"fanuc-arc": _BEFORE_AN_ARC},
+    {"fanuc-arc": _TURNED},
 )
 FANUC_MILL_WORDS = OwnWords(
     _MILLING,
@@ -157,7 +161,7 @@ HAAS_LATHE_WORDS = OwnWords(
     {**_TURNING, "angle": "A", "of_others": ",A5.", "foreign": "Q5."},
     {**_BESIDE_ARCS, "haas-corner-straight": _STRAIGHT},
     _ON_HAAS,
-    {"haas-arc": _BEFORE_AN_ARC},
+    {"haas-arc": _TURNED},
 )
 HAAS_MILL_WORDS = OwnWords(
     _MILLING,
