@@ -40,7 +40,7 @@ SCHEMA = "contoursolve/write/1"
 @click.argument("sketch", metavar="SKETCH", type=FILE)
 @control_option("For which control. Without it, a table has the shortest words for each control.", "--to")
 @settings_option
-@click.option("--all", "shows_all", is_flag=True, help="List all candidates, each with what its numbers rest on.")
+@click.option("--all", "shows_all", is_flag=True, help="List all candidates, and where their numbers come from.")
 @click.option("-o", "--output", metavar="NEW", help="Where to write the program; without it, to standard output.")
 @click.option("--force", "is_forced", is_flag=True, help="Replace NEW if it exists.")
 @format_option
@@ -63,7 +63,7 @@ def write(
     SKETCH may be a DXF drawing, too: a chain of its lines and arcs. The numbers of its dimensions are the given ones,
     else its coordinates. --sketch keeps them as a sketch, to change what is given. Needs the extra contoursolve[dxf].
 
-    write looks for the fewest words that rest on the drawing's own numbers, then for round ones. Each candidate is read
+    write looks for the fewest words with the drawing's own numbers, then for round ones. Each candidate is read
     back as the control reads it, and is the same contour. What the control has no words for is written as G01, G02 and
     G03, and named. --all lists the candidates instead of the program.
 

@@ -167,7 +167,7 @@ def check_element(place: Place, element: Line | Arc, move: Move) -> Found:
     if isinstance(element, Line):
         along = place.heading(element)
         yield f"{name} runs in its direction", min(0.0, dot(along, move.end - move.start))
-        yield f"{name} begins behind its first point", min(0.0, dot(along, move.start - tail))
+        yield f"{name} begins after its first point", min(0.0, dot(along, move.start - tail))
         yield f"{name} ends before its last point", min(0.0, dot(along, head - move.end))
         if element.toward:
             yield f"{name} runs towards its point", min(0.0, dot(place.way(element.tail, element.toward), head - tail))

@@ -33,8 +33,8 @@ GRAMMAR_RULES = (
     ),
     Rule(
         code="blank-missing",
-        message="{words} is not set apart from the word behind it",
-        help="write a blank behind {words}",
+        message="{words} is not set apart from the word after it",
+        help="write a blank after {words}",
         source=_GRAMMAR,
         about=FaultKind.BLANK_MISSING,
     ),
@@ -152,7 +152,7 @@ READING_RULES = (
     ),
     Rule(
         code="code-unknown",
-        message="{name} is no code of this control that contoursolve knows; where the tool is behind it is not known",
+        message="{name} is no code of this control that contoursolve knows; where the tool is after it is not known",
         help="{advice}",
         source=_READING,
         about=ReadIssue.CODE_UNKNOWN,
@@ -250,7 +250,7 @@ READING_RULES = (
     Rule(
         code="mode-unknown",
         message="{what} is not known here: {reason}",
-        help="say it in this block, or behind the place where the ways meet",
+        help="say it in this block, or after the place where the ways meet",
         source=_READING,
         about=ReadIssue.MODE_UNKNOWN,
         slip={"between": "{jump}"},
@@ -311,7 +311,7 @@ READING_RULES = (
     Rule(
         code="not-followed",
         message="{reason}",
-        help="contours behind this block are examined from an unknown point",
+        help="contours after this block are examined from an unknown point",
         source=_READING,
         about=ReadIssue.NOT_FOLLOWED,
         severity=Severity.WARNING,

@@ -74,7 +74,7 @@ def redundant_angle_setting(source: Source, default: str) -> Setting:
     """The setting of an angle beside both coordinates, `check` or `error`; the default one is in force."""
     values = {"check": "it may stand there if it agrees", "error": "it must not stand there"}
     ordered = {name: values[name] for name in sorted(values, key=lambda name: name != default)}
-    meaning = "an angle beside both coordinates, behind a line that has an end"
+    meaning = "an angle beside both coordinates, after a line that has an end"
     return setting("redundant-angle", meaning, ordered, source)
 
 

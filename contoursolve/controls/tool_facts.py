@@ -97,7 +97,7 @@ _SIEMENS_WORDS = (
     ToolWord(rf"\$TC_DP6\[\s*(?P<tool>\d+),.*?=\s*{_NUMBER}", _NEVER, *_STATED, r"\bT(?P<tool>\d+)"),
     ToolWord(r"\bA?SCALE\b(?!(?:\s*[XYZ]=?\s*1(?:\.0*)?)*\s*$)", _FRAMES, *_UNSCALED),
     ToolWord(r"\bA?(?:ROTS?|MIRROR)\b(?=\s+[A-Z])", _FRAMES, *_TURNED),
-    ToolWord(r"\bCUTCONON\b", r"\bCUTCONOF\b", "suspends compensation", "write G40, and G41 or G42 behind it"),
+    ToolWord(r"\bCUTCONON\b", r"\bCUTCONOF\b", "suspends compensation", "write G40, and G41 or G42 after it"),
     ToolWord(r"\bKONT\b", r"\bNORM\b|\bKONT[CT]\b", "leads around the contour from behind it",
              "begin, and end, on the side of the tool", ToolEffect.BEHIND),
     ToolWord(r"\bKONT[CT]\b", r"\bNORM\b|\bKONT\b", _SOFT, "write NORM"),

@@ -75,7 +75,7 @@ TOOL_SETTINGS = (
     ),
     _choice(
         "radius",
-        "the number behind R of a tool, and in the table of tools",
+        "the number after R of a tool, and in the table of tools",
         {"radius": "its radius", "diameter": "its diameter"},
     ),
     _choice(

@@ -141,7 +141,7 @@ class Edit:
         if line > 0 and (
             is_beside or any(is_added or any(word.text == self.old for word in block.words) for block in others)
         ):
-            where = "behind" if self.is_behind else "to" if is_added else "in"
+            where = "after" if self.is_behind else "to" if is_added else "in"
             return f"{self} {where} program line {line}"
         return str(self)
 

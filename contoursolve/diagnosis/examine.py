@@ -179,7 +179,7 @@ class Answer(Shown, Struct, frozen=True):
 
     @property
     def premises(self) -> Premises:
-        """All that the contour rests on beside its words."""
+        """All that the contour depends on beside its words."""
         return Premises(self.claim.conventions, self.assumptions)
 
     def _has_bevel_at_its_limit(self) -> bool:

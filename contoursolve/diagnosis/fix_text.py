@@ -48,7 +48,7 @@ def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
 
 
 def _side(edit: Edit) -> str:
-    return "behind" if edit.is_behind else "in"
+    return "after" if edit.is_behind else "in"
 
 
 def _fixes_of(answer: Answer, repairs: Sequence[Repair]) -> tuple[Fix, ...]:
@@ -76,7 +76,7 @@ def _together(edits: Sequence[Edit]) -> list[str]:
     old, lines = [edit.old.strip() for edit in edits], [edit.place for edit in edits]
     is_moved = last.kind is EditKind.ADD and all(edit.kind is EditKind.DROP for edit in edits[:-1])
     if is_moved and " ".join(old[:-1]) == last.text.strip():
-        where = "behind" if last.is_behind else "to"
+        where = "after" if last.is_behind else "to"
         errand = edits[0].errand if len(edits) == _PAIR else None
         what = last.text.strip() + (f" ({errand.meaning})" if errand else "")
         return [f"move {what} from program line {lines[0]} {where} program line {lines[-1]}"]

@@ -142,7 +142,7 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
     if answer.claim.form.free.picking:
         word, path = answer.claim.form.free.picking, answer.profile.figure.path
         picks = _picks_of(item, alternatives, answer)
-        return [f"{spell(word, str(each.number))} behind {path[each.element - 1].name}" for each in picks]
+        return [f"{spell(word, str(each.number))} after {path[each.element - 1].name}" for each in picks]
     words = [
         selector.word
         for selector in answer.claim.selectors

@@ -132,7 +132,7 @@ def _explain_fault(context: Context, fault: Fault, meant: Lookalike | None) -> D
         return _explain_character(finding, fault.text, like)
     if fault.text.strip().lower() in UNITS:
         unit = fault.text.strip()
-        told = f"{unit} is no word: a number has no unit behind it"
+        told = f"{unit} is no word: a number has no unit after it"
         return replace(finding, message=told, help=f"delete {unit}; the program states its unit for all numbers")
     if meant is None:
         return finding

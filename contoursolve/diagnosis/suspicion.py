@@ -86,7 +86,7 @@ def _unlike(answer: Answer, window: Window) -> Iterator[tuple[str, Sequence[Word
         block, word = sharp
         own, text = block.words[-1:], word.text.strip()
         edit = Edit(EditKind.ADD, word.address, text=text, line=block.line)
-        reason = f"the corner behind it is sharp, and all others have {text}"
+        reason = f"the corner after it is sharp, and all others have {text}"
         yield reason, own, f"{own[0].text.strip()} {text}", [Candidate((edit,), (None,), ())]
 
 

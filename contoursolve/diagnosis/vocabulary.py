@@ -361,7 +361,7 @@ def _unknown_code(context: Context, word: Word, modes: Modes) -> Iterator[Diagno
     row = context.row(ReadIssue.CODE_UNKNOWN)
     advice = f"write {either(meant[:_MOST])} if that is meant" if meant else "write out what it does"
     if name.lower() in UNITS:
-        advice = f"delete {name}: a number has no unit behind it"
+        advice = f"delete {name}: a number has no unit after it"
     yield report(context, row, Basis.RULE, [word], name=name, advice=advice)
 
 

@@ -269,7 +269,7 @@ def statuses_text(statuses: Mapping[Status, int]) -> str:
 
 
 def status_text(status: Status | str) -> str:
-    """A status, or its value in a record, as a reader sees it: behind "contour", behind "is", or behind a colon."""
+    """A status, or its value in a record, as a reader sees it: after "contour", after "is", or after a colon."""
     return _STATUSES.get(Status(status), Status(status).value)
 
 

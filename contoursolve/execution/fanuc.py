@@ -157,7 +157,7 @@ _TABLE = (
     Spelling(r"G0*+65(?![\d.])", _macro_call),
     Spelling(
         r"G0*+66(?!\d)",
-        lambda *_: [ModalCall("contoursolve does not read G66 yet: it calls a macro behind each move")],
+        lambda *_: [ModalCall("contoursolve does not read G66 yet: it calls a macro after each move")],
         stays=True,
     ),
     Spelling(r"G0*+67(?![\d.])", lambda *_: [ModalCall()], stays=True),

@@ -1312,7 +1312,7 @@ def _backwards(source: ProgramFile, first: int, last: int, index: int) -> str:
     """That a call on a line names lines of which the last one stands before the first one."""
     begins, ends = (source.blocks[each].line for each in (first, last))
     if last == index - 1:
-        return f"repeats from program line {begins} up to itself, but that line stands behind it"
+        return f"repeats from program line {begins} up to itself, but that line stands after it"
     return f"runs from program line {begins}, but its last line, {ends}, stands before that"
 
 
@@ -1334,7 +1334,7 @@ def _first(values: Iterable[int | None]) -> int | None:
     return next((each for each in values if each is not None), None)
 
 
-_CALLED_BEHIND = "a call behind each move"
+_CALLED_BEHIND = "a call after each move"
 """Under this name it is known what a modal call does: ways that meet agree on it as on variables."""
 _AXES = frozenset("XYZUVWABC")
 """Addresses of what moves."""

@@ -247,7 +247,7 @@ def _key(word: str) -> str:
     return word + _BEHIND
 
 
-_MODAL_CALL = ModalCall("contoursolve does not read MCALL yet: it calls a subprogram behind each move", "MCALL")
+_MODAL_CALL = ModalCall("contoursolve does not read MCALL yet: it calls a subprogram after each move", "MCALL")
 SYNCHRONOUS = r"(?:IDS?[ \t]*+=[ \t]*+\d++[ \t]*+)?(?:WHEN|WHENEVER|FROM|EVERY|DO)\b"
 """Beginning of a synchronous action, which runs beside the program whenever its condition holds."""
 MOVES_BESIDE = r".*\b(?:(?:POSA?|MOV)[ \t]*+\[|DO\b.*(?<![A-Z_$\[])[XYZ][ \t]*+=?+[ \t]*+[-+.\d])"

@@ -27,7 +27,7 @@ def standing_alone(
     settings: Mapping[str, str] | None = None,
     is_exact: bool = False,
 ) -> str:
-    """The blocks of a contour behind what leads to its start point and puts its modal codes in force.
+    """The blocks of a contour after what leads to its start point and puts its modal codes in force.
 
     Args:
         answer: one of `Result.answers`, whose start point is known.

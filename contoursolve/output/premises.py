@@ -15,7 +15,7 @@ def premise_texts(premises: Premises, control: str) -> Iterator[str]:
         by_grade.setdefault(each.source.evidence.value, []).append(each.meaning)
     if by_grade:
         told = (f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items())
-        yield f"rests on: {'; '.join(told)}"
+        yield f"depends on: {'; '.join(told)}"
 
 
 def _convention_text(convention: Convention, control: str) -> str:

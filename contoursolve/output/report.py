@@ -325,7 +325,7 @@ def _sources(result: Result) -> h.Element:
     ]
     return h.section(id="sources")[
         h.h2["Sources"],
-        table("What the findings rest on", ("manual", "place", "grade", "for"), rows) if rows else None,
+        table("What the findings depend on", ("manual", "place", "grade", "for"), rows) if rows else None,
         h.dl[([h.dt[grade.value], h.dd[meaning]] for grade, meaning in _GRADES.items())],
     ]
 

@@ -53,7 +53,7 @@ class Unfamiliar(Struct, frozen=True):
     def sentence(self, target: str) -> str:
         """The problem in words, on a target of this title."""
         meant = f" ({self.meant})" if self.meant else ""
-        behind = f"{self.followers} line{'s' * (self.followers > 1)} behind it" if self.followers else ""
+        behind = f"{self.followers} line{'s' * (self.followers > 1)} after it" if self.followers else ""
         runs = join([each for each in (self.runs, behind) if each])
         result = f", which would run {runs} as {self.run_as}" if runs and self.run_as else ""
         title = target.partition(";")[0]

@@ -75,7 +75,7 @@ class WrittenContour(Struct, frozen=True):
     """Whether all its blocks are lines and arcs by their ends."""
 
     def words(self, ground: NumberGround) -> tuple[WrittenWord, ...]:
-        """The words whose numbers rest on something."""
+        """The words whose numbers depend on something."""
         return tuple(word for block in self.blocks for word in block.words if word.ground is ground)
 
 

@@ -227,7 +227,7 @@ class OpenProgram:
 
     @property
     def blocks(self) -> Sequence[Block]:
-        """Its blocks, each read when it is looked at; behind the end of the last line is one more."""
+        """Its blocks, each read when it is looked at; after the end of the last line is one more."""
         return self._lines
 
     def line(self, number: int) -> str:
@@ -264,7 +264,7 @@ class OpenProgram:
                 yield (line, same + 1), (line, len(old) - behind + 1), new[same : len(new) - behind]
 
     def _begin_of(self, index: int) -> Place:
-        """The place where a line begins; behind the last one, where that ends."""
+        """The place where a line begins; after the last one, where that ends."""
         return (index + 1, 1) if index < len(self._lines) else (index, len(self._lines.texts[-1]) + 1)
 
     @property

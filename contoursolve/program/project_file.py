@@ -135,7 +135,7 @@ def _read_stated(control: str, others: Iterable[str]) -> dict[str, str]:
     for other in others:
         name, colon, value = (part.strip() for part in other.partition(":"))
         if not colon or not name or not value:
-            raise SettingError(f"{other!r} is no setting; write NAME: VALUE behind the control")
+            raise SettingError(f"{other!r} is no setting; write NAME: VALUE after the control")
         settings[f"{control}.{name}"] = value
     check_settings(settings)
     return settings

@@ -37,7 +37,7 @@ class UnknownControlError(ProgramError, ValueError):
         super().__init__(self.text())
 
     def text(self, way: str = "") -> str:
-        """The message, with what to do behind it."""
+        """The message, with what to do after it."""
         return "\n".join((self.said + way, *(f"  {each}" for each in self.readings)))
 
 

@@ -44,7 +44,7 @@ class Marks(Struct, frozen=True):
         """Findings about text outside the %, at the end of the program."""
         if self.before is None or self.after is None:
             return ()
-        return (_outside(context, self.after, "behind", "ends", self.before[1]),)
+        return (_outside(context, self.after, "after", "ends", self.before[1]),)
 
     def _passes(self, line: Block | Passage) -> bool:
         """Whether a line, or lines that only move, says nothing about the marks."""
@@ -71,7 +71,7 @@ class Marks(Struct, frozen=True):
     def _behind_words(self, span: Span, context: Context) -> tuple["Marks", tuple[Diagnostic, ...]]:
         """The marks behind a block that says something."""
         if self.closed:
-            return replace(self, is_done=True), (_outside(context, span, "behind", "ends", self.closed),)
+            return replace(self, is_done=True), (_outside(context, span, "after", "ends", self.closed),)
         if self.before is not None:
             return replace(self, after=self.after or span), ()
         return replace(self, first=self.first or span), ()

@@ -98,10 +98,10 @@ class Dialect:
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
     corners: tuple[tuple[str, int, CornerShape], ...] = ()
-    """The words that make the corner behind their block, each with the sign of its number and the shape; of a control
+    """The words that make the corner after their block, each with the sign of its number and the shape; of a control
     whose words are no `Language`."""
     follow: Follower | None = None
-    """Finds what is wrong with the block behind a contour, though it is no part of it."""
+    """Finds what is wrong with the block after a contour, though it is no part of it."""
     writing: Writing | None = None
     """The writing of its programs, where it is not programmed in G codes."""
     taken: "tuple[Taken, ...]" = ()

@@ -19,7 +19,7 @@ class UnfinishedError(UserError, ValueError):
 def write(
     contour: Answer | Result | ContourSketch, control: str | Dialect, *, settings: Mapping[str, str] | None = None
 ) -> Written:
-    """A contour in the words of a control: those first that rest on the drawing's own numbers, and are few.
+    """A contour in the words of a control: those first that have the drawing's own numbers, and are few.
 
     Args:
         contour: a sketch, a solved contour, or the result of a program with one contour.

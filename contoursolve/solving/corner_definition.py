@@ -36,7 +36,7 @@ def corner_equations(
         yield "both ends are as far from the intersection", _square(begin, vertex) - _square(end, vertex)
     else:
         yield f"it begins so far before the end of {names[0]}", _square(begin, vertex) - size**2
-        yield f"it ends so far behind the begin of {names[1]}", _square(end, vertex) - size**2
+        yield f"it ends so far after the begin of {names[1]}", _square(end, vertex) - size**2
 
 
 def ends_somewhere(corner: Corner, figure: Figure) -> bool:

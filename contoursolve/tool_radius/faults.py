@@ -74,7 +74,7 @@ class ToolFaultKind(Enum):
         Severity.WARNING,
     )
     ENTRY_BY_ARC = _Row("compensation begins in an arc", "write {code} in a straight move before it")
-    EXIT_BY_ARC = _Row("compensation ends in an arc", "write {cancel} in a straight move behind it")
+    EXIT_BY_ARC = _Row("compensation ends in an arc", "write {cancel} in a straight move after it")
     ENTRY_TOO_SHORT = _Row(
         "the move to the contour is {length} long, {short} shorter than the radius of the {tool}",
         "begin farther away",
@@ -129,7 +129,7 @@ class ToolFaultKind(Enum):
         Severity.WARNING,
     )
     INSIDE_CORNER = _Row(
-        "the inside corner behind this {element} keeps the radius of the {tool}: {short} stays in it, {rest}",
+        "the inside corner after this {element} keeps the radius of the {tool}: {short} stays in it, {rest}",
         "a smaller tool leaves less",
         Severity.INFO,
     )

@@ -465,7 +465,7 @@ class ToolFindings:
             "stated": angle_text(fault.rest[1]),
             "rest": f"{back} and {on} along its sides",
             "times": f"{fault.rest[0]:.1f}",
-            "beside": f", {back} before it and {on} behind it" * any(each > LENGTH for each in fault.rest),
+            "beside": f", {back} before it and {on} after it" * any(each > LENGTH for each in fault.rest),
             "comes_out": self._comes_out(own, element, short),
         }
 

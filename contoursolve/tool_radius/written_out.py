@@ -69,7 +69,7 @@ def _ways_back(path: ToolPath) -> Iterator[str]:
                 zip(path.axes, step.start, step.end, step.doubled, strict=True) if step else ()
             ):
                 if end is None and start is not None:
-                    told = f"where the tool is behind {FINISHING[0]} is not known of this control"
+                    told = f"where the tool is after {FINISHING[0]} is not known of this control"
                     raise ToolError(f"program line {block.line}: {told}")
                 if step is not None and end is not None and end != start:
                     words.append(f" {axis}{end * (1 + twice) / float(step.unit.in_mm):.6f}".rstrip("0"))

@@ -22,7 +22,7 @@ from types import ModuleType
 from urllib.parse import urlsplit
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from manual import alarms_page, control_page, manuals, rules_page, title_of, words_page, words_title
+from manual import alarms_page, control_page, manuals, rule_page, words_page, words_title
 
 import contoursolve
 from contoursolve import pictures
@@ -78,8 +78,8 @@ def main() -> None:
     for each in told:
         write(f"rules/{each.control}.md", "\n".join(control_page(each)))
         write(f"rules/{each.control}/words.md", "\n".join(words_page(each)))
-        for name in each.groups:
-            write(f"rules/{each.control}/{name}.md", "\n".join(rules_page(each, name)))
+        for rule in each.dialect.catalogue:
+            write(f"rules/{each.place(rule.code)}", "\n".join(rule_page(each, rule)))
         for name, drawn in each.pictures.items():
             write(f"rules/pictures/{name}", drawn)
     write("reference.md", "\n".join(reference_page()))
@@ -89,13 +89,13 @@ def main() -> None:
     shutil.copy(Path(__file__).with_name("doctests.py"), OUTPUT)
     nav = Path(__file__).with_name(settings.name).read_text(encoding="utf-8")
     for each in told:
-        titles = {"words": words_title(each.dialect)} | {name: title_of(name) for name in each.groups}
-        own = (f"{{ {json.dumps(title)} = 'rules/{each.control}/{name}.md' }}" for name, title in titles.items())
+        words = f"{{ {json.dumps(words_title(each.dialect))} = 'rules/{each.control}/words.md' }}"
         page = f'"rules/{each.control}.md"'
-        nav = nav.replace(f"{page},", f"{{ {json.dumps(each.dialect.title)} = [{', '.join((page, *own))}] }},")
+        nav = nav.replace(f"{page},", f"{{ {json.dumps(each.dialect.title)} = [{page}, {words}] }},")
     settings.write_text(nav, encoding="utf-8")
     named = set(re.findall(r"""["']([\w/-]+\.md)["']""", settings.read_text(encoding="utf-8")))
-    written = {path.relative_to(PAGES).as_posix() for path in PAGES.rglob("*.md")}
+    rules = {f"rules/{each.place(rule.code)}" for each in told for rule in each.dialect.catalogue}  # reached by links
+    written = {path.relative_to(PAGES).as_posix() for path in PAGES.rglob("*.md")} - rules
     if named != written:
         sys.exit(f"docs/site/zensical.toml and the pages differ: {', '.join(sorted(named ^ written))}")
     command = [sys.executable, "-m", "zensical", "build", "--strict", "--config-file", settings.name]

@@ -18,9 +18,6 @@ from contoursolve.program import Result
 from contoursolve.reading import THIS_CONTROL, Address, Code, Dialect, Effect, ReadIssue, Rule, WithoutPoint
 from contoursolve.try_edits import try_example
 
-MOST_RULES = 12
-"""Rules on a page."""
-
 LONGEST = 100
 """Characters of a line that is shown; only the rule about long blocks has longer ones."""
 
@@ -56,45 +53,23 @@ class Manual:
         """The tables."""
         return DIALECTS[self.control]
 
-    @property
-    def groups(self) -> dict[str, list[Rule]]:
-        """The rules by the page on which they stand."""
-        ordered = sorted(self.dialect.catalogue, key=lambda rule: (group_of(rule), rule.code))
-        found = {}
-        for name, several in groupby(ordered, key=group_of):
-            rules = [*several]
-            parts = [rules[begin : begin + MOST_RULES] for begin in range(0, len(rules), MOST_RULES)]
-            found |= {f"{name}-{number}" if parts[1:] else name: part for number, part in enumerate(parts, 1)}
-        return found
-
     def place(self, code: str) -> str:
-        """The page and the anchor of a rule, seen from the folder `rules`."""
-        name = next(name for name, rules in self.groups.items() if any(rule.code == code for rule in rules))
-        return f"{self.control}/{name}.md#{code}"
+        """The page of a rule, seen from the folder `rules`."""
+        return f"{self.control}/{code}.md"
 
 
 def group_of(rule: Rule) -> str:
-    """The group of a rule: a control's own ones by the begin of their codes."""
+    """The title of the group of a rule: a control's own ones by the begin of their codes."""
     if rule.code not in _GENERAL:
-        return f"own-{rule.code.partition('-')[0]}"
+        return rule.code.partition("-")[0].upper()
     if isinstance(rule.about, FaultKind):
-        return "characters"
-    return "facts" if _FACTS.match(rule.code) else "programs" if rule.code in _READING else "geometry"
+        return "Characters and numbers"
+    if _FACTS.match(rule.code):
+        return "What a contour needs, and facts"
+    return "Words, positions, programs" if rule.code in _READING else GEOMETRY
 
 
-TITLES = {
-    "characters": "characters and numbers",
-    "facts": "what a contour needs, and facts",
-    "programs": "words, positions, programs",
-    "geometry": "lines, arcs and corners",
-}
-
-
-def title_of(name: str) -> str:
-    """The title of a page of rules."""
-    group, _, number = re.fullmatch(r"(own-[a-z0-9]+|[a-z]+)(-(\d+))?", name).groups()  # type: ignore[union-attr]
-    told = TITLES.get(group) or f"rules of {group.removeprefix('own-').upper()}"
-    return f"{told} ({number})" if number else told
+GEOMETRY = "Lines, arcs and corners"
 
 
 def manuals() -> list[Manual]:
@@ -122,7 +97,7 @@ def _shown(dialect: Dialect, rule: Rule, text: str, pictures: dict[str, str], *,
             break
     if (told is None) is not is_right or (is_right and result.has_errors):
         raise SystemExit(f"{dialect.name}: an example of {rule.code} says something else:\n{text}")
-    is_drawn = result.answers and (is_right or group_of(rule).startswith(("own", "geometry")))
+    is_drawn = result.answers and (is_right or (rule.code not in _GENERAL or group_of(rule) == GEOMETRY))
     name = f"{sha256(f'{dialect.name}{rule.options}{text}'.encode()).hexdigest()[:16]}.svg" if is_drawn else ""
     if name and name not in pictures:
         pictures[name] = draw_result(result).svg
@@ -141,17 +116,19 @@ def _marked(result: Result, told: Diagnostic) -> frozenset[str]:
 
 def control_page(manual: Manual) -> Iterator[str]:
     """The page that leads to the words, rules, settings and assumptions of a control."""
-    dialect, rules = manual.dialect, sorted(manual.dialect.catalogue, key=lambda rule: rule.code)
+    dialect, rules = manual.dialect, sorted(manual.dialect.catalogue, key=lambda rule: (group_of(rule), rule.code))
     yield f"# {dialect.title}\n"
     yield f"contoursolve calls it `{dialect.name}`. Its contours are {dialect.contours}.\n"
     yield f"* [Its words]({dialect.name}/words.md): what each means, a right block, and what goes wrong with it"
     yield "* [Alarm numbers](alarms.md) of the machine, and what they mean"
-    yield f"\n## All {len(rules)} rules {{ #rules }}\n"
-    yield "| rule | what it says | severity | grade | alarm |\n|---|---|---|---|---|"
-    for rule in rules:
-        alarm = f"{rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else ""
-        cells = (plain(rule.title), rule.severity.value, rule.source.evidence.value, alarm)
-        yield f"| [{rule.code}]({manual.place(rule.code)}) | {' | '.join(cells)} |"
+    yield f"\n## All {len(rules)} rules {{ #rules }}"
+    for group, several in groupby(rules, key=group_of):
+        yield f"\n### {group}\n"
+        yield "| rule | what it says | severity | grade | alarm |\n|---|---|---|---|---|"
+        for rule in several:
+            alarm = f"{rule.alarm.number} ({rule.alarm.evidence.value})" if rule.alarm else ""
+            cells = (plain(rule.title), rule.severity.value, rule.source.evidence.value, alarm)
+            yield f"| [{rule.code}]({manual.place(rule.code)}) | {' | '.join(cells)} |"
     yield "\n## Settings { #settings }\n"
     yield "What the manual leaves open, and you can choose:\n"
     for setting in dialect.settings:
@@ -166,16 +143,10 @@ def control_page(manual: Manual) -> Iterator[str]:
         yield f"* `{each.name}`: {plain(each.meaning)} ({plain(str(each.source))})"
 
 
-def rules_page(manual: Manual, name: str) -> Iterator[str]:
-    """A group of rules: each with what it says, why, a wrong block and a right one, alarm, source and grade."""
-    yield f"# {manual.dialect.title}: {title_of(name)}\n"
-    yield f"[All rules of this control](../{manual.control}.md) · [Its words](words.md)"
-    for rule in manual.groups[name]:
-        yield from _rule_section(manual, rule)
-
-
-def _rule_section(manual: Manual, rule: Rule) -> Iterator[str]:
-    yield f"\n## {rule.code} {{ #{rule.code} }}\n"
+def rule_page(manual: Manual, rule: Rule) -> Iterator[str]:
+    """A rule: what it says, why, a wrong block and a right one, alarm, source and grade."""
+    yield f"# {rule.code}, {manual.dialect.title}\n"
+    yield f"[All rules](../{manual.control}.md#rules) · [Words](words.md)\n"
     yield f"{rule.severity.value.capitalize()}: {plain(rule.title)}\n"
     yield f"* What to do: {plain(rule.advice)}"
     if rule.note:

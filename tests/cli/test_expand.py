@@ -391,7 +391,7 @@ BY_HAND = "nothing was written: write by hand what is meant there"
             TURNED,
             (
                 f"program line 2: {HERE} G90 {TURNING} is absolute coordinates, "
-                f"{RUN} X91. Z-40. and 1 line behind it as {RAPID}"
+                f"{RUN} X91. Z-40. and 1 line after it as {RAPID}"
             ),
         ),
         (
@@ -407,12 +407,12 @@ BY_HAND = "nothing was written: write by hand what is meant there"
         (
             "linuxcnc",
             f"{START}{TAPER}\nG01 X60.\nG92 X59. Z-70. F2.\nX58.\n(THIRD)\nX57.",
-            f"program line 4: {HERE} G92 (thread cycle on {LX3}) sets coordinates, {RUN} 2 lines behind it as {LINE}",
+            f"program line 4: {HERE} G92 (thread cycle on {LX3}) sets coordinates, {RUN} 2 lines after it as {LINE}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG90\nM08\nX59.\nX58.",
-            f"program line 3: {HERE} G90 {TURNING} is absolute coordinates, {RUN} 2 lines behind it as {LINE}",
+            f"program line 3: {HERE} G90 {TURNING} is absolute coordinates, {RUN} 2 lines after it as {LINE}",
         ),
         (
             "linuxcnc",

@@ -889,7 +889,7 @@ def test_the_finishing_pass_is_written_and_roughing_stays(words: tuple[str, ...]
 def test_what_of_a_finishing_pass_cannot_be_written_is_told(tmp_path: Path):
     (tmp_path / "a.nc").write_text(TURNED.format("", "", "G00 X62. Z2.", "G42\n", "G40 ").replace("G99", "G18"))
     done = call("expand", "--control", "mitsubishi", *NOSE, tmp_path / "a.nc")
-    assert "program line 17: where the tool is behind G70 is not known of this control" in done.stderr
+    assert "program line 17: where the tool is after G70 is not known of this control" in done.stderr
     given, words = (*LATHE, *NOSE), ("G42 ", "G40 ", "G00 X62. Z2.", "", "")
     for old, new, told in (
         ("G70 P100 Q200", "", "G71 in program line 5 is not compensated (assumed), and no G70 cuts its profile"),

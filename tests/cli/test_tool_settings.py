@@ -56,21 +56,21 @@ NOSE = ("R0.8, tip 3", TAPER, "right", LATHE)
             ("R0.8, tip 3", FILLET, "right", LATHE),
             [(-0.8, 10.0), (-15.0, 10.0), (-15.0, 19.2)],
             0.1657,
-            "leaves out this arc: 0.1657 mm stays there, 0.4000 mm before it and 0.4000 mm behind it",
+            "leaves out this arc: 0.1657 mm stays there, 0.4000 mm before it and 0.4000 mm after it",
         ),
         # TR-24.
         (
             ("R1.2, tip 3", CHAMFER, "right", LATHE),
             [(-1.2, 10.0), (-10.5, 10.0), (-10.5, 13.8)],
             0.1435,
-            "leaves out this line: 0.1435 mm stays there, 0.7000 mm before it and 0.7000 mm behind it",
+            "leaves out this line: 0.1435 mm stays there, 0.7000 mm before it and 0.7000 mm after it",
         ),
         # TR-23: the nose rests on both edges, sqrt(0.8^2 - 0.75^2) away from their line.
         (
             ("R0.8, tip 3", GROOVE, "right", LATHE),
             [(-0.8, 15.0), (-10.8, 15.0), (-11.55, 14.4784), (-12.3, 15.0), (-20.8, 15.0)],
             5 - (0.8 - (0.8**2 - 0.75**2) ** 0.5),
-            "leaves out this line: 4.4784 mm stays there, 5.0000 mm before it and 5.0000 mm behind it",
+            "leaves out this line: 4.4784 mm stays there, 5.0000 mm before it and 5.0000 mm after it",
         ),
         # Two lines across a square corner, of which the farther place is (-10.3, 10.2).
         (

@@ -166,7 +166,7 @@ def test_what_is_listed_as_choosing_a_contour_chooses_it(name: str) -> None:
     for each in listing.solutions:
         lines = text.split("\n")
         for word in each.selects if each.contour is not None else ():
-            number, element = re.fullmatch(r"FSELECT (\d+) behind \w+ (\d+)", word).groups()
+            number, element = re.fullmatch(r"FSELECT (\d+) after \w+ (\d+)", word).groups()
             index = next(index for index, line in enumerate(lines) if line.startswith(f"{element} F"))
             lines[index] += f"\n{element} FSELECT {number}"
         if each.contour is not None:

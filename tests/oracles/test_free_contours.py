@@ -63,8 +63,8 @@ def test_both_choices_of_fkexamp1_are_listed_and_chosen_by_their_numbers():
     assert listing.is_complete
     assert len(paths) == 6
     (chosen,) = (each for each in paths if each.is_chosen)
-    assert chosen.selects == ("FSELECT 1 behind line 11", "FSELECT 2 behind line 15")
-    opposite = [each.contour.points["P11"] for each in paths if each.selects[0] == "FSELECT 2 behind line 11"]
+    assert chosen.selects == ("FSELECT 1 after line 11", "FSELECT 2 after line 15")
+    opposite = [each.contour.points["P11"] for each in paths if each.selects[0] == "FSELECT 2 after line 11"]
     assert opposite
     assert all(each == pytest.approx((-25.4078, -59.2849), abs=6e-5) for each in opposite)
 

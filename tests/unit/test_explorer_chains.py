@@ -59,10 +59,10 @@ def test_a_solution_is_chosen_by_fselect_behind_its_element():
     now = begin(PARTED)
     assert now.answer.status is Status.AMBIGUOUS
     numbers = {each["selects"]: each["number"] for each in view_of(now)["solutions"]["items"]}
-    chosen = explore.select(now, numbers["FSELECT 2 behind line 2"])
+    chosen = explore.select(now, numbers["FSELECT 2 after line 2"])
     assert "P1Y+10\nFSELECT 2\n3 FL" in chosen.text
     assert chosen.answer.contour.points["P2"] == pytest.approx((-37.947, -12.649), abs=1e-3)
-    back = explore.select(chosen, numbers["FSELECT 1 behind line 2"])
+    back = explore.select(chosen, numbers["FSELECT 1 after line 2"])
     assert back.text == chosen.text.replace("FSELECT 2", "FSELECT 1")
     assert back.answer.contour.points["P2"] == pytest.approx((37.947, 12.649), abs=1e-3)
 
@@ -71,7 +71,7 @@ def test_a_solution_is_shown_before_it_is_chosen():
     talk = Conversation(begin(PARTED))
     for item in view_of(talk.exploration)["solutions"]["items"]:
         ghost = talk.answer({"do": "ghost", "solution": item["number"]})["ghost"]
-        assert item["selects"].partition(" behind")[0] in ghost["text"]
+        assert item["selects"].partition(" after")[0] in ghost["text"]
         assert ghost["paths"]
 
 

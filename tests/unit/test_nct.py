@@ -404,7 +404,7 @@ def test_what_a_contour_rests_on_is_named_in_text_and_json(text, names):
     assert (contour["status"], [each["name"] for each in contour["assumptions"]]) == ("solved", names)
     assert all(each["source"]["evidence"] == "assumed" for each in contour["assumptions"])
     shown = CliRunner().invoke(main, ["solve", "-"], input=text).output
-    assert ("rests on: " in shown) is bool(names)
+    assert ("depends on: " in shown) is bool(names)
     assert all(each["meaning"] in shown for each in contour["assumptions"])
 
 

@@ -114,7 +114,7 @@ def assumptions(block: str, start: str = "X40. Z0.") -> tuple[list[str], str]:
     document = json.loads(CliRunner().invoke(main, [*arguments, "--format", "json"]).stdout)
     (contour,) = document["contours"]
     text = CliRunner().invoke(main, arguments).stdout
-    lines = [line.strip() for line in text.splitlines() if "rests on" in line]
+    lines = [line.strip() for line in text.splitlines() if "depends on" in line]
     assert len(lines) <= 1
     assert all(each["meaning"] in "".join(lines) for each in contour["assumptions"])
     assert {each["source"]["evidence"] for each in contour["assumptions"]} <= {"assumed"}
@@ -144,7 +144,7 @@ def test_a_result_names_what_the_control_is_taken_to_accept(block: str, names: l
 
 
 def test_what_a_contour_rests_on_is_one_short_line() -> None:
-    assert assumptions(GOOD)[1] == "rests on: no corner word means a sharp corner (assumed)"
+    assert assumptions(GOOD)[1] == "depends on: no corner word means a sharp corner (assumed)"
 
 
 def test_the_catalogue_lists_every_assumption_with_its_source_and_grade() -> None:

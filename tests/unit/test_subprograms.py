@@ -368,12 +368,12 @@ M30"""
         (
             "heidenhain",
             "L X+0 Y+0 F100\nCALL LBL 1 REP2\nFL X+50 AN+20\nM30\nLBL 1\nL IX+5\nLBL 0",
-            "CALL LBL 1 REP2 repeats from program line 5 up to itself, but that line stands behind it",
+            "CALL LBL 1 REP2 repeats from program line 5 up to itself, but that line stands after it",
         ),
         (
             "siemens-840d",
             "G17 G90 G0 X0 Y0\nREPEAT AAA P=2\nG1 X50 ANG=20\nM30\nAAA: G1 X=IC(5)\nM17",
-            "REPEAT AAA P=2 repeats from program line 5 up to itself, but that line stands behind it",
+            "REPEAT AAA P=2 repeats from program line 5 up to itself, but that line stands after it",
         ),
         (
             "siemens-840d",

@@ -161,7 +161,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     yield row(
         "corner-without-next",
         "{words}: a corner needs an element after it, and none follows",
-        "put the next cutting move right behind it, or delete it",
+        "put the next cutting move right after it, or delete it",
         some(*corners) & some(LAST) & ~some(RAPID),
         ANY,
         cut,

@@ -78,7 +78,7 @@ _WORDS = (
     Address("I", f"{_CENTER}; along X, a radius", _MM, _PRINTED),
     Address("K", f"{_CENTER}; along Z", _MM, _PRINTED),
     Address("R", "radius of an arc of at most 180 deg", _MM, _PRINTED),
-    Address("B", "behind it, above 0 a rounding, below 0 a chamfer, 0 a corner without tangency", _MM, _PRINTED),
+    Address("B", "after it, above 0 a rounding, below 0 a chamfer, 0 a corner without tangency", _MM, _PRINTED),
     Address("E", "share of the feed in the corner", Unit.SIGN, _PRINTED),
     Address("Q", "0 the near intersection, 1 the far one", Unit.SIGN, _PRINTED),
 )  # fmt: skip

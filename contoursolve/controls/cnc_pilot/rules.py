@@ -40,7 +40,7 @@ _ROWS = (
          "write G12 or G13 with the centre in coordinates", _ASSUMED, some(*_CENTER[:2]) & some(FROM_OPEN), (ARC,),
          _CROSSING, ("G12 X58 Z-52 I38 K-40", "G2 X58 Z-52 I10 K-10")),
     _row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
-         "put the next element right behind it, or delete it", BOOK.printed("p. 147: B at the end of the element"),
+         "put the next element right after it, or delete it", BOOK.printed("p. 147: B at the end of the element"),
          some(ROUNDING, CHAMFER) & some(LAST), _ANY, _CUT, ("\nG1 Z-40\nG1 X65", "")),
     _row("feed-range", "{words}: the share of the feed is above 0, and 1 at most",
          "write E1 or less; on a MANUALplus 4110, E is the feed itself", BOOK.printed("p. 147"),

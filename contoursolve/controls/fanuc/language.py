@@ -119,7 +119,7 @@ def _guard_corner(manual: Book) -> Setting:
 
 ANGLE = setting(
     "angle",
-    "what a number behind ,A means",
+    "what a number after ,A means",
     {"normal": "the angle itself", "supplementary": "180 deg minus the angle; contoursolve does not compute this"},
     DRAWING.assumed("another bit of parameter 3405, recalled"),
 )

@@ -40,7 +40,7 @@ _CORNERS = (*_CORNER, *_SIGNED)
 _FIRST, _SECOND = ("first", "first-step"), ("second", "second-step")
 _STEPS = ("first-step", "second-step")
 _ALARM_LIST = "alarm list"
-_NOT_SQUARE = "052 (the block behind a corner is not G01, or not at a right angle)"
+_NOT_SQUARE = "052 (the block after a corner is not G01, or not at a right angle)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,9 +104,9 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
         Rule(
             code=f"{machine.prefix}-corner-without-next",
             message="{words}: a corner needs an element after it, and none follows",
-            help="put the next cutting move right behind it, or delete it",
+            help="put the next cutting move right after it, or delete it",
             source=machine.source(_ALARM_LIST),
-            alarm=machine.alarm("051 or 052 (no move, or no cutting move, behind a corner)"),
+            alarm=machine.alarm("051 or 052 (no move, or no cutting move, after a corner)"),
             roles=_ANY,
             when=some(*_CORNERS) & some(LAST) & ~some(RAPID, THREAD),
             accepted=(cut, cut.replace("\n" + machine.turn, "\nG04 P500\n" + machine.turn)),
@@ -126,7 +126,7 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
         Rule(
             code=f"{machine.prefix}-corner-alone",
             message="{words} stands in a block that moves nothing, so there is no line to cut",
-            help="write it behind the end of the line before",
+            help="write it after the end of the line before",
             source=machine.source(_ALARM_LIST, Evidence.DERIVED),
             alarm=machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR", Evidence.DERIVED),
             roles=(LINE,),
@@ -177,7 +177,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
         ),
         (
             "corner-taper",
-            f"{{words}}: a corner by {letters} stands behind a line along one axis",
+            f"{{words}}: a corner by {letters} stands after a line along one axis",
             "write ,C or ,R",
             "054 (taper with a chamfer or a rounding)",
             some(*_SIGNED) & is_taper,
@@ -197,7 +197,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
         ),
         (
             "corner-not-square",
-            f"behind a corner by {letters} the next line must run along the other axis alone",
+            f"after a corner by {letters} the next line must run along the other axis alone",
             "write ,C or ,R for another corner",
             _NOT_SQUARE,
             (some(first) & (~some(*_FIRST) | some(*_SECOND, *angle)))
@@ -268,7 +268,7 @@ def _shared_rules(machine: _Machine) -> Iterator[Rule]:
     sources = {
         "corner-rapid": machine.source("the function", Evidence.DERIVED),
         "corner-negative": machine.source("not described", Evidence.ASSUMED),
-        "plane-changes": machine.source("not behind a plane change"),
+        "plane-changes": machine.source("not after a plane change"),
         "angle-range": machine.source("not described", Evidence.ASSUMED),
     }
     shared = Manual(
@@ -318,7 +318,7 @@ def _straight_only(machine: _Machine) -> Rule:
         message="{words}: this control makes corners between lines alone, and this is an arc",
         help="end the contour before the arc, or write its lines and corners out",
         source=machine.source("block patterns; alarm list" if is_lathe else "corners between two lines"),
-        alarm=machine.alarm("052 (the block behind a corner is not G01)"),
+        alarm=machine.alarm("052 (the block after a corner is not G01)"),
         roles=(ARC,),
         when=some(*STATED_POINT, *STATED_CENTER, "R", *_CORNER) & some(STRAIGHT_ONLY),
         accepted=(machine.cut,),
@@ -397,7 +397,7 @@ _VERTEX_RULES = (
         message="the line before has an angle and no end, so this block needs X, Z and ,A: it lacks {lacking}",
         help="add {lacking}",
         source=_FANUC_LATHE.source("block patterns 2 to 8"),
-        alarm=_FANUC_LATHE.alarm("056 (no end point, or no angle, behind a line by its angle alone)"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point, or no angle, after a line by its angle alone)"),
         roles=(OVER_LINE,),
         when=~all_of("first", "second", ",A") & ~some(*_STEPS),
         accepted=(_VERTEX,),
@@ -405,10 +405,10 @@ _VERTEX_RULES = (
     ),
     Rule(
         code="fanuc-closing-increment",
-        message="{words}: behind a line by its angle alone, X and Z give the end, not U and W",
+        message="{words}: after a line by its angle alone, X and Z give the end, not U and W",
         help="give the end of this line by X and Z",
         source=_FANUC_LATHE.source("block patterns 2 to 8: X and Z are absolute"),
-        alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point after a line by its angle alone)"),
         roles=(OVER_LINE,),
         when=some(*_STEPS),
         accepted=(_VERTEX,),
@@ -419,7 +419,7 @@ _VERTEX_RULES = (
         message="{words} alone does not say where the line ends",
         help="add X or Z; or let a line with X, Z and ,A follow, which it meets",
         source=_FANUC_LATHE.source("block patterns 1 and 2"),
-        alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point after a line by its angle alone)"),
         roles=(LINE,),
         when=some(",A") & ~some(*STATED_POINT) & ~some(FOLLOWED),
         accepted=(_VERTEX, _ANGLED),

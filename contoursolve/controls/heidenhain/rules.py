@@ -92,7 +92,7 @@ def _half(*words: str) -> Condition:
 
 def _rows(words: PlaneWords) -> tuple[Rule, ...]:
     """The rows about words of a chain; their examples are Klartext."""
-    both = f"write {words.axes[0]} and {words.axes[1]} behind FPOL"
+    both = f"write {words.axes[0]} and {words.axes[1]} after FPOL"
     return (
         *(
             _row(f"point-{number}", "{words}: of this point one coordinate is missing", "write both coordinates",
@@ -154,10 +154,10 @@ def _rows(words: PlaneWords) -> tuple[Rule, ...]:
         _row("radius-missing", "CR is an arc by its radius, and R is missing", "add R",
              BOOK.printed("path functions"), some(NO_RADIUS), (PLAIN,), _BOW, (" R20", "")),
         _row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
-             "put the next line or arc right behind it, or delete it", _CORNERS,
+             "put the next line or arc right after it, or delete it", _CORNERS,
              some(*CORNERS) & some(LAST_CORNER) & ~some(FIRST_CORNER), _ANY, _CORNER, ("4 L X+40 Y+30\n", "")),
         _row("corner-first", "{words}: a corner needs a line or an arc right before it, and none is there",
-             "put it right behind the block that leads to the corner, or delete it", _CORNERS,
+             "put it right after the block that leads to the corner, or delete it", _CORNERS,
              some(*CORNERS) & some(FIRST_CORNER), (PLAIN,), _CORNER, ("2 L X+40 Y+0\n", "2 DEP LT LEN5\n")),
         _row("corner-apart", "{words} is not checked: it stands beside a call, an approach or a departure",
              "nothing has to be changed; contoursolve solves corners between two elements in a row",
@@ -190,7 +190,7 @@ def _rows(words: PlaneWords) -> tuple[Rule, ...]:
              "write CLSD- into its last block, or delete CLSD+", BOOK.printed("closed contour"),
              some(NEVER_CLOSED) & some("CLSD+"), _FK, _CLOSED, (" CLSD-", " X+0 Y+0"), severity=Severity.WARNING),
         _row("tangent-arc", "to which side CT turns is not known before the blocks before it are solved",
-             "write FCT with DR+ or DR-", BOOK.assumed("CT behind a free contour"), some(NO_TURN), (PLAIN,), _TURNING,
+             "write FCT with DR+ or DR-", BOOK.assumed("CT after a free contour"), some(NO_TURN), (PLAIN,), _TURNING,
              ("FCT DR+ R10 CCA+0", "CT X+40 Y+10")),
         _row("tool-axis", "contours are solved in X and Y, and the tool axis is another one",
              "check TOOL CALL: contoursolve reads contours with the tool axis Z", BOOK.assumed("planes"), some(TOOL),
@@ -213,7 +213,7 @@ _OWN = (
     ),
     Rule(
         "heidenhain-first-taken", "{subject} has {limit_count}: the first one is taken, as the setting ambiguous says",
-        "write FSELECT behind its block", BOOK.assumed("an open contour cannot be run"), (_CHOSEN,), (),
+        "write FSELECT after its block", BOOK.assumed("an open contour cannot be run"), (_CHOSEN,), (),
         about=NoteKind.PICK_FIRST, severity=Severity.WARNING,
     ),
 )  # fmt: skip
@@ -253,7 +253,7 @@ _UNKNOWN = Rule(
 )  # fmt: skip
 _SPELLING = Rule(
     "heidenhain-no-word", "{words} is no function and no word with a number",
-    "check the spelling: moves are L, C, CR, CT, FL, FLT, FC and FCT, with a blank behind them",
+    "check the spelling: moves are L, C, CR, CT, FL, FLT, FC and FCT, with a blank after them",
     BOOK.printed("path functions"), (_LINES,), (_LINES.replace("3 FL", "3 FTL"),), about=FaultKind.NUMBER_MISSING,
 )  # fmt: skip
 

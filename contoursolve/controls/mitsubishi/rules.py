@@ -71,7 +71,7 @@ _ROWS = (
     _row("two-corners", "{words}: a block takes ,C or ,R, not both", "keep one of them",
          BOOK.assumed("not described"), all_of(*_CORNER), _ANY, _CUT, (",C5.", ",C5. ,R5."), alarm=_FORMAT),
     _row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
-         "put the next element right behind it, or delete it",
+         "put the next element right after it, or delete it",
          BOOK.assumed("corner chamfering: the first block"), some(*_CORNER) & some(LAST) & ~some(RAPID), _ANY,
          _CUT, ("\nX40.", "\nM8\nX40."), ("\nX40.", "\nG00 X40.")),
     _row("corner-rapid", "{words}: the control makes a corner in a cutting move, not in G00", "write G01",

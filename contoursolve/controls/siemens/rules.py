@@ -86,11 +86,11 @@ _GEOMETRY = {
 }
 _HELPS = {
     FaultKind.STRAY_CHARACTER: (
-        "delete it, or put it into a comment behind a semicolon",
+        "delete it, or put it into a comment after a semicolon",
         MANUAL.cut.replace("X30", "X30 !"),
     ),
     FaultKind.NUMBER_MALFORMED: (
-        "write digits with at most one point; behind a name write an equals sign, such as RND=5",
+        "write digits with at most one point; after a name write an equals sign, such as RND=5",
         MANUAL.cut.replace("RND=5", "RND5"),
     ),
 }

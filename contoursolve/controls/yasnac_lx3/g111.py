@@ -397,7 +397,7 @@ _FOLLOWING_RULES = (
     ),
     Rule(
         code="g111-rapid-behind",
-        message="{words} {have} no G code: behind {code}, G00 is in force again, so this is a rapid along the part",
+        message="{words} {have} no G code: after {code}, G00 is in force again, so this is a rapid along the part",
         help="write G01 or G00; if {code} leaves G01 in force on your control: --set yasnac-lx3.motion-after=g01",
         source=MOTION_AFTER.source,
         roles=(_ROLE, "G112"),

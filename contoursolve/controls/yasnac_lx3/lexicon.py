@@ -97,7 +97,7 @@ MOTION_AFTER = setting(
         UNCHANGED: "the one that was in force before the block",
         G01: "G01, whatever was in force before the block",
     },
-    BOOK.assumed("2.8.30: G111 is not modal; what is in force behind it is not said"),
+    BOOK.assumed("2.8.30: G111 is not modal; what is in force after it is not said"),
 )
 
 _CORNERING = ("G111", "G112")
