@@ -1,6 +1,6 @@
 // Bundles the extension and the script of its picture, with the licences of all that is bundled.
 import { build } from "esbuild";
-import { copyFile, readdir, readFile, rm, writeFile } from "node:fs/promises";
+import { readdir, readFile, rm, writeFile } from "node:fs/promises";
 
 const production = process.argv.includes("--production");
 const shared = { bundle: true, minify: production, sourcemap: !production, metafile: true, legalComments: "none" };
@@ -23,8 +23,6 @@ const inputs = Object.keys(extension.metafile.inputs).join("\n");
 const packages = new Set([...inputs.matchAll(/^.*node_modules\/(?:@[^/]+\/)?[^/]+/gm)].map(String));
 const licences = await Promise.all([...packages].sort().map(licence));
 await writeFile("dist/licences.txt", licences.join("\n"));
-// The package needs the licence in its own folder; one copy in the repository is enough.
-await copyFile("../../LICENSE", "LICENSE");
 
 async function licence(folder) {
   const name = (await readdir(folder)).find((file) => /^licen[cs]e/i.test(file));

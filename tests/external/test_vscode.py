@@ -7,6 +7,7 @@ import shutil
 import socket
 import subprocess
 import sys
+import zipfile
 from collections import Counter
 from contextlib import contextmanager
 from pathlib import Path
@@ -28,11 +29,21 @@ CODE_SERVERS = {"20": "4.100.3", "22": "4.117.0", "24": "4.139.1"}
 """The last code-server for each node."""
 NODES = f"node {' or '.join(CODE_SERVERS)}"
 CLIPBOARD = ["clipboard-read", "clipboard-write"]
+REPOSITORY = "https://example.org/owner/contoursolve"
+IN_PACKAGE = {
+    "[Content_Types].xml", "extension.vsixmanifest", "extension/LICENSE.txt", "extension/dist/extension.js",
+    "extension/dist/licences.txt", "extension/dist/page.js", "extension/languages/gcode.json",
+    "extension/languages/klartext.json", "extension/languages/sinumerik.json", "extension/media/icon.png",
+    "extension/media/picture.css", "extension/package.json", "extension/readme.md",
+    "extension/syntaxes/gcode.tmLanguage.json", "extension/syntaxes/klartext.tmLanguage.json",
+    "extension/syntaxes/sinumerik.tmLanguage.json",
+}  # fmt: skip
 SETTINGS = {
     "contoursolve.python": sys.executable,
     "editor.minimap.enabled": False,
     "extensions.autoCheckUpdates": False,
     "extensions.ignoreRecommendations": True,
+    "files.associations": {"*.h": "klartext"},
     "files.autoSave": "off",
     "security.workspace.trust.enabled": False,
     "telemetry.telemetryLevel": "off",
@@ -43,11 +54,11 @@ SETTINGS = {
 }
 
 
-def run(*command, folder):
-    words = [shutil.which(command[0]) or command[0], *command[1:]]
-    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+def run(*command, folder, **environment):
+    words, around = [shutil.which(command[0]) or command[0], *command[1:]], {**os.environ, **environment}
+    done = subprocess.run(words, cwd=folder, env=around, capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
-    return done.stdout
+    return done.stdout + done.stderr
 
 
 @pytest.fixture(scope="module")
@@ -55,10 +66,13 @@ def package(code_server, tmp_path_factory):
     """The extension as users install it, made from what the repository has."""
     house = tmp_path_factory.mktemp("house")
     folder = house / "editors" / "vscode"
-    shutil.copytree(EXTENSION, folder, ignore=shutil.ignore_patterns("node_modules", "dist", "*.vsix"))
+    shutil.copytree(EXTENSION, folder, ignore=shutil.ignore_patterns("node_modules", "dist", "build", "*.vsix"))
     shutil.copy(HOUSE / "LICENSE", house)
+    (house / "contoursolve").mkdir()
+    shutil.copy(HOUSE / "contoursolve" / "__init__.py", house / "contoursolve")
     run("npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", folder=folder)
-    run("npm", "run", "package", folder=folder)
+    told = run("npm", "run", "package", folder=folder, REPOSITORY=REPOSITORY)
+    assert "warning" not in told.lower()
     return folder / "contoursolve.vsix"
 
 
@@ -247,6 +261,21 @@ def program(tmp_path):
     return shutil.copy(PROGRAMS / "shaft_broken.nc", copy)
 
 
+def test_the_package_has_what_it_needs_and_says_where_the_project_lies(package):
+    with zipfile.ZipFile(package) as packed:
+        assert set(packed.namelist()) == IN_PACKAGE
+        manifest = json.loads(packed.read("extension/package.json"))
+        page = packed.read("extension/readme.md").decode()
+    assert manifest["version"] == contoursolve.__version__
+    assert manifest["repository"]["url"] == f"{REPOSITORY}.git"
+    assert manifest["bugs"]["url"] == manifest["qna"] == f"{REPOSITORY}/issues"
+    place = f"v{contoursolve.__version__}/editors/vscode/"
+    targets = re.findall(r"\]\(([^)#]+)\)", page)
+    assert all(each.startswith(f"{REPOSITORY}/") and place in each for each in targets)
+    assert all((EXTENSION / each.partition(place)[2]).exists() for each in targets)
+    assert len(targets) > 2
+
+
 def test_findings_fixes_and_pictures_stand_beside_the_program(window, address, program, artefacts):
     before = program.read_bytes()
     findings = findings_of(program)
@@ -365,7 +394,7 @@ def test_commands_make_new_documents_and_leave_the_program(window, address, tmp_
     page = editor.page
     editor.status.filter(has_text="yasnac-lx3: 7 of 7 solved").wait_for()
 
-    editor.command("Expand to Plain G-code")
+    editor.command("Expand to Plain Blocks")
     page.get_by_role("tab", name="shaft-plain.nc").wait_for()
     assert_same_lines(editor.copy_all(), contoursolve.expand(before.decode()).text)
     editor.press("Control+1")
@@ -399,6 +428,44 @@ def test_commands_make_new_documents_and_leave_the_program(window, address, tmp_
     assert program.read_bytes() == before
 
 
+def test_klartext_has_the_picture_and_the_commands(window, address, tmp_path, artefacts):
+    program = tmp_path / "work" / "cam.h"
+    program.parent.mkdir()
+    shutil.copy(HOUSE / "docs" / "programs" / "cam.h", program)
+    text = program.read_text(encoding="utf-8")
+    editor = window(address, program)
+    page, picture = editor.page, editor.webview()
+    editor.status.filter(has_text="heidenhain: 1 of 1 solved").wait_for()
+    colours = editor.line("FCT").locator("span span").evaluate_all(COLORS)
+    assert len(set(colours)) > 2
+
+    editor.go_to(11, 7)
+    editor.press("Control+K", "v")
+    picture.locator("text[data-word].marked, tspan[data-word].marked").first.wait_for()
+    assert "R15" in picture.locator("svg").text_content()
+    page.locator(".action-label[aria-label*='Draw the Contour Beside']").wait_for()
+    page.screenshot(path=artefacts / "vscode-klartext.png")
+
+    editor.press("Control+1")
+    editor.command("Expand to Plain Blocks")
+    page.get_by_role("tab", name="cam-plain.h").wait_for()
+    page.locator("[id='status.editor.mode']", has_text="Klartext").wait_for()
+    assert_same_lines(editor.copy_all(), contoursolve.expand(text).text)
+    editor.press("Control+1")
+    editor.command("Convert for Another Control")
+    page.locator(".quick-input-list .monaco-list-row", has_text="fanuc-mill").click()
+    page.get_by_role("tab", name="cam-fanuc-mill.nc").wait_for()
+    assert_same_lines(editor.copy_all(), contoursolve.convert(text, "fanuc-mill").text)
+    editor.press("Control+1")
+    editor.command("Show the Report")
+    page.get_by_role("tab", name="Report: cam.h").wait_for()
+    editor.press("Control+1")
+    editor.go_to(10)
+    editor.command("Explore the Contour")
+    page.locator(".notebook-editor .view-line", has_text="contoursolve.explore").wait_for()
+    assert program.read_text(encoding="utf-8") == text
+
+
 def assert_same_lines(found, expected):
     assert found.splitlines() == expected.splitlines()
 
@@ -417,6 +484,29 @@ def test_a_python_without_the_package_is_told_what_to_type(window, code_server, 
         message.get_by_role("button", name="Copy").click()
         message.wait_for(state="detached")
         editor.page.wait_for_function(COPIED, arg=command)
+        # A Python that is not there.
+        for kind in ("User", "Machine"):
+            changed = tmp_path / "editor" / "data" / kind / "settings.json"
+            changed.write_text(json.dumps(SETTINGS | {"contoursolve.python": "/nowhere/python"}))
+        message.filter(has_text="contoursolve cannot run /nowhere/python").wait_for()
+        assert message.filter(has_text='python3 -m pip install "contoursolve[lsp]"').count() == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the program is a script for a shell")
+def test_the_program_in_the_folder_of_the_extension_serves(window, code_server, package, program, tmp_path):
+    bundle = tmp_path / "bundle" / "contoursolve"
+    bundle.parent.mkdir()
+    bundle.write_text(f'#!/bin/sh\necho "$0 $@" >> "{tmp_path}/asked"\nexec "{sys.executable}" -m contoursolve "$@"\n')
+    bundle.chmod(0o755)
+    target = {"SERVER": str(bundle.parent), "TARGET": "linux-x64"}
+    run("node", "package.mjs", folder=package.parent, **target)
+    packed = shutil.move(package.parent / "contoursolve.vsix", tmp_path / "bundled.vsix")
+    run("node", "package.mjs", folder=package.parent, REPOSITORY=REPOSITORY)
+    with serving(code_server, packed, tmp_path / "editor", **{"contoursolve.python": ""}) as address:
+        editor = window(address, program)
+        editor.status.filter(has_text="yasnac-lx3: 1 of 6 solved").wait_for()
+    (asked,) = (tmp_path / "asked").read_text().splitlines()
+    assert re.search(r"/extensions/contoursolve\.contoursolve[^/]*/server/contoursolve lsp$", asked)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the interpreter is a script for a shell")
@@ -434,6 +524,7 @@ def test_the_environment_of_the_folder_is_found(window, code_server, package, pr
 
 
 COPIED = "async command => await navigator.clipboard.readText() === command"
+COLORS = "spans => spans.map(span => getComputedStyle(span).color)"
 BACKGROUND = "editor => getComputedStyle(editor).backgroundColor"
 TEXT_IN = """box => {
   const inside = box.getBoundingClientRect(), range = document.createRange();

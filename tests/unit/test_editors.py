@@ -118,9 +118,13 @@ def test_a_grammar_tells_words_apart(language, line, expected):
     assert [kind for kind, scope in zip(kinds, found, strict=False) if kind not in scope] == [], found
 
 
-@pytest.mark.parametrize("program", sorted((HOUSE / "notebooks" / "programs").glob("*.nc")), ids=lambda path: path.stem)
+PROGRAMS = [*(HOUSE / "notebooks" / "programs").glob("*.nc"), *(HOUSE / "docs" / "programs").glob("*.[hm]*")]
+LANGUAGES = {".nc": "gcode", ".mpf": "sinumerik", ".h": "klartext"}
+
+
+@pytest.mark.parametrize("program", sorted(PROGRAMS), ids=lambda path: path.stem)
 def test_every_character_of_a_program_is_coloured(program):
-    patterns = grammar("gcode")["patterns"]
+    patterns = grammar(LANGUAGES[program.suffix])["patterns"]
     for line in program.read_text(encoding="utf-8").splitlines():
         if "contoursolve:" not in line:
             coloured = "".join(text for text, _ in scopes(line, patterns))
@@ -149,6 +153,23 @@ def test_every_setting_and_command_is_there():
     code = (EXTENSION / "src" / "extension.ts").read_text(encoding="utf-8")
     registered = {f"contoursolve.{name}" for name in re.findall(r'register\("(\w+)"', code)}
     assert registered == {command["command"] for command in contributed("commands")}
+
+
+def test_what_is_there_for_one_language_is_there_for_all():
+    languages = [language["id"] for language in contributed("languages")]
+    (named,) = re.findall(r"LANGUAGES = (\[.*\]);", (EXTENSION / "src" / "protocol.ts").read_text(encoding="utf-8"))
+    assert json.loads(named) == languages
+    assert all(row["languages"] == languages for row in contributed("codeActions"))
+    rows = [*chain.from_iterable(contributed("menus").values()), *contributed("keybindings")]
+    clauses = [re.search(r"editorLangId =~ /(.*)/", row["when"])[1] for row in rows]
+    assert [each for each in clauses if not all(re.fullmatch(each, language) for language in languages)] == []
+    assert len(clauses) > 6
+
+
+def test_the_icon_is_as_the_marketplace_wants_it():
+    data = (EXTENSION / load("package.json")["icon"]).read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    assert [int.from_bytes(data[at : at + 4], "big") for at in (16, 20)] == [128, 128]
 
 
 def test_nothing_names_a_registry():

@@ -4,6 +4,7 @@ import { TextEncoder } from "node:util";
 import {
   commands,
   extensions,
+  languages,
   NotebookCellData,
   NotebookCellKind,
   NotebookData,
@@ -29,7 +30,7 @@ export function isResult({ uri }: { uri: Uri }): boolean {
 
 export async function expand(client: LanguageClient, document: TextDocument): Promise<void> {
   const written = await ask<Written>(client, "contoursolve.expand", document.uri.toString());
-  await showWritten(document, written, "plain", "in plain G-code");
+  await showWritten(document, written, "plain", `in plain ${document.languageId === "klartext" ? "Klartext" : "G-code"}`);
 }
 
 export async function convert(client: LanguageClient, document: TextDocument): Promise<void> {
@@ -58,10 +59,19 @@ async function showWritten(document: TextDocument, written: Written, mark: strin
   if (answer) await commands.executeCommand("vscode.diff", document.uri, made.uri, `${name} and the program ${what}`);
 }
 
+/** The ending of files, by the language of what is written into them. */
+const ENDINGS: Record<string, string> = { gcode: ".nc", sinumerik: ".mpf", klartext: ".h" };
+
+/** The language of a control's programs. */
+function languageOf(control: string): string {
+  return control === "heidenhain" ? "klartext" : control.startsWith("siemens") ? "sinumerik" : "gcode";
+}
+
 /** A document without a file, whose name says what it holds. */
 async function newDocument(document: TextDocument, text: string, mark: string): Promise<TextDocument> {
   const { name, ext } = parse(document.fileName);
-  const ending = mark.startsWith("siemens") ? ".mpf" : document.languageId === "sinumerik" && mark !== "plain" ? ".nc" : ext;
+  const own = mark === "plain" ? document.languageId : languageOf(mark);
+  const ending = mark === "plain" || own === document.languageId ? ext : ENDINGS[own];
   const taken = new Set(workspace.textDocuments.map((open) => open.uri.toString()));
   let uri: Uri;
   let number = 1;
@@ -70,7 +80,8 @@ async function newDocument(document: TextDocument, text: string, mark: string): 
     number += 1;
   } while (taken.has(uri.toString()));
   results.add(uri.toString());
-  const made = await workspace.openTextDocument(uri);
+  // .h belongs to C.
+  const made = await languages.setTextDocumentLanguage(await workspace.openTextDocument(uri), own);
   const edit = new WorkspaceEdit();
   edit.insert(uri, new Position(0, 0), text);
   await workspace.applyEdit(edit);

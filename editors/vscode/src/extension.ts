@@ -14,11 +14,11 @@ import { LanguageClient, type LanguageClientOptions, RevealOutputChannelOn, type
 import { chooseControl, convert, expand, explore, isResult, report } from "./commands";
 import { PictureView } from "./picture";
 import { LANGUAGES, type Status } from "./protocol";
-import { choosePython, findPython, onInterpreterChange, type Python, spell } from "./python";
+import { choosePython, type Command, findServer, onInterpreterChange, spell } from "./python";
 import { StatusBar } from "./status";
 
 let client: LanguageClient | undefined;
-let running: Python | undefined;
+let running: Command | undefined;
 /** One start or stop at a time. */
 let turn: Promise<void> = Promise.resolve();
 
@@ -70,12 +70,13 @@ export async function deactivate(): Promise<void> {
 }
 
 async function start(folder: string, output: LogOutputChannel, status: StatusBar, picture: PictureView): Promise<void> {
-  const python = await findPython(folder);
-  running = python;
-  if (!python) return;
-  output.info(`The server runs with ${spell(python)}`);
-  // -P: a file of the user's folder must not stand in for a Python package.
-  const server: ServerOptions = { command: python.command, args: [...python.args, "-P", "-m", "contoursolve", "lsp"] };
+  running = await findServer(folder);
+  if (!running) {
+    output.error("No server is found.");
+    return;
+  }
+  output.info(`The server, from ${running.source}: ${spell(running)}`);
+  const server: ServerOptions = { command: running.command, args: running.args };
   const { control, settings, inlayHints, codeLenses, pictures, format } = workspace.getConfiguration("contoursolve");
   const options: LanguageClientOptions = {
     documentSelector: LANGUAGES.flatMap((language) => ["file", "untitled"].map((scheme) => ({ language, scheme }))),
