@@ -115,6 +115,7 @@ class Ways:
         for line in chain(lines, (None,)):
             if isinstance(line, Block):
                 blocks.append(line)
+                yield
                 continue
             yield from self.read_on(blocks, read, is_open=line is not None and line.kind.is_open)
             blocks = []
