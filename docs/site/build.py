@@ -102,6 +102,9 @@ def main() -> None:
     subprocess.run(command, cwd=OUTPUT, check=True)
     for page in SITE.rglob("*.html"):
         page.write_bytes(with_own_worker(page.read_bytes(), "../" * (len(page.relative_to(SITE).parts) - 1)))
+    titles = {f"rules/{each.place(code)}": each.dialect.title for each in told for code in each.shown}
+    for path in (SITE / "search.json", SITE / "search.js"):
+        path.write_text(with_controls(path.read_text(encoding="utf-8"), titles), encoding="utf-8")
     shutil.copy(Path(__file__).with_name("worker.js"), SITE / "assets")
     write_try(SITE / "try")
 
@@ -109,6 +112,17 @@ def main() -> None:
 def with_own_worker(page: bytes, up: str) -> bytes:
     """A page whose search in files needs no other host: zensical loads a script from one."""
     return re.sub(rb'"https://[^"]*/iframe-worker/shim"', f'"{up}assets/worker.js"'.encode(), page)
+
+
+def with_controls(index: str, titles: dict[str, str]) -> str:
+    """The index of the search with the control of each rule: what is in no menu has its own title there once more, and
+    would be found before a word of that name."""
+    begin = index.index("{")
+    found, end = json.JSONDecoder().raw_decode(index, begin)
+    for item in found["items"]:
+        title = titles.get(item["location"].partition("#")[0].replace(".html", ".md"))
+        item["path"] = ["Manuals of the controls", title] if title else item["path"]
+    return index[:begin] + json.dumps(found, separators=(",", ":")) + index[end:]
 
 
 def write(name: str, content: str | bytes) -> None:

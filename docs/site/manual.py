@@ -61,7 +61,7 @@ class Manual:
 def group_of(rule: Rule) -> str:
     """The title of the group of a rule: a control's own ones by the begin of their codes."""
     if rule.code not in _GENERAL:
-        return rule.code.partition("-")[0].upper()
+        return f"Own rules: {rule.code.partition('-')[0].upper()}"
     if isinstance(rule.about, FaultKind):
         return "Characters and numbers"
     if _FACTS.match(rule.code):

@@ -128,7 +128,7 @@ def test_the_search_works_in_a_page_that_is_opened_as_a_file(site) -> None:
         page.get_by_placeholder("Search").fill("g111 corner too large")
         page.get_by_role("option", name="g111-corner-too-large").first.click()
         page.wait_for_url("**/rules/yasnac-lx3/g111-corner-too-large.html*")
-        for word in (",R", "#500", "RND=", "G111", "CHF="):
+        for word in (",R", "#500", "RND=", "RND R", "G111", "CHF="):
             page.goto((site / "index.html").as_uri())
             page.keyboard.press("/")
             page.get_by_placeholder("Search").fill(word)
