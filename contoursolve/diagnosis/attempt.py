@@ -519,7 +519,7 @@ def _is_comma(edit: Edit) -> bool:
 def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], list[Block], list[Block]]:
     """Blocks as those of words that were moved before the contour, its own, and those of words moved behind it."""
     sides = [edit.errand.side for edit in edits if edit.kind is EditKind.MOVE and edit.errand]
-    first, last = sides.count(InsertionSide.BEFORE), len(blocks) - sides.count(InsertionSide.BEHIND)
+    first, last = sides.count(InsertionSide.BEFORE), len(blocks) - sides.count(InsertionSide.AFTER)
     return blocks[:first], blocks[first:last], blocks[last:]
 
 

@@ -42,7 +42,7 @@ class InsertionSide(Enum):
     """The place of a word that gets a block of its own."""
 
     BEFORE = "before"
-    BEHIND = "behind"
+    AFTER = "after"
 
 
 class Errand(Struct, frozen=True):
@@ -65,11 +65,11 @@ ERRANDS = (
     Errand("S", (), "spindle speed", InsertionSide.BEFORE, _ASSUMED),
     Errand("M", (3, 4), "spindle on", InsertionSide.BEFORE, _ASSUMED),
     Errand("M", (7, 8), "coolant on", InsertionSide.BEFORE, _ASSUMED),
-    Errand("M", (9,), "coolant off", InsertionSide.BEHIND, _ASSUMED),
-    Errand("M", (5,), "spindle off", InsertionSide.BEHIND, _ASSUMED),
-    Errand("M", (0, 1), "stop", InsertionSide.BEHIND, _ASSUMED),
-    Errand("M", (98, 99), "subprogram", InsertionSide.BEHIND, _ASSUMED),
-    Errand("M", (2, 30), "end of program", InsertionSide.BEHIND, _ASSUMED),
+    Errand("M", (9,), "coolant off", InsertionSide.AFTER, _ASSUMED),
+    Errand("M", (5,), "spindle off", InsertionSide.AFTER, _ASSUMED),
+    Errand("M", (0, 1), "stop", InsertionSide.AFTER, _ASSUMED),
+    Errand("M", (98, 99), "subprogram", InsertionSide.AFTER, _ASSUMED),
+    Errand("M", (2, 30), "end of program", InsertionSide.AFTER, _ASSUMED),
     Errand("M", (), "machine function", InsertionSide.BEFORE, _ASSUMED),
 )
 """The first row that fits counts; words that move to one side of a block stand there in the order of the rows."""
@@ -273,7 +273,7 @@ def _with_moved(text: str, edits: Iterable[Edit]) -> str:
     skipped = re.match(r"\s*(/\d*)", text)
     skip = skipped[1] if skipped else ""
     sides = {side: [skip + edit.old for row, edit in moved if ERRANDS[row].side is side] for side in InsertionSide}
-    return "\n".join([*sides[InsertionSide.BEFORE], text, *sides[InsertionSide.BEHIND]])
+    return "\n".join([*sides[InsertionSide.BEFORE], text, *sides[InsertionSide.AFTER]])
 
 
 def edit_facts(facts: Iterable[Directive], edits: Iterable[Edit]) -> tuple[Directive, ...]:

@@ -111,7 +111,7 @@ def test_of_several_solutions_each_has_one_label_with_what_selects_it():
     assert trails(answer) == {Role.SEVERAL: ["line 2", "line 3"] * 2}
     texts = drawn_texts(answer)
     assert [texts.count(f"FSELECT {number}") for number in (1, 2)] == [1, 1]
-    assert "behind" not in texts
+    assert "after" not in texts
 
 
 @pytest.mark.parametrize("number", [1, 2])

@@ -23,11 +23,11 @@ MOVED = {
     "S500": ("spindle speed", "before"),
     "M3": ("spindle on", "before"),
     "M08": ("coolant on", "before"),
-    "M09": ("coolant off", "behind"),
-    "M05": ("spindle off", "behind"),
-    "M00": ("stop", "behind"),
-    "M1": ("stop", "behind"),
-    "M30": ("end of program", "behind"),
+    "M09": ("coolant off", "after"),
+    "M05": ("spindle off", "after"),
+    "M00": ("stop", "after"),
+    "M1": ("stop", "after"),
+    "M30": ("end of program", "after"),
     "M41": ("machine function", "before"),
 }
 

@@ -23,7 +23,7 @@ def programs(count):
 
 def outside(kinds):
     """The lines that a control would leave out, by side: what stands before the first of two % with something between
-    them, and what stands behind the % that ends the program."""
+    them, and what stands after the % that ends the program."""
     marks = [line for line, kind in enumerate(kinds, 1) if kind == "%"]
     says = [line for line, kind in enumerate(kinds, 1) if kind in ("move", "code")]
     if not marks:
@@ -31,9 +31,9 @@ def outside(kinds):
     before = [line for line in says if line < marks[0]]
     has_pair = len(marks) > 1 and any(marks[0] < line < marks[1] for line in says)
     if before and not has_pair:
-        return {"behind": [line for line in says if line > marks[0]]}
+        return {"after": [line for line in says if line > marks[0]]}
     end = marks[1] if len(marks) > 1 else float("inf")
-    return {"before": before, "behind": [line for line in says if line > end]}
+    return {"before": before, "after": [line for line in says if line > end]}
 
 
 @pytest.mark.parametrize("control", ["yasnac-lx3", "nct-99m", None])
@@ -51,7 +51,7 @@ def test_linuxcnc_runs_what_is_not_named(tmp_path):
     compared = 0
     for kinds, text in programs(60):
         if "".join(kinds).startswith("%") and kinds.count("%") > 1:
-            inside = set(range(1, len(kinds) + 1)) - set(outside(kinds)["behind"])
+            inside = set(range(1, len(kinds) + 1)) - set(outside(kinds)["after"])
             moves = [line for line in sorted(inside) if kinds[line - 1] == "move"]
             ran = [
                 motion for motion in interpret(text.replace("T0101", "S1") + "\n", tmp_path) if motion.kind == "line"
