@@ -12,7 +12,7 @@ from contoursolve.postprocess.expander import OPENING, Expander
 from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Summary
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import SAME, machine_of
-from contoursolve.postprocess.restating import UNITS, InGCodes, InOwnWords
+from contoursolve.postprocess.restating import InGCodes, InOwnWords
 from contoursolve.program import Batch, Line, Lines, Request, attach, each_block, machine_for, walk
 from contoursolve.reading import Dialect
 
@@ -73,4 +73,4 @@ def opening_of(options: ExpansionOptions, dialect: Dialect, unit: Length, summar
     if dialect.diameter is not None:
         counts = summary.counts_diameters or any(dialect.initial_state(unit).plane.diameters)
         text = text.replace("G8 ", "G7 ") if counts else text.replace("G7 ", "G8 ")
-    return text.format(unit=UNITS[unit]) + summary.line_end if text else ""
+    return text.format(unit=options.post.code_of(unit)) + summary.line_end if text else ""

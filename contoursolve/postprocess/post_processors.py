@@ -90,6 +90,8 @@ class Post:
     """The control in whose own words contours are written, as far as it has them."""
     modes: Modes | None = None
     """The tables of the target: its codes for units and for X as a diameter, and how its comments look."""
+    offset: str = ""
+    """The word that takes the length and the radius of a tool; empty where G43 H takes one, and G41 D the other."""
 
     def switch(self, code: Code) -> str:
         """The target's code for units, or for X as a diameter. Empty for another code, and if it has none or the same
@@ -97,6 +99,19 @@ class Post:
         own = self.modes.codes.values() if self.modes and (code.unit or code.diameter) else ()
         same = [each for each in own if (each.unit, each.diameter) == (code.unit, code.diameter)]
         return same[0].text if same and all(each.text != code.text for each in same) else ""
+
+    def code_of(self, unit: Length) -> str:
+        """The code that sets a unit on the target: its own first one, else that of ISO programs."""
+        own = (each.text for each in self.modes.codes.values() if each.unit is unit) if self.modes else ()
+        return next(iter(own), {Length.INCH: "G20", Length.MM: "G21"}[unit])
+
+    def code(self, text: str) -> str:
+        """A code with the tool whose offset it takes, as G43 H4 and G41 D4, as the target writes it."""
+        code, _, tool = text.partition(" ")
+        if not self.offset or not tool or code not in ("G43", "G41", "G42"):
+            return text
+        offset = self.offset.format(tool=tool[1:])
+        return offset if code == "G43" else f"{code} {offset}"
 
     def digits(self, unit: Length, source: NumberFormat) -> int:
         """Decimals of a length."""
@@ -265,6 +280,10 @@ _INSTEAD = {
 } | {"isg": dict.fromkeys(MachineKind, _NAMED_BY_FILE)}
 
 
+_OFFSETS = {"siemens-840d": "D1", "siemens-808d": "D1", "isg": "D{tool}"}
+"""The cutting edge of the tool, or its record (assumed)."""
+
+
 def post_of(target: Dialect) -> Post:
     """A control as a target in whose own words contours are written: it reads the codes of its tables, and any M."""
     codes, numbers = target.modes.codes, target.modes.lexicon.numbers
@@ -281,7 +300,14 @@ def post_of(target: Dialect) -> Post:
     readings = {machine_of(target): reading}
     without_point = numbers.without_point
     return Post(
-        target.name, target.title, decimals, without_point, readings=readings, target=target, modes=target.modes
+        target.name,
+        target.title,
+        decimals,
+        without_point,
+        readings=readings,
+        target=target,
+        modes=target.modes,
+        offset=_OFFSETS.get(target.name, ""),
     )
 
 

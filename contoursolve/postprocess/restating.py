@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.gcode import Block, Word, comment_out, own_comments, remark
-from contoursolve.geometry import Length, Turn
+from contoursolve.geometry import Turn
 from contoursolve.postprocess.emit import MotionBlock, emit, longest
 from contoursolve.postprocess.expander import NAMES, Expander
 from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Summary
@@ -28,9 +28,6 @@ from contoursolve.reading import (
     frame_of,
 )
 from contoursolve.solving import ArcSegment
-
-UNITS = {Length.INCH: "G20", Length.MM: "G21"}
-"""The codes of units."""
 
 
 class _Expander(Expander):
@@ -118,8 +115,10 @@ class InGCodes(_Expander):
         said = self.plain.restate(block, state, after) if is_said else Restated()
         moves = list(self._moves(said, state))
         if is_said:
+            said = replace(said, says=self._says(said))
             if self.summary.unit not in (None, after.unit):
-                said = replace(said, says=said.says._replace(codes=(UNITS[after.unit], *said.says.codes)))
+                unit = self.options.post.code_of(after.unit)
+                said = replace(said, says=said.says._replace(codes=(unit, *said.says.codes)))
             self.summary.unit = after.unit if self.summary.unit is None else self.summary.unit
             self.summary.restated += 1
         yield from self._say_left(block, said.reason)
@@ -149,7 +148,11 @@ class InGCodes(_Expander):
     def _write(self, block: Block, moves: list[MotionBlock], end: str, state: State, _solved: Block) -> str:
         said = self.plain.beside(block, state)
         self.summary.unit = self.summary.unit or state.unit
-        return "".join(self._say_left(block, said.reason)) + self._lines(block, said.says, moves, end)
+        return "".join(self._say_left(block, said.reason)) + self._lines(block, self._says(said), moves, end)
+
+    def _says(self, said: Restated) -> Carried:
+        """What a block says besides its path, with the codes of the target."""
+        return said.says._replace(codes=tuple(map(self.options.post.code, said.says.codes)))
 
     def _say_left(self, block: Block, reason: str) -> Iterator[str]:
         """Lines with the reason why a block, or some of it, is not written. Blocks in a row with the same reason are

@@ -29,6 +29,19 @@ def words(text, to, **options):
     return found.text.split("\n")
 
 
+@pytest.mark.parametrize(
+    ("to", "codes"),
+    [
+        ("siemens-840d", ["G17 G71 G90 G94", "N4 D1 G00 Z100 M3", "N7 G41 D1 G01 X0 Y0 F300 ;START OF THE CONTOUR"]),
+        ("isg", ["G17 G71 G90 G94", "N4 D4 G00 Z100 M3", "N7 G41 D4 G01 X0 Y0 F300 (START OF THE CONTOUR)"]),
+        ("mitsubishi", ["G17 G21 G90 G94", "N4 G43 H4 G00 Z100 M3", "N7 G41 D4 G01 X0 Y0 F300 (START OF THE CONTOUR)"]),
+    ],
+)
+def test_a_klartext_program_gets_the_targets_codes_of_units_and_offsets(to, codes):
+    found = words((ROOT / "docs" / "programs" / "cam.h").read_text(), to)
+    assert [each for each in found if each in codes] == codes
+
+
 TAPER = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. {}F0.2\nG01 Z-60."
 
 
