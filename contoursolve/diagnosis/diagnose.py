@@ -132,10 +132,10 @@ _NEARLY = 1.0
 
 
 def _expected_first(finding: Diagnostic, repairs: tuple[Repair, ...], claim: ParsedContour) -> tuple[Repair, ...]:
-    """Repairs; where the first one writes a value in the word whose expected value the finding tells, the one that
-    writes that value is first, if a slip explains it."""
+    """Repairs; where the first one writes a value in the word whose expected value an error tells, the one that writes
+    that value is first, if a slip explains it. A warning expects what the control takes anyway."""
     given = next((each for each in claim.givens.values() if each.word and each.word.span == finding.span), None)
-    if given is None or given.word is None or "expected" not in finding.values:
+    if given is None or given.word is None or "expected" not in finding.values or finding.severity != Severity.ERROR:
         return repairs
     value = given.of_typed(finding.values["expected"])
     expected = write_word(given.word.address, value, claim.lexicon, claim.after.unit)
