@@ -18,7 +18,7 @@ MOST_WORDS = 20
 SENTENCE_ENDS = re.compile(r"[.;:!?](?=['\"`)\]]*(?:\s|$))|\n\s*(?:\n|\*)|->")
 FORBIDDEN = re.compile(
     r"\b(of which|(is|are) told|held against|there is nothing|tied|determin(ed|es|ant)|residual|constraint|infeasible|"
-    r"degenerate|rank)\b"
+    r"degenerate|rank|rests? on)\b"
 )
 SOLVER = (
     "diagnosis/diagnose.py",
