@@ -71,7 +71,7 @@ def examples(kind: str) -> list[pytest.ParameterSet]:
         pytest.param(name, tuple(example for rule in rules for example in getattr(rule, kind)), id=f"{name}-{number}")
         for name, dialect in DIALECTS.items()
         for number, rules in enumerate(
-            [dialect.rules[first : first + 12] for first in range(0, len(dialect.rules), 12)]
+            [dialect.catalogue[first : first + 12] for first in range(0, len(dialect.catalogue), 12)]
         )
     ]
 
