@@ -16,7 +16,7 @@ import generate_lx3
 import generate_nct
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, some_of
+from examples import some_of
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 import contoursolve
@@ -1013,7 +1013,7 @@ FEW_CONTROLS = [pytest.param(name, marks=[pytest.mark.slow] * (n % 4 > 0)) for n
 
 
 @pytest.mark.slow
-@few_and_many(1, 4)
+@pytest.mark.parametrize("count", [2])
 @pytest.mark.parametrize("control", FEW_CONTROLS)
 def test_what_is_tampered_with_is_caught_for_every_control(control, count):
     """Every kind of number, in the contour alone and with its like in the list of solutions, and contours that are

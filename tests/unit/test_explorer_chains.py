@@ -151,7 +151,7 @@ def act(talk: Conversation, rng: random.Random) -> dict[str, object] | None:
     ("text", "times"),
     [
         *((text, 6) for text in (LINES, POLAR)),
-        *(pytest.param(text, 30, marks=pytest.mark.slow) for text in (*PROGRAMS, *sorted(ACCEPTED))),
+        *(pytest.param(text, 12, marks=pytest.mark.slow) for text in (*PROGRAMS, *sorted(ACCEPTED))),
     ],
 )
 def test_whatever_the_reader_does_goes_without_trouble(text, times):

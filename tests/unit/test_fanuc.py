@@ -659,7 +659,7 @@ def test_the_catalogue_explains_alarms_and_lists_the_words():
 
 
 @pytest.mark.parametrize("settings", [{}, {"angle-sense": "ray"}, {"guard-deg": "0"}])
-@few_and_many(8, 60)
+@pytest.mark.parametrize("count", [24])
 @pytest.mark.slow
 def test_many_contours_of_a_program_come_out_as_each_alone(settings, count):
     """Programs with many contours of one form solve them together."""
