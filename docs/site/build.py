@@ -22,11 +22,12 @@ from types import ModuleType
 from urllib.parse import urlsplit
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from manual import alarms_page, control_page, manuals, rule_page, words_page, words_title
+from manual import alarms_page, control_page, manuals, rule_page, setting_anchor, words_page, words_title
 
 import contoursolve
 from contoursolve import pictures
 from contoursolve.controls import DIALECTS
+from contoursolve.geometry import Unit
 
 ROOT = Path(__file__).parents[2]
 TRY = Path(__file__).with_name("try")
@@ -116,12 +117,14 @@ def with_own_worker(page: bytes, up: str) -> bytes:
 
 def with_controls(index: str, titles: dict[str, str]) -> str:
     """The index of the search with the control of each rule: what is in no menu has its own title there once more, and
-    would be found before a word of that name."""
+    would be found before a word of that name. So would names of the reference without `contoursolve.`"""
     begin = index.index("{")
     found, end = json.JSONDecoder().raw_decode(index, begin)
     for item in found["items"]:
         title = titles.get(item["location"].partition("#")[0].replace(".html", ".md"))
         item["path"] = ["Manuals of the controls", title] if title else item["path"]
+        page, _, name = item["location"].partition("#")
+        item["title"] = name if page == "reference.html" and name.startswith("contoursolve.") else item["title"]
     return index[:begin] + json.dumps(found, separators=(",", ":")) + index[end:]
 
 
@@ -196,6 +199,27 @@ def rules_index() -> Iterator[str]:
         words = f"[words]({dialect.name}/words.md)"
         yield f"| [{dialect.title}]({dialect.name}.md) | {words} | {' | '.join(map(str, counts))} |"
     yield "\n`contoursolve rules` lists them in the terminal, `contoursolve explain CODE` prints one of them."
+    yield from counted_from()
+
+
+def counted_from() -> Iterator[str]:
+    """What X is and from where angles count, of all controls."""
+    yield "\n## Is X a diameter or a radius? From where does an angle count?\n"
+    yield "| control | X | angle of a line | settings about it |\n|---|---|---|---|"
+    for dialect in DIALECTS.values():
+        rows = dialect.modes.lexicon.addresses
+        angles = [
+            f"`{row.address}`: {row.meaning}"
+            for row in rows.values()
+            if row.unit is Unit.DEGREE and re.search(r"\bof (the )?line\b|^travel direction", row.meaning)
+        ]
+        asked = [each for each in dialect.settings if re.search(r"\bX is\b|A counts|after ,A", each.meaning)]
+        is_open = dialect.diameter is not None or any("X is" in each.meaning for each in asked)
+        what = "a diameter" if rows["X"].is_diameter else "as it is: the control is for mills"
+        what = "a diameter or a radius, as the program or a setting says" if is_open else what
+        about = [f"[{each.name}]({dialect.name}.md#{setting_anchor(each)})" for each in asked]
+        cells = (what, "<br>".join(angles), ", ".join(about))
+        yield f"| [{dialect.title}]({dialect.name}/words.md) | {' | '.join(cells)} |"
 
 
 # Reference ---------------------------------------------------------------------------------------------------

@@ -15,8 +15,14 @@ from contoursolve.geometry import Unit
 from contoursolve.output import alarm_rows
 from contoursolve.pictures import draw_result
 from contoursolve.program import Result
-from contoursolve.reading import THIS_CONTROL, Address, Code, Dialect, Effect, ReadIssue, Rule, WithoutPoint
+from contoursolve.reading import THIS_CONTROL, Address, Code, Dialect, Effect, ReadIssue, Rule, Setting, WithoutPoint
 from contoursolve.try_edits import try_example
+
+SHORT = 4
+"""Words of a meaning that stands in the title of a section."""
+
+IN_ALL = frozenset.intersection(*(frozenset(each.name for each in one.settings) for one in DIALECTS.values()))
+"""Settings that every control has."""
 
 LONGEST = 100
 """Characters of a line that is shown; only the rule about long blocks has longer ones."""
@@ -131,7 +137,12 @@ def control_page(manual: Manual) -> Iterator[str]:
             yield f"| [{rule.code}]({manual.place(rule.code)}) | {' | '.join(cells)} |"
     yield "\n## Settings { #settings }\n"
     yield "What the manual leaves open, and you can choose:\n"
-    for setting in dialect.settings:
+    last = ""
+    for setting in sorted(dialect.settings, key=lambda each: each.name in IN_ALL):  # the sort is stable
+        title = "Settings that all controls have" if setting.name in IN_ALL else f"{setting.name}, a setting"
+        if title != last:
+            yield f"\n### {title} {{ #{setting_anchor(setting)} }}\n"
+        last = title
         yield f"* **{plain(setting.meaning)}** ({plain(str(setting.source))})"
         for value, meaning in setting.values.items():
             default = ", the default" if value == setting.default else ""
@@ -141,6 +152,11 @@ def control_page(manual: Manual) -> Iterator[str]:
     yield "\n## Assumptions { #assumptions }\n"
     for each in dialect.assumptions:
         yield f"* `{each.name}`: {plain(each.meaning)} ({plain(str(each.source))})"
+
+
+def setting_anchor(setting: Setting) -> str:
+    """Where a setting stands on the page of its control."""
+    return "settings-of-all" if setting.name in IN_ALL else f"{setting.name}-setting"
 
 
 def rule_page(manual: Manual, rule: Rule) -> Iterator[str]:
@@ -248,15 +264,19 @@ def _kind(row: Address, dialect: Dialect) -> str:
 def _word_section(
     manual: Manual, name: str, address: str, meaning: str, kind: str, row: Address | Code
 ) -> Iterator[str]:
-    yield f"\n## {name} {{ #{re.sub('[^a-z0-9]+', '-', name.lower()).strip('-') or 'word'}-word }}\n"
+    short = re.split("[:;,]", meaning)[0]  # in the title, where the search looks first
+    title = f"{name}, {plain(short)}" if len(short.split()) <= SHORT else name
+    title = f"{name}, {name}0" if re.search("(?:^|[,;] )0 ", meaning) else title
+    yield f"\n## {title} {{ #{re.sub('[^a-z0-9]+', '-', name.lower()).strip('-') or 'word'}-word }}\n"
     yield f"`{name}`: {plain(meaning)}\n"
-    yield f"* Unit: {plain(kind)}"
+    yield f"* Unit: {plain(kind)}{_signed(manual, address, row)}"
     yield f"* Source: {plain(str(row.source))}"
     where, is_code = re.compile(rf"(?<![\w,#]){re.escape(name)}(?![A-Za-z])"), isinstance(row, Code)
     touching = [each for each in manual.dialect.settings if where.search(f"{each.meaning} {' '.join(each.values)}")]
     if touching:
-        told = ", ".join(f"`{each.name}` ({plain(each.meaning)})" for each in touching)
-        yield f"* Settings: [{told}](../{manual.control}.md#settings)"
+        place = f"../{manual.control}.md"
+        told = (f"[{each.name}]({place}#{setting_anchor(each)}) ({plain(each.meaning)})" for each in touching)
+        yield f"* Settings: {', '.join(told)}"
     wrong = [
         code
         for code, (examples, _) in manual.shown.items()
@@ -282,6 +302,15 @@ def _word_section(
         raise SystemExit(f"{manual.control} has no right block with {name}: add one to `right` in its examples.py")
 
 
+def _signed(manual: Manual, address: str, row: Address | Code) -> str:
+    """Of a length along no axis that may be negative: such a word."""
+    if isinstance(row, Code) or row.axis or row.unit is not Unit.MM:
+        return ""
+    right = (each.words.get(address, "") for _, examples in manual.shown.values() for each in examples)
+    word = next((each for each in right if "-" in each), "")
+    return f"; with a sign, as in `{word}`" if word else ""
+
+
 def _right_block(manual: Manual, code: str, right: Shown, name: str) -> Iterator[str]:
     rule = next(rule for rule in manual.dialect.catalogue if rule.code == code)
     with_options = f", with `{rule.options.replace(THIS_CONTROL, manual.control)}`" if rule.options else ""
@@ -297,12 +326,20 @@ def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:
     yield "Look for the number that your machine shows. `contoursolve explain NUMBER` says the same in the terminal.\n"
     places = {manual.control: manual for manual in all_manuals}
     rows: dict[str, list[str]] = {}
+    known: dict[str, dict[str, None]] = {manual.control: {} for manual in all_manuals}
     for row in alarm_rows(DIALECTS.values()):
         manual = places[row.control]
         told = f"[{row.rule.code}]({manual.place(row.rule.code)})" if row.rule.code in manual.shown else row.rule.code
         line = f"* {manual.dialect.title}, {plain(row.alarm.number)} ({row.alarm.evidence.value}): {told}, "
         for number in row.numbers:
+            known[row.control][plain(number)] = None
             rows.setdefault(number, []).append(line + plain(row.rule.title))
+    yield "## Which alarm numbers are here?\n"
+    yield "Is your number not here, such as one about `,C` or `,R`?"
+    yield "`contoursolve check PROGRAM` names the wrong word without the number.\n"
+    yield "| control | alarm numbers |\n|---|---|"
+    for control, numbers in known.items():
+        yield f"| [{places[control].dialect.title}]({control}.md) | {', '.join(numbers) or 'none that we know'} |"
     for number in sorted(rows, key=lambda each: (not each.isdigit(), len(each), each)):
         is_newer = len(number) == len("055") and any("Fanuc" in line for line in rows[number])
         yield f"\n## {number}{f', PS{number:0>4}' if is_newer else ''}\n"
