@@ -187,11 +187,15 @@ def rules_index() -> Iterator[str]:
     yield "# Manuals of the controls\n"
     yield "Each control has its words, its rules with wrong and right blocks, and its settings."
     yield "Your machine shows a number? Look it up in the [alarm numbers](alarms.md)."
+    yield "\n## How to read these pages { #how-to-read }\n"
+    yield "`<word>` in a rule stands for a word of your program, `<line>` and `<element>` for parts of its contour."
+    yield "`<actual>`, `<limit>` and the like stand for numbers, which contoursolve fills in."
     yield "Each fact has a source, and the grade of the source:\n"
     yield "| grade | meaning |\n|---|---|"
     yield "| printed | read on a page of the control's manual |"
     yield "| derived | follows from printed facts by geometry or symmetry |"
     yield "| assumed | our choice where the pages that we have are silent |\n"
+    yield "## The controls\n"
     yield "| control | words | rules | printed | derived | assumed |\n|---|---|--:|--:|--:|--:|"
     for dialect in DIALECTS.values():
         grades = [rule.source.evidence.value for rule in dialect.catalogue]
@@ -215,7 +219,7 @@ def counted_from() -> Iterator[str]:
         ]
         asked = [each for each in dialect.settings if re.search(r"\bX is\b|A counts|after ,A", each.meaning)]
         is_open = dialect.diameter is not None or any("X is" in each.meaning for each in asked)
-        what = "a diameter" if rows["X"].is_diameter else "as it is: the control is for mills"
+        what = "a diameter" if rows["X"].is_diameter else "no diameter: a mill"
         what = "a diameter or a radius, as the program or a setting says" if is_open else what
         about = [f"[{each.name}]({dialect.name}.md#{setting_anchor(each)})" for each in asked]
         cells = (what, "<br>".join(angles), ", ".join(about))

@@ -24,6 +24,8 @@ SHORT = 4
 IN_ALL = frozenset.intersection(*(frozenset(each.name for each in one.settings) for one in DIALECTS.values()))
 """Settings that every control has."""
 
+HOW_TO_READ = "[How to read this page](../index.md#how-to-read)"
+
 LONGEST = 100
 """Characters of a line that is shown; only the rule about long blocks has longer ones."""
 
@@ -162,7 +164,7 @@ def setting_anchor(setting: Setting) -> str:
 def rule_page(manual: Manual, rule: Rule) -> Iterator[str]:
     """A rule: what it says, why, a wrong block and a right one, alarm, source and grade."""
     yield f"# {rule.code}, {manual.dialect.title}\n"
-    yield f"[All rules](../{manual.control}.md#rules) · [Words](words.md)\n"
+    yield f"[All rules](../{manual.control}.md#rules) · [Words](words.md) · {HOW_TO_READ}\n"
     yield f"{rule.severity.value.capitalize()}: {plain(rule.title)}\n"
     yield f"* What to do: {plain(rule.advice)}"
     if rule.note:
@@ -201,7 +203,7 @@ def words_page(manual: Manual) -> Iterator[str]:
     """The words of a control: each with its meaning, unit, a right block, and what goes wrong with it."""
     dialect = manual.dialect
     yield f"# {dialect.title}: {words_title(dialect)}\n"
-    yield f"[All rules of this control](../{manual.control}.md#rules)\n"
+    yield f"[All rules of this control](../{manual.control}.md#rules) · {HOW_TO_READ}\n"
     yield plain(f"Numbers: {_numbers(dialect)} ({dialect.modes.lexicon.numbers.source}).")
     for row in dialect.modes.lexicon.addresses.values():
         yield from _word_section(manual, typed(row.address, manual), row.address, row.meaning, _kind(row, dialect), row)
@@ -323,7 +325,8 @@ def _right_block(manual: Manual, code: str, right: Shown, name: str) -> Iterator
 def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:
     """The alarm numbers of all machines, each with what contoursolve says of it."""
     yield "# Alarm numbers\n"
-    yield "Look for the number that your machine shows. `contoursolve explain NUMBER` says the same in the terminal.\n"
+    yield "Look for the number that your machine shows. `contoursolve explain NUMBER` says the same in the terminal."
+    yield "[How to read these pages](index.md#how-to-read) tells what `<word>` and `(assumed)` mean.\n"
     places = {manual.control: manual for manual in all_manuals}
     rows: dict[str, list[str]] = {}
     known: dict[str, dict[str, None]] = {manual.control: {} for manual in all_manuals}
@@ -339,11 +342,17 @@ def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:
     yield "`contoursolve check PROGRAM` names the wrong word without the number.\n"
     yield "| control | alarm numbers |\n|---|---|"
     for control, numbers in known.items():
-        yield f"| [{places[control].dialect.title}]({control}.md) | {', '.join(numbers) or 'none that we know'} |"
-    for number in sorted(rows, key=lambda each: (not each.isdigit(), len(each), each)):
+        told = ", ".join(sorted(numbers, key=by_number)) or "none that we know"
+        yield f"| [{places[control].dialect.title}]({control}.md) | {told} |"
+    for number in sorted(rows, key=by_number):
         is_newer = len(number) == len("055") and any("Fanuc" in line for line in rows[number])
         yield f"\n## {number}{f', PS{number:0>4}' if is_newer else ''}\n"
         yield from dict.fromkeys(rows[number])
+
+
+def by_number(number: str) -> tuple[bool, int, str]:
+    """The order of alarm numbers."""
+    return not number.isdigit(), len(number), number
 
 
 def fenced(text: str) -> Iterator[str]:
