@@ -8,7 +8,7 @@ from contoursolve.reading import ReadIssue, Rule
 _NAMED = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
 """A program that shows its control."""
 
-_WAYS = "by --control, in contoursolve.toml or in the list of the page"
+_WAYS = "by --control, in contoursolve.toml or in the workbench's list"
 """All ways to name a control: a reader stands at the command line, in an editor or at the workbench."""
 
 _GRAMMAR = own_source("grammar of a word: an address and a number")
@@ -357,7 +357,7 @@ READING_RULES = (
     Rule(
         code="control-unknown",
         message="control not recognised; {readings}",
-        help="name the control by --control {control}, in contoursolve.toml or in the list of the page",
+        help="name the control by --control {control}, in contoursolve.toml or in the workbench's list",
         source=_READING,
         about=ReadIssue.CONTROL_UNKNOWN,
         accepted=(_NAMED,),
@@ -366,7 +366,7 @@ READING_RULES = (
     Rule(
         code="control-alike",
         message="{controls} read this program alike: its findings are those of {control}; "
-        "name yours by --control, or in the list of the page",
+        "name yours by --control, or in the workbench's list",
         help=f"name your control {_WAYS}: rules, alarms and fixes are then its own",
         source=_READING,
         about=ReadIssue.CONTROL_ALIKE,

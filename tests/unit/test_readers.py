@@ -36,7 +36,7 @@ def test_a_program_that_all_its_controls_read_alike_is_solved_and_the_first_is_n
     assert (told.code, told.severity.value, found.control) == ("control-alike", "info", first)
     assert (
         told.message == f"{readers} read this program alike: its findings are those of {first}; "
-        "name yours by --control, or in the list of the page"
+        "name yours by --control, or in the workbench's list"
     )
     assert [answer.contour.end for answer in found.answers] == [pytest.approx(end)]
     assert solve(program, control=first).answers == found.answers
