@@ -757,7 +757,7 @@ def test_a_map_of_many_even_values_has_even_axes_and_counts_all_of_them():
         steps = numpy.diff([text.at[0] for text in ticks])
         assert len(ticks) > 3
         assert steps == pytest.approx(steps[0], abs=1e-6)
-    told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
+    told = ", ".join(f"{number:,} {contoursolve.status_text(status)}" for status, number in family.summary().items())
     assert picture.title == f"P and A: {told}"
     assert "drawn: 200 of 401 values of A; the title counts all contours" in labels(picture)
     # A sweep draws the same from the values that it draws alone.
