@@ -53,7 +53,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
 
 
-QUICK_CASES = 4
+QUICK_CASES = 2
 """Of a test with more cases, so many are run by default, drawn by their names; the others are slow."""
 
 

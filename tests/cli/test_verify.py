@@ -1585,6 +1585,7 @@ X9999999999999999999999999999999. A9999999999999999999999999999999. ,A9999999999
 WORDS = st.sampled_from([*VOCABULARY.split(), "\n"])
 
 
+@pytest.mark.slow
 @FUZZ
 @given(
     words=st.lists(WORDS, max_size=12).map(" ".join),

@@ -83,6 +83,7 @@ def test_corners_between_plain_moves_are_those_of_other_controls(seed):
 FULL_CIRCLES = ("C X{x} Y{y} DR{s}", "C IX+0 IY+0 DR{s}", "C DR{s}", "CP IPA{s}360 DR{s}", "CP PA{a} DR{s}")
 
 
+@pytest.mark.slow
 @some_of("seed", range(60), one_in=3)
 def test_a_full_circle_between_corners_is_what_the_corners_leave_of_it(seed):
     """Each corner is that beside half of the circle."""

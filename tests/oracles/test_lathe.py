@@ -77,6 +77,7 @@ def test_g112_is_the_drawing_it_was_written_from(count):
             assert answer.certificate.proof.value in ("exact", "unique")
 
 
+@pytest.mark.slow
 @few_and_many(15, 60)
 def test_g11_g12_and_g01_are_the_drawings_they_were_written_from(count):
     rng = random.Random(11)

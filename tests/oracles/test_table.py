@@ -194,6 +194,7 @@ def test_a_legal_set_of_words_of_the_mill_leaves_nothing_free(form):
             assert form not in ("line-circle", "circle-circle") or refused
 
 
+@pytest.mark.slow
 def test_table_has_every_set_of_letters_once():
     sets = chain.from_iterable(combinations(LETTERS, size) for size in range(len(LETTERS) + 1))
     assert set(g111_rows()) == set(map(frozenset, sets))

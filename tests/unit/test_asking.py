@@ -931,6 +931,7 @@ VALUELESS = [
 ]
 
 
+@pytest.mark.slow
 @some_of("fact", VALUELESS, one_in=4)
 def test_a_fact_without_a_value_that_contradicts_the_words_is_named(fact: str) -> None:
     contour, found = contour_of(ONE.replace("Q5.", "Q4."), fact)

@@ -297,6 +297,7 @@ def test_status_is_that_of_the_ranks(count):
             assert status in ("overdetermined" if dependent else "solved", "no-solution"), said
 
 
+@pytest.mark.slow
 @FOR_DIAGNOSES
 def test_amount_of_a_tie_is_the_largest_change_of_one_word_that_makes_it_agree(count):
     seen = 0
@@ -534,6 +535,7 @@ def test_fix_applied_solves_the_block_and_removes_its_findings(count):
     assert count < 60 or all(seen[kind] > count / 30 for kind in KINDS if kind != "missing"), seen
 
 
+@pytest.mark.slow
 @FOR_BLOCKS
 def test_fix_offered_with_the_rules_off_removes_the_findings_that_it_was_offered_for(count):
     wrong = []

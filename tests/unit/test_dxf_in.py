@@ -416,6 +416,7 @@ def test_a_dimension_that_is_not_of_the_chain_or_of_another_scale_is_told():
     )
 
 
+@pytest.mark.slow
 def test_a_binary_drawing_is_read_and_a_damaged_one_is_told():
     document, space = plate()
     document.layers.add("Außenkontur")

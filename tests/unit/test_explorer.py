@@ -206,6 +206,7 @@ def test_a_contour_of_a_broken_program_has_its_own_findings_and_fixes():
     assert explore.rewrite_block(gone, now.block).text == text
 
 
+@pytest.mark.slow
 def test_a_line_without_a_contour_of_its_own_is_told_in_one_sentence():
     text = (PROGRAMS / "shaft.nc").read_text()
     with pytest.raises(

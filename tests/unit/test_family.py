@@ -346,6 +346,7 @@ def test_the_start_point_must_be_known():
         family(BLOCK, vary={"A": [180]})
 
 
+@pytest.mark.slow
 def test_families_go_to_arrow_parquet_and_xarray(tmp_path):
     from pyarrow import parquet  # noqa: PLC0415
 

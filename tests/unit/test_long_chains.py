@@ -29,6 +29,7 @@ LONG = list(CHAINS)[:-1]
 """Those that are slow to count."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=pytest.mark.slow) if name in LONG else name for name in CHAINS]
 )

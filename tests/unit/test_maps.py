@@ -231,6 +231,7 @@ def test_a_map_of_long_contours_holds_fewer_of_them():
     assert f"of {len(data['columns'])} by {len(data['rows'])} values, the map has 60 by 60" in data["note"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BOXES)
 def test_a_click_opens_the_block_with_these_values_in_the_explorer(name):
     _, box, _ = BOXES[name]

@@ -145,6 +145,7 @@ def test_a_number_without_a_point_is_what_the_setting_says():
     assert mitsubishi(text, number="increment").answers[0].contour.end == pytest.approx((0.04, 3.1416e-5), abs=1e-7)
 
 
+@pytest.mark.slow
 def test_a_centre_counted_from_an_end_that_is_to_be_found_is_refused():
     for text in (ARCS, LEAVING):
         assert "mitsubishi-centre-from-end" not in codes(text)

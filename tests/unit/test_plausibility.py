@@ -68,6 +68,7 @@ def test_without_its_weight_another_fix_comes_first(feature, monkeypatch):
     assert not first_fix(name).startswith(expected)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ya-spindle-01", "nc-plate-02", "ya-flange-02", "mi-lever-02"])
 def test_the_first_fix_is_the_same_in_whatever_order_words_stand(name):
     lines = [line.split() for line in SLIPS[name]["slip"]]

@@ -375,6 +375,7 @@ def test_a_rounding_in_force_that_does_not_fit_is_named():
     refused(MILL + "RNDM=20\nG1 X30\nY10\nX50", "siemens-corner-too-large")
 
 
+@pytest.mark.slow
 def test_a_tangent_arc_follows_lines_arcs_and_tangent_arcs():
     expected = drawn("0 0; 10 0; ccw 20 10 10 10; cw 30 0 30 10; cw 40 10 30 10", 1)
     assert gap(expected, path(MILL + "G1 X10\nCT X20 Y10\nX30 Y0\nX40 Y10")) < 1e-9

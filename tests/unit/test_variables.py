@@ -43,6 +43,7 @@ def test_two_variables_are_named_with_the_reason_of_each():
     assert notes(START + "#100=#5041\n#101=5.\n" + BLOCK)[-2:] == ("#101 is 5. here", "#100: #5041 is the machine's")
 
 
+@pytest.mark.slow
 @given(value=st.floats(30.0, 300.0).map(lambda each: round(each, 3)))
 def test_what_is_said_of_a_value_holds_for_it(value):
     text = START + BLOCK.replace("#101", "5.")

@@ -111,10 +111,6 @@ def walk(folder, steps, seed):
     return sizes
 
 
-def test_random_actions_raise_nothing_and_lose_no_text(tmp_path):
-    walk(tmp_path, 12, 1)
-
-
 @pytest.mark.slow
 def test_memory_stays_flat_over_many_random_actions(tmp_path):
     sizes = walk(tmp_path, 1_600, 2)
