@@ -27,13 +27,26 @@ ABOUT_CENTER = ("C", "CP")
 """Arcs about CC."""
 TANGENT = ("FLT", "FCT", "CT", "CTP")
 """Elements that begin in the direction of the one before them."""
-MOVES = ("L", "LP", "C", "CP", "CR", "CT", "CTP", *FREE)
+_MEANINGS = {
+    "L": "line to a point",
+    "LP": "line to a point by PR and PA",
+    "C": "arc about CC to a point",
+    "CP": "arc about CC by its angle",
+    "CR": "arc by its radius",
+    "CT": "arc that touches the element before it",
+    "CTP": "arc that touches the element before it, by PR and PA",
+    "FL": "line of which some data are known",
+    "FLT": "line of which some data are known, and which touches the element before it",
+    "FC": "arc of which some data are known",
+    "FCT": "arc of which some data are known, and which touches the element before it",
+}
+MOVES = (*_MEANINGS,)
 _WAYS = ("PLT", "PLN", "PCT", "PLCT", "LT", "LN", "CT", "LCT")
 APPROACHES = tuple(f"{side} {way}" for side in ("APPR", "DEP") for way in _WAYS)
 
 _FIRST_CODE = 20_001
 _FUNCTIONS: tuple[tuple[Effect, str, tuple[str, ...], Source], ...] = (
-    (Effect.CONTOUR, "element of a contour", MOVES, _PATH),
+    *((Effect.CONTOUR, meaning, (name,), _PATH) for name, meaning in _MEANINGS.items()),
     (Effect.CONTOUR, "pole of a free contour", ("FPOL",), _FK),
     (Effect.NONE, "centre of a circle, or pole", ("CC",), _PATH),
     (Effect.NONE, "approach or departure", APPROACHES, BOOK.printed("approach and departure")),
