@@ -151,7 +151,7 @@ class InGCodes(_Expander):
         return "".join(self._say_left(block, said.reason)) + self._lines(block, self._says(said), moves, end)
 
     def _says(self, said: Restated) -> Carried:
-        """What a block says besides its path, with the codes of the target."""
+        """The words of a block besides its path, with the codes of the target."""
         return said.says._replace(codes=tuple(map(self.options.post.code, said.says.codes)))
 
     def _say_left(self, block: Block, reason: str) -> Iterator[str]:

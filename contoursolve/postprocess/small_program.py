@@ -43,6 +43,12 @@ def ending_of(target: Dialect) -> str:
     return _FRAMES.get(target.name, _ISO)[2]
 
 
+def says_unit(target: Dialect, unit: Length) -> bool:
+    """Whether a program for a control can say its unit: by a code, or in its first line. Nobody has to say mm."""
+    has_code = any(each.unit is unit for each in target.modes.codes.values())
+    return unit is Length.MM or has_code or any("{unit}" in line for line in _FRAMES.get(target.name, _ISO)[0])
+
+
 class ReadBack(Struct, frozen=True):
     """A small program as it is read back: by how much its contour is off, mm, and where it ends. Where it is another
     contour, or has a finding, `deviation` is None: `block` of the contour is to blame, or a `word`, for a `reason`."""

@@ -15,7 +15,7 @@ from contoursolve.postprocess.expansion_report import ConversionError
 from contoursolve.postprocess.form_wordings import FormWordings
 from contoursolve.postprocess.klartext_wordings import KlartextWordings
 from contoursolve.postprocess.post_processors import MachineKind, machine_of
-from contoursolve.postprocess.small_program import ReadBack, SmallProgram
+from contoursolve.postprocess.small_program import ReadBack, SmallProgram, says_unit
 from contoursolve.postprocess.wordings import (
     HostProgram,
     NumberGround,
@@ -99,6 +99,9 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
     if machine_of(target) is not kind:
         made = {MachineKind.LATHE: "turned", MachineKind.MILL: "milled"}[kind]
         reason = f"the contour is {made}, and this control is for {machine_of(target).value}s"
+        return Written(target.name, target.title, (), reason)
+    if not says_unit(target, drawn.unit):
+        reason = "the contour is in inch, and no word of this control says so: write it in mm"
         return Written(target.name, target.title, (), reason)
     rounded, found = with_roundings(drawn), list[WrittenContour]()
     search = _Search([drawn] if rounded == drawn else [drawn, rounded], target, answer)

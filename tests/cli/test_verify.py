@@ -925,7 +925,9 @@ def test_no_other_status_passes_for_what_lists_solutions_and_answers(desk, name)
             assert verdict == "failed" or is_open or (verdict == "nothing-checked" and not has_paths), (other, verdict)
 
 
-WORKED = [path for folder in (PROGRAMS, PAGES) for path in sorted(folder.iterdir()) if path.suffix != ".toml"]
+WORKED = [
+    path for folder in (PROGRAMS, PAGES) for path in sorted(folder.iterdir()) if path.suffix not in (".toml", ".dxf")
+]
 OF_SEVERAL = {PAGES / "plate.nc": "fanuc-mill"}
 """Programs that controls read differently, and the one that they are for."""
 

@@ -858,7 +858,7 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     family = contoursolve.family(
         BLOCK, start=START, vary={"A": numpy.arange(120, 250.1, 2), "P": numpy.arange(1, 60.1, 0.5), "Q": [5.0]}
     )
-    told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
+    told = ", ".join(f"{number:,} {contoursolve.status_text(status)}" for status, number in family.summary().items())
     assert draw_family_map(family).title == f"A and P: {told}"
     for wrong, said in (
         ((*both, "--vary", "X=90,100"), "has 3 words"),
