@@ -35,10 +35,10 @@ _MEANINGS = {
     "CR": "arc by its radius",
     "CT": "arc that touches the element before it",
     "CTP": "arc that touches the element before it, by PR and PA",
-    "FL": "line of which some data are known",
-    "FLT": "line of which some data are known, and which touches the element before it",
-    "FC": "arc of which some data are known",
-    "FCT": "arc of which some data are known, and which touches the element before it",
+    "FL": "line by any of its data",
+    "FLT": "line by any of its data; it touches the element before it",
+    "FC": "arc by any of its data",
+    "FCT": "arc by any of its data; it touches the element before it",
 }
 MOVES = (*_MEANINGS,)
 _WAYS = ("PLT", "PLN", "PCT", "PLCT", "LT", "LN", "CT", "LCT")
