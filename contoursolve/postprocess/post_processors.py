@@ -102,8 +102,8 @@ class Post:
 
     def code_of(self, unit: Length) -> str:
         """The code that sets a unit on the target: its own first one, else that of ISO programs."""
-        own = (each.text for each in self.modes.codes.values() if each.unit is unit) if self.modes else ()
-        return next(iter(own), {Length.INCH: "G20", Length.MM: "G21"}[unit])
+        own = self.modes.code_of(unit) if self.modes else ""
+        return own or {Length.INCH: "G20", Length.MM: "G21"}[unit]
 
     def code(self, text: str) -> str:
         """A code with the tool whose offset it takes, as G43 H4 and G41 D4, as the target writes it."""

@@ -45,8 +45,11 @@ def ending_of(target: Dialect) -> str:
 
 def says_unit(target: Dialect, unit: Length) -> bool:
     """Whether a program for a control can say its unit: by a code, or in its first line. Nobody has to say mm."""
-    has_code = any(each.unit is unit for each in target.modes.codes.values())
-    return unit is Length.MM or has_code or any("{unit}" in line for line in _FRAMES.get(target.name, _ISO)[0])
+    return (
+        unit is Length.MM
+        or target.modes.code_of(unit) != ""
+        or any("{unit}" in line for line in _FRAMES.get(target.name, _ISO)[0])
+    )
 
 
 class ReadBack(Struct, frozen=True):
@@ -168,7 +171,7 @@ def _opening(target: Dialect, drawn: ContourDrawing) -> str:
     """The block that says how the words of a program are read."""
     modes = target.modes
     rows, is_mill = modes.codes.values(), machine_of(target) is MachineKind.MILL
-    codes = [each.text for each in rows if each.unit is drawn.unit][:1]
+    codes = [*filter(None, [modes.code_of(drawn.unit)])]
     if is_mill or target.diameter is not None:
         codes += [each.text for each in rows if each.plane and each.plane.code == drawn.plane.code]
     if 91 in modes.codes:  # noqa: PLR2004 - its code

@@ -242,6 +242,10 @@ class Modes:
     """From the state before a block that is no contour to the one behind it, where the control is not programmed in G
     codes."""
 
+    def code_of(self, unit: Length) -> str:
+        """The first code that sets a unit; empty where none does."""
+        return next((each.text for each in self.codes.values() if each.unit is unit), "")
+
     def is_call(self, word: Word) -> bool:
         """Whether a word calls or ends a subprogram."""
         return (word.address == "M" and word.number in self.calls) or word.address in self.call_addresses
