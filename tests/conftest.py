@@ -21,7 +21,7 @@ sys.modules.setdefault("rfc3987_syntax", None)
 
 # How many examples a law takes by default, and as a slow test.
 settings.register_profile("dev", max_examples=10, deadline=None, derandomize=True)
-settings.register_profile("ci", settings.get_profile("dev"), max_examples=80)
+settings.register_profile("ci", settings.get_profile("dev"), max_examples=20)
 settings.load_profile("dev")
 
 PROGRAMS = {
@@ -45,6 +45,7 @@ PACKAGES = {
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("contoursolve")
     group.addoption("--insist", action="store_true", help="fail where a program or a package is missing, not skip")
+    group.addoption("--one-in", metavar="N", type=int, help="of a test with many slow cases, run one in N of these")
     group.addoption("--sarif-schema", metavar="FILE", help="the SARIF 2.1.0 schema, which our output is held against")
     group.addoption("--axe", metavar="FILE", help="axe.min.js of axe-core, by which pages are held to be accessible")
     group.addoption("--code-server", metavar="FOLDER", help="where code-server is, or is to stay for the next time")
@@ -58,14 +59,32 @@ QUICK_CASES = 2
 
 
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    cases = defaultdict(list)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    quick, slow = defaultdict(list), defaultdict(list)
     for item in items:
-        if isinstance(item, pytest.Function) and not any(mark.name in SLOW for mark in item.iter_markers()):
-            cases[item.path, item.originalname].append(item)
-    for each in cases.values():
-        for item in sorted(each, key=lambda item: crc32(item.name.encode()))[QUICK_CASES:]:
+        if isinstance(item, pytest.Function):
+            own = {mark.name for mark in item.iter_markers()} & SLOW
+            if not own:
+                quick[item.path, item.originalname].append(item)
+            elif own <= {"slow", "interpreter"}:
+                slow[item.path, item.originalname].append(item)
+    for name, cases in quick.items():
+        for item in sorted(cases, key=drawn)[QUICK_CASES:]:
             item.add_marker("slow")
+            slow[name].append(item)
+    if one_in := config.getoption("--one-in"):
+        left = {
+            item
+            for cases in slow.values()
+            for item in sorted(cases, key=drawn)[max(QUICK_CASES, len(cases) // one_in) :]
+        }
+        config.hook.pytest_deselected(items=[item for item in items if item in left])
+        items[:] = [item for item in items if item not in left]
+
+
+def drawn(item: pytest.Item) -> int:
+    """A number by which cases are drawn: of the name, so that it is the same wherever they are drawn."""
+    return crc32(item.name.encode())
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

@@ -9,7 +9,6 @@ from xml.etree import ElementTree
 import jsonschema
 import pytest
 from click.testing import CliRunner, Result
-from examples import some_of
 
 from contoursolve import solve
 from contoursolve.cli import main
@@ -270,11 +269,10 @@ def test_a_folder_stands_for_its_programs_and_those_of_the_folders_in_it(save):
 # Exit statuses and the summary ------------------------------------------------------------------------
 
 
-@some_of("format_", ["text", "json", "sarif", "github", "gitlab", "junit"], one_in=3)
-@some_of(
+@pytest.mark.parametrize("format_", ["text", "json", "sarif", "github", "gitlab", "junit"])
+@pytest.mark.parametrize(
     ("text", "fails_on"),
     [(BROKEN, {"error", "warning"}), (WARNED, {"warning"}), (NOTHING, set()), (CLEAN, set())],
-    one_in=2,
 )
 def test_fail_on_names_the_least_finding_that_fails(text, fails_on, format_, save):
     path = save(text)

@@ -8,7 +8,6 @@ from types import SimpleNamespace
 
 import pytest
 from editor import Editor, Served, applied, edits_of, in_editor, random_edit, types
-from examples import some_of
 from vectors import program_of
 
 import contoursolve
@@ -91,7 +90,7 @@ def served_for():
         each.stop()
 
 
-@some_of(("control", "programs"), examples("rejected"), one_in=8)
+@pytest.mark.parametrize(("control", "programs"), examples("rejected"))
 def test_findings_of_the_rules_examples_stand_where_solve_finds_them(served_for, control, programs):
     """And each fix, applied as the editor does it, gives the contour that its title promises."""
 

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 
 import contoursolve
 from contoursolve.cli import main
@@ -67,7 +66,7 @@ def page_of(result):
     return Page("".join(report_page(result, "0")))
 
 
-@some_of("path", PROGRAMS, ids=lambda path: path.stem, one_in=3)
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
 def test_the_page_holds_every_number_every_finding_and_every_line(path):
     result = contoursolve.solve_file(path)
     page = page_of(result)
@@ -85,7 +84,7 @@ def test_the_page_holds_every_number_every_finding_and_every_line(path):
     assert len(page.all("table")) >= 2 * len(result.answers)
 
 
-@some_of("path", PROGRAMS, ids=lambda path: path.stem, one_in=3)
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
 def test_the_page_loads_nothing_and_every_link_leads_somewhere(path):
     page = page_of(contoursolve.solve_file(path))
     assert page.text.startswith("<!doctype html><html")

@@ -106,7 +106,7 @@ def test_a_tool_is_in_the_unit_of_the_block():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [30])
+@pytest.mark.parametrize("count", [16])
 def test_random_contours_end_where_check_says(count: int, tmp_path: Path):
     """What fits at the largest radius fits at smaller ones, and does not at larger ones, contour by contour."""
     random, ended = numpy.random.default_rng(41), 0

@@ -16,7 +16,6 @@ import generate_lx3
 import generate_nct
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 import contoursolve
@@ -187,7 +186,7 @@ def failures(receipt: dict[str, Any]) -> list[str]:
 # --- Right results ---------------------------------------------------------------------------------
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("words", "status"),
     [
         ("G111 A180. K-30. B120. X100. U60.", "overdetermined"),
@@ -201,7 +200,6 @@ def failures(receipt: dict[str, Any]) -> list[str]:
         # Line 1 runs at 180 degrees: an angle that is half a turn off conflicts.
         ("G111 A0 I0 K-30. B120. X100. U60.", "conflicting"),
     ],
-    one_in=3,
 )
 def test_overdetermined_contours_are_held_against_all_their_words(desk, words, status):
     result = desk.solve(LATHE + words, "--rules", "off")
@@ -424,7 +422,7 @@ def test_lines_beside_a_place_are_measured_on_the_side_where_they_lie(desk, line
     assert desk.receipt(result)["verdict"] == "verified"
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("name", "setting", "value"),
     [
         ("two circles", "nct-99m.circle-circle-q", "right-is-negative"),
@@ -432,7 +430,6 @@ def test_lines_beside_a_place_are_measured_on_the_side_where_they_lie(desk, line
         ("two bevels", "yasnac-lx3.bevel", "length"),
         ("bevel and rounding", "yasnac-lx3.bevel", "setback"),
     ],
-    one_in=2,
 )
 def test_the_program_is_read_with_the_settings_that_the_result_names(desk, name, setting, value):
     other = desk.solve(SAMPLES[name])
@@ -499,7 +496,7 @@ def test_a_certificate_covers_what_the_points_show(desk):
     assert "what certificates prove" in [each["what"] for each in receipt["contours"][0]["not_checked"]]
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "other"),
     [
         (PROGRAM, PROGRAM.replace(*change))
@@ -557,7 +554,6 @@ def test_a_certificate_covers_what_the_points_show(desk):
             ("Y42.857", "Y80"),
         )
     ],
-    one_in=4,
 )
 def test_a_program_that_was_changed_afterwards_is_found(desk, text, other):
     result = desk.solve(text)
@@ -719,7 +715,7 @@ ONE_LINE = {
 }
 
 
-@some_of("name", ONE_LINE, one_in=3)
+@pytest.mark.parametrize("name", ONE_LINE)
 def test_two_lines_that_are_one_leave_their_meeting_open(desk, name):
     status = "no-solution" if "parallel" in name else "underdetermined"
     result = desk.solve("G17 G90 G42 D1 G0 X0 Y0\n" + ONE_LINE[name], "--control", "nct-99m")
@@ -733,7 +729,7 @@ def test_two_lines_that_are_one_leave_their_meeting_open(desk, name):
 BOTH_AT_ONCE = ["Z-27.727 W-4.211 A180. B-152.", "A137. I10. K-10.", "U61. X100. A180. K-30.", "U60. X100. A180. K-30."]
 
 
-@some_of("words", [*BOTH_AT_ONCE, "A180. K-30. B120. X100. Z-47. Q5."], one_in=3)
+@pytest.mark.parametrize("words", [*BOTH_AT_ONCE, "A180. K-30. B120. X100. Z-47. Q5."])
 def test_words_that_lack_something_and_contradict_each_other_conflict(desk, words):
     result = desk.solve(f"{LATHE}G111 {words}", "--rules", "off")
     status = result["contours"][0]["status"]
@@ -948,7 +944,7 @@ DECIDED = ("solved", "overdetermined", "ambiguous", "underdetermined")
 """Statuses that a rank can tell."""
 
 
-@some_of(("control", "text"), [*examples()][::8], one_in=5)
+@pytest.mark.parametrize(("control", "text"), [*examples()][::8])
 def test_what_solve_says_of_every_example_is_right(control, text):
     """Whatever the control, FK included: what can be measured is right, every path is measured, and no status is called
     verified that a rank does not tell."""
@@ -1209,7 +1205,7 @@ def test_filled_blocks_are_not_checked_and_said_so(desk):
     assert "the filled blocks" in [each["what"] for each in receipt["contours"][0]["not_checked"]]
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("name", "old", "new"),
     [
         ("length of line 1", "= 30", "= 30.0001"),
@@ -1234,7 +1230,6 @@ def test_filled_blocks_are_not_checked_and_said_so(desk):
         ("R and Q choose", "R50", "R-50"),
         ("R and Q choose", "Q-1", "Q1"),
     ],
-    one_in=4,
 )
 def test_a_program_with_facts_that_was_changed_afterwards_is_found(desk, name, old, new):
     result = solved(desk, name)

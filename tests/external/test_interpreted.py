@@ -7,7 +7,7 @@ from random import Random
 from typing import NamedTuple
 
 import pytest
-from examples import few_and_many, some_of
+from examples import few_and_many
 from examples_fanuc import EXAMPLES, drawn
 from fanuc import read
 from generate_fanuc import random_lathe, random_mill
@@ -267,7 +267,7 @@ def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs, stride):
 
 
 @pytest.mark.slow
-@some_of("post", ["same", "linuxcnc", "fanuc"], one_in=3)
+@pytest.mark.parametrize("post", ["same", "linuxcnc", "fanuc"])
 @pytest.mark.parametrize("stride", [5, pytest.param(1, marks=pytest.mark.slow)])
 def test_diff_finds_every_program_equal_and_each_coordinate_that_is_off_by_a_hundredth(post, stride):
     rng = Random(10)

@@ -94,7 +94,6 @@ def test_the_nearer_end_along_the_first_element_that_differs_counts_first():
     st.sampled_from((45, 90, 180, 201.5, 300)) | st.floats(0.5, 359.5),
     st.tuples(st.floats(-900, 900), st.floats(-900, 900)),
     st.sampled_from((1, 0.125, 7, 40)),
-    many=400,
     examples=[(name, 45, (0, 0), 1) for name in CHAINS],
 )
 def test_a_choice_by_fselect_is_the_same_wherever_the_drawing_lies(
@@ -130,7 +129,6 @@ AXIS = re.compile(r"\b(CC|I|)([XY])([+-][\d.]+)")
     st.sampled_from((1, 2, 3)),
     st.tuples(st.integers(-900, 900), st.integers(-900, 900)),
     st.sampled_from((1, 0.125, 7)),
-    many=100,
     examples=[(name, turns, (0, 0), 1) for name in ONE_AXIS for turns in (1, 2)],
 )
 def test_a_choice_is_the_same_in_each_quarter_where_all_contours_have_nothing_in_common(
@@ -192,7 +190,6 @@ WORDS = {
     st.sampled_from((45, 90, 180, 201.5)) | st.floats(0.5, 359.5),
     st.tuples(st.integers(-900, 900), st.integers(-900, 900)),
     st.sampled_from((1, 0.125, 7)),
-    many=200,
     examples=[(name, 45, (0, 0), 1) for name in WORDS],
 )
 def test_a_word_chooses_the_same_contour_wherever_the_drawing_lies(

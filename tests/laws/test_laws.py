@@ -13,7 +13,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from examples import law, some_of
+from examples import law
 from hypothesis import assume, given, settings, strategies as st
 from oracle import PLANES
 from records import replace
@@ -349,7 +349,7 @@ def test_a_half_circle_by_its_radius_is_solved_wherever_it_lies(place: str) -> N
         assert hypot(crossing[0] - float(at - radius), crossing[1] - float(at + radius)) <= 1e-4, program
 
 
-@some_of("place", PLACES, one_in=4)
+@pytest.mark.parametrize("place", PLACES)
 def test_a_tangent_line_touches_the_circle_wherever_it_lies(place: str) -> None:
     at = Decimal(place)
     for radius in map(Decimal, RADII):

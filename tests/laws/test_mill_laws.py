@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from random import Random
 
 import pytest
-from examples import some_of
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
 
 from contoursolve import solve
@@ -139,7 +138,7 @@ def off(found: Contour, original: Contour, image: Callable[[complex], complex], 
     return worst
 
 
-@some_of("name", LAWS, one_in=2)
+@pytest.mark.parametrize("name", LAWS)
 def test_an_image_of_a_program_makes_the_image_of_its_contour(name: str) -> None:
     change, image, before = LAWS[name]
     for drawn in DRAWN:

@@ -74,7 +74,7 @@ def spoiled(texts: list[str], mistakes) -> list[str]:
 
 
 @pytest.mark.slow
-@law(st.sampled_from(CONTROLS), st.lists(BLOCKS, min_size=8, max_size=12), MISTAKES, few=64, many=200)
+@law(st.sampled_from(CONTROLS), st.lists(BLOCKS, min_size=8, max_size=12), MISTAKES, few=2, many=3)
 def test_what_is_told_without_a_trial_is_what_trials_tell(control, blocks, mistakes):
     end = {"fanuc-lathe": "Z999.", "heidenhain": "L X+999", "siemens-840d": "X999"}.get(control, "X999.")
     text = HEADS.get(control, MILL) + "\n".join(spoiled(block_texts(control, blocks), mistakes)) + f"\n{end}\n"

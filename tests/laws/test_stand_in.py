@@ -59,7 +59,7 @@ def findings(blocks: list[tuple[str, str]], *folders: Path) -> list:
 
 @pytest.mark.slow
 def test_with_the_stand_in_for_casadi_blocks_come_to_the_same() -> None:
-    blocks = random_blocks(Random(20), 40)
+    blocks = random_blocks(Random(20), 20)
     (casadi, *wanted), (stand_in, *found) = findings(blocks), findings(blocks, STAND_INS)
     assert (Path(casadi).parent.name, Path(stand_in).parent.name) == ("casadi", STAND_INS.name)
     for (text, _), (told, answers), (other_told, other_answers) in zip(blocks, wanted, found, strict=True):

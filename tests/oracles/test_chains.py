@@ -31,7 +31,6 @@ from chains import (
     turn_between,
     with_values,
 )
-from examples import some_of
 from oracle_apollonius import (
     KNOWN,
     Circle,
@@ -235,7 +234,7 @@ def test_soddys_circles_of_radii_1_2_3() -> None:
 KINDS_OF_THREE = ("CCC", "CCL", "CLL", "LLL", "PPP", "PPL", "PLL", "PCC", "PPC", "PCL")
 
 
-@some_of("kinds", KINDS_OF_THREE, one_in=3)
+@pytest.mark.parametrize("kinds", KINDS_OF_THREE)
 def test_circles_touch_what_they_have_to(kinds: str) -> None:
     for seed in range(12):
         things = random_things(Random(f"{kinds} {seed}"), kinds)

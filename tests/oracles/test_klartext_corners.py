@@ -84,7 +84,7 @@ FULL_CIRCLES = ("C X{x} Y{y} DR{s}", "C IX+0 IY+0 DR{s}", "C DR{s}", "CP IPA{s}3
 
 
 @pytest.mark.slow
-@some_of("seed", range(60), one_in=3)
+@pytest.mark.parametrize("seed", range(60))
 def test_a_full_circle_between_corners_is_what_the_corners_leave_of_it(seed):
     """Each corner is that beside half of the circle."""
     rng = Random(seed)
@@ -323,7 +323,7 @@ CLOSE = """0 BEGIN PGM A MM
 """
 
 
-@some_of("text", [CLOSE, *(nearly_tangent(Random(seed)) for seed in range(160))], one_in=3)
+@pytest.mark.parametrize("text", [CLOSE, *(nearly_tangent(Random(seed)) for seed in range(160))])
 def test_a_rounding_that_nearly_touches_is_solved_or_does_not_fit(text):
     result = contoursolve.solve(text)
     assert "not-verified" not in [each.code for each in result.diagnostics]

@@ -9,7 +9,7 @@ from math import cos, radians, sin
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, some_of
+from examples import few_and_many
 from generate_lx3 import FORMS, random_g11, random_g112
 from generate_nct import disturbed
 from oracle_lx3 import WORD, contours
@@ -346,7 +346,7 @@ G01 X100. Z-50. F.2|G112 U0 I10. K-50. P5. Q5. R30.|X120. Z-150.|g111-landing-le
 """
 
 
-@some_of("row", BEHIND.split("\n")[1:-1], one_in=5)
+@pytest.mark.parametrize("row", BEHIND.split("\n")[1:-1])
 def test_the_block_behind_multiple_cornering_is_looked_at(row):
     *lines, expected = row.split("|")
     text = "\n".join(lines)

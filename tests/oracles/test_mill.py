@@ -62,7 +62,7 @@ def assert_drawn(drawn: Drawn) -> None:
     assert miss(drawn.elements, drawn.points, contour) < CLOSE, drawn.text
 
 
-@some_of(("form", "corner"), tuple(product(FORMS, ("", "C", "R"))), one_in=2)
+@pytest.mark.parametrize(("form", "corner"), tuple(product(FORMS, ("", "C", "R"))))
 @pytest.mark.parametrize("instances", COUNTS)
 def test_every_drawn_pair_is_found_again(form, corner, instances):
     rng = Random(f"{form}{corner}")
@@ -75,7 +75,7 @@ def test_every_drawn_pair_is_found_again(form, corner, instances):
     assert min(kinds[turn] for turn in ("cw", "ccw")) > instances // 7 or form == "line-line"
 
 
-@some_of("plane", PLANES, one_in=3)
+@pytest.mark.parametrize("plane", PLANES)
 @pytest.mark.parametrize("instances", COUNTS)
 def test_every_drawn_path_with_corners_is_found_again(plane, instances):
     rng = Random(plane)
@@ -239,7 +239,7 @@ def test_a_mistake_in_a_long_chain_is_found_in_its_block_and_soon(kind, code, bl
     program, line = spoil(drawn.program, kind)
     began = time.process_time()
     result = solve_mill(program, depth="full")
-    assert time.process_time() - began < 10  # a chain of 20 whose alternatives were all listed took minutes
+    assert time.process_time() - began < 60  # a chain of 20 whose alternatives were all listed took minutes
     finding = next(each for each in result.diagnostics if each.code == code)
     assert line in {finding.span.line, *(label.span.line for label in finding.labels)}
     assert len(finding.fixes) < 10

@@ -8,7 +8,7 @@ from random import Random
 
 import numpy
 import pytest
-from examples import few_and_many, some_of
+from examples import few_and_many
 from generate_lx3 import FORMS as LATHE_FORMS, random_g11, random_g112
 from generate_nct import FORMS, disturbed, draw_path, random_chain, random_cornered, random_pair
 from oracle import PLANES, Element, Outcome, _RefusedError as Refused, circle_line, cross, dot
@@ -63,7 +63,7 @@ def grown(path: list[Element], radius: float, steps: int = 60) -> complex:
     return center
 
 
-@some_of("kinds", PAIRS, one_in=4)
+@pytest.mark.parametrize("kinds", PAIRS)
 def test_a_fillet_is_the_one_that_grows_out_of_its_corner(kinds):
     rng = Random(81)
     made = 0
@@ -88,7 +88,7 @@ def test_a_fillet_is_the_one_that_grows_out_of_its_corner(kinds):
     assert made > 200
 
 
-@some_of("kinds", PAIRS, one_in=4)
+@pytest.mark.parametrize("kinds", PAIRS)
 def test_the_largest_fillet_uses_an_element_up_or_has_nowhere_to_grow(kinds):
     rng = Random(3084)
     reasons: Counter[str] = Counter()

@@ -17,7 +17,7 @@ import oracle_apollonius as oracle
 import pytest
 from chains import Arc, Chain, solutions
 from click.testing import CliRunner
-from examples import few_and_many, some_of
+from examples import few_and_many
 from mpmath import mp, mpf
 from oracle_apollonius import KNOWN, Circle, EndlessError, Line, Point, Thing
 from sketches import chain_case, chain_of, is_among, is_drawing, sketch_of
@@ -255,7 +255,7 @@ def solve_json(*blocks: str, rules: str = "off") -> Any:
     return json.loads(CliRunner().invoke(main, arguments).stdout)["contours"][0]
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("arc", "line", "count"),
     [
         ("I50 J0", "X60 Y100 ,A90", 2),
@@ -274,7 +274,6 @@ def solve_json(*blocks: str, rules: str = "off") -> Any:
         ("X60 Y0 R50", "X200 Y-10 ,A0", 3),
         ("X60 Y0 R50", "X200 Y50 ,A0", 2),
     ],
-    one_in=5,
 )
 def test_the_command_line_counts_the_intersections_of_a_pair_without_q(arc: str, line: str, count: int) -> None:
     """Radii have no sign here for lack of a word; a centre on either side of the chord is a solution."""
@@ -532,7 +531,7 @@ FAMILIES = (
 )
 
 
-@some_of("family", FAMILIES, one_in=4)
+@pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("steps", [25, pytest.param(200, marks=pytest.mark.slow)])
 def test_a_contour_follows_a_value_that_moves_without_a_jump_or_says_why_it_ends(family: Family, steps: int) -> None:
     step = (family.last - family.first) / steps

@@ -9,10 +9,6 @@ import pytest
 from _pytest.mark import ParameterSet
 from hypothesis import example, given, settings, strategies as st
 
-THINNED = 60
-"""One of so many of the sampled cases is run, so that the command of the README ends in two minutes, and all of CI in
-twenty."""
-
 
 def law(
     *strategies: st.SearchStrategy[Any],
@@ -25,8 +21,8 @@ def law(
     profile ci as a slow test, and always against `examples`. Parameters before those of the strategies are fixtures."""
     dev, ci = settings.get_profile("dev"), settings.get_profile("ci")
     counts = {
-        "few": max(few // THINNED, 2) if few else dev.max_examples,
-        "many": max((many or ci.max_examples) // THINNED, 2),
+        "few": few or dev.max_examples,
+        "many": many or ci.max_examples,
     }
 
     def hold(check: Callable[..., None]) -> Callable[..., None]:
@@ -46,28 +42,15 @@ def law(
 
 
 def some_of(
-    names: str | tuple[str, ...],
-    cases: Iterable[Any],
-    *,
-    one_in: int = 1,
-    only: Container[Any] | None = None,
-    **options: Any,
+    names: str | tuple[str, ...], cases: Iterable[Any], *, only: Container[Any], **options: Any
 ) -> pytest.MarkDecorator:
-    """In the place of `pytest.mark.parametrize`: all cases are slow but the first of each `one_in` times `THINNED`,
-    or, if so told, but `only` those with these ids or first values. Cases that are slow anyway do not count."""
+    """In the place of `pytest.mark.parametrize`: all cases are slow but those with these ids or first values."""
     is_single = isinstance(names, str) and "," not in names
-    taken, number = list[ParameterSet](), 0
+    taken = list[ParameterSet]()
     for each in cases:
         case = each if isinstance(each, ParameterSet) else pytest.param(*([each] if is_single else each))
-        if all(mark.name != "slow" for mark in case.marks):
-            is_kept = (
-                number % (one_in * THINNED if one_in > 1 else 1) == 0
-                if only is None
-                else case.id in only or case.values[0] in only
-            )
-            number += 1
-            if not is_kept:
-                case = pytest.param(*case.values, marks=(*case.marks, pytest.mark.slow), id=case.id)
+        if case.id not in only and case.values[0] not in only:
+            case = pytest.param(*case.values, marks=(*case.marks, pytest.mark.slow), id=case.id)
         taken.append(case)
     return pytest.mark.parametrize(names, taken, **options)
 

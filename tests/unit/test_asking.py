@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 from oracle import PLANES, Outcome, circle_line, g111, largest_gap
 
 from contoursolve import Answer, ArcSegment, Contour, Status, solve
@@ -447,7 +446,7 @@ SEARCHED = [
 ]
 
 
-@some_of(("block", "fact", "value"), SEARCHED, one_in=2)
+@pytest.mark.parametrize(("block", "fact", "value"), SEARCHED)
 def test_a_direction_is_found_from_a_fact_about_a_corner(block: str, fact: str, value: float) -> None:
     (answer,) = solve(block, start="X40. Z0.", facts=[fact], depth="verdict").answers
     assert any(abs(drawing.points["V1"] - (-30 + 20j)) < TOLERANCE for drawing in solutions_of(answer))
@@ -495,7 +494,7 @@ def setbacks(before: complex, after: complex, diagonal: complex) -> tuple[float,
     return (diagonal.conjugate() * after).imag / turn, (before.conjugate() * diagonal).imag / turn
 
 
-@some_of("lands", [*range(-170, 181, 10), -167, 29, 31, 97, 163], one_in=6)
+@pytest.mark.parametrize("lands", [*range(-170, 181, 10), -167, 29, 31, 97, 163])
 @pytest.mark.parametrize("asks", [False, True])
 @pytest.mark.parametrize("way", [120, 160])
 def test_a_bevel_onto_a_line_is_the_one_with_the_most_equal_setbacks(lands: int, asks: bool, way: int) -> None:
@@ -836,7 +835,7 @@ TAPER_ADDRESSES = {
 }
 
 
-@some_of("address", TAPER_ADDRESSES, one_in=3)
+@pytest.mark.parametrize("address", TAPER_ADDRESSES)
 def test_a_word_that_is_asked_for_alone_names_what_is_missing(address: str) -> None:
     word, _ = TAPER_ADDRESSES[address]
     contour, found = contour_of(ONE.replace(word, address + "?"))
@@ -909,7 +908,7 @@ CONTRADICTIONS = [
 ]
 
 
-@some_of(("fact", "value"), CONTRADICTIONS, one_in=4)
+@pytest.mark.parametrize(("fact", "value"), CONTRADICTIONS)
 def test_a_fact_that_contradicts_the_words_is_named(fact: str, value: str) -> None:
     contour, found = contour_of(ONE, fact)
     assert contour["status"] == "conflicting"
@@ -932,7 +931,7 @@ VALUELESS = [
 
 
 @pytest.mark.slow
-@some_of("fact", VALUELESS, one_in=4)
+@pytest.mark.parametrize("fact", VALUELESS)
 def test_a_fact_without_a_value_that_contradicts_the_words_is_named(fact: str) -> None:
     contour, found = contour_of(ONE.replace("Q5.", "Q4."), fact)
     assert contour["status"] in ("conflicting", "no-solution")
@@ -954,7 +953,7 @@ AGREEMENTS = [
 ]
 
 
-@some_of("fact", AGREEMENTS, one_in=4)
+@pytest.mark.parametrize("fact", AGREEMENTS)
 def test_a_fact_that_the_words_say_already_is_redundant_and_named(fact: str) -> None:
     contour, found = contour_of(ONE, fact)
     assert contour["status"] == "overdetermined"
@@ -971,7 +970,7 @@ def test_facts_that_contradict_one_another_have_no_contour() -> None:
     assert "no-point" in found
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("block", "facts", "free"),
     [
         ("G111 A180. B120. X100.", ["X of V2 = 100"], "V1"),
@@ -979,7 +978,6 @@ def test_facts_that_contradict_one_another_have_no_contour() -> None:
         ("G111 A180. K-30. B120. X100. P? Q?", ["straight part of line 2 = 20"], "corner 1"),
         ("G111 A180. K-30. B120.", ["direction of line 2 = 120"], "V2"),
     ],
-    one_in=2,
 )
 def test_what_words_and_facts_leave_free_is_named(block: str, facts: list[str], free: str) -> None:
     contour, found = contour_of(block, *facts)
@@ -1056,7 +1054,7 @@ UNUSUAL = [
 ]
 
 
-@some_of(("block", "facts"), UNUSUAL, one_in=3)
+@pytest.mark.parametrize(("block", "facts"), UNUSUAL)
 def test_unusual_facts_are_answered_without_blaming_the_package(block: str, facts: list[str]) -> None:
     _, found = contour_of(block, *facts)
     assert "not-verified" not in found
@@ -1091,7 +1089,7 @@ TWICE = [
 ]
 
 
-@some_of(("block", "fact", "code", "others", "off", "missing"), TWICE, one_in=3)
+@pytest.mark.parametrize(("block", "fact", "code", "others", "off", "missing"), TWICE)
 def test_a_fact_that_says_again_what_words_say_is_held_against_just_these(
     block: str, fact: str, code: str, others: str, off: str, missing: str
 ) -> None:
@@ -1104,7 +1102,7 @@ def test_a_fact_that_says_again_what_words_say_is_held_against_just_these(
     assert not {"search-unfinished", "no-point", "line-vanishes"} & found.keys()
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("block", "fact", "code", "named"),
     [
         ("G111 X100. Z-47. B120.", "length of line 1 = 3", "no-point", ["B120.", "length of line 1 = 3"]),
@@ -1113,7 +1111,6 @@ def test_a_fact_that_says_again_what_words_say_is_held_against_just_these(
         ("G111 A180. B180. X100. Z-50. P?", "straight part of line 1 = 2", "g111-parallel", ["A180.", "B180."]),
         ("G111 A180. I0 B120. X100. P?", "straight part of line 1 = 2", "g111-not-fixed", ["A180.", "I0"]),
     ],
-    one_in=2,
 )
 def test_words_and_facts_that_do_not_go_together_are_named(block: str, fact: str, code: str, named: list[str]) -> None:
     _, found = contour_of(block, fact)
@@ -1147,7 +1144,7 @@ FACT_FIXES = [
 ]
 
 
-@some_of(("block", "wanted"), FACT_FIXES, one_in=3)
+@pytest.mark.parametrize(("block", "wanted"), FACT_FIXES)
 def test_a_fix_of_a_block_with_facts_is_solved_as_it_is_shown(block: str, wanted: str) -> None:
     found = document(block)
     fixes = [fix for each in found["diagnostics"] for fix in each["fixes"]]

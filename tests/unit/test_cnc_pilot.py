@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, some_of
+from examples import few_and_many
 from free_chains import Drawn, Step, draw
 from vectors import program_of
 
@@ -47,7 +47,7 @@ WRONG = {
 }
 
 
-@some_of("name", list(WRONG), one_in=2)
+@pytest.mark.parametrize("name", list(WRONG))
 def test_what_the_sheet_wants_said_of_a_wrong_program_is_said(name):
     found = check(program_of("cnc-pilot", f"CP-{name}"), control="cnc-pilot")
     assert any(WRONG[name] in " ".join((each.message, *each.notes)) for each in found)

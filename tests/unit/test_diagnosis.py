@@ -17,7 +17,7 @@ from typing import Any
 import mpmath
 import numpy
 import pytest
-from examples import control_of, few_and_many, some_of
+from examples import control_of, few_and_many
 from records import replace
 
 from contoursolve import Answer, completions, parse, solve, what_if
@@ -706,7 +706,7 @@ def verdict(answer: Answer) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("rules", ["enforce", pytest.param("off", marks=pytest.mark.slow)])
-@some_of("change", [shuffled, mirrored, shifted, in_inches], one_in=2)
+@pytest.mark.parametrize("change", [shuffled, mirrored, shifted, in_inches])
 @FOR_BLOCKS
 def test_diagnosis_does_not_depend_on_order_unit_mirror_image_or_shift(change, rules, count):
     wrong = []
@@ -764,9 +764,9 @@ def exact_v1(a: Decimal, b: Decimal, x: Decimal, z: Decimal) -> tuple[Any, Any]:
 
 
 @pytest.mark.slow
-@some_of("half_turn", [0, 180], one_in=2)
+@pytest.mark.parametrize("half_turn", [0, 180])
 @pytest.mark.parametrize("sign", [1, pytest.param(-1, marks=pytest.mark.slow)])
-@some_of("aside", ["on the way", "10 mm aside"], one_in=2)
+@pytest.mark.parametrize("aside", ["on the way", "10 mm aside"])
 def test_lines_ever_more_parallel_are_never_solved_wrongly(half_turn, sign, aside):
     statuses = []
     for power in range(1, 15):
@@ -796,8 +796,8 @@ def test_lines_ever_more_parallel_are_never_solved_wrongly(half_turn, sign, asid
 
 @pytest.mark.slow
 @pytest.mark.parametrize("sign", [1, pytest.param(-1, marks=pytest.mark.slow)])
-@some_of("side", [1, -1], one_in=2)
-@some_of("circle", ["I-50", "X-50 Y0 R50", "X-50 Y0 I-50"], one_in=3)
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("circle", ["I-50", "X-50 Y0 R50", "X-50 Y0 I-50"])
 def test_line_ever_closer_to_touching_the_circle_is_never_solved_wrongly(sign, side, circle):
     for power in range(1, 15):
         height = 50 * (1 + sign * Decimal(10) ** -power)
@@ -820,7 +820,7 @@ def test_line_ever_closer_to_touching_the_circle_is_never_solved_wrongly(sign, s
 # Layers that could not run ----------------------------------------------------------------------------
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "rules", "start", "not_run", "reason"),
     [
         ("G111 A135. I10. K-12. B180. Z-40,5", "enforce", START, LAYERS[1:], "not every word could be read"),
@@ -838,7 +838,6 @@ def test_line_ever_closer_to_touching_the_circle_is_never_solved_wrongly(sign, s
         ("G111 A135. B135. X60. Z-40.", "enforce", START, LAYERS[5:], "the points are not determined"),
         ("G111 A135. I10. B180. Z-40. M08", "enforce", START, LAYERS[5:], "a rule refuses the block"),
     ],
-    one_in=4,
 )
 def test_layer_that_could_not_run_says_so_and_why(text, rules, start, not_run, reason):
     layers = {layer.name: layer for layer in answer_to(text, rules, start).diagnosis.layers}
@@ -1001,7 +1000,7 @@ OVERLAPPING = {
 }
 
 
-@some_of("name", OVERLAPPING, one_in=2)
+@pytest.mark.parametrize("name", OVERLAPPING)
 def test_of_two_corners_that_overlap_each_is_told_how_large_it_may_be_if_the_other_stays(name):
     text, *sizes = OVERLAPPING[name]
     step, mm, unit = ("0.0001", "25.4", "in") if text.startswith("G20") else ("0.001", "1", "mm")

@@ -12,7 +12,6 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
-from examples import some_of
 
 import contoursolve
 from contoursolve import Status
@@ -122,7 +121,7 @@ def test_each_solution_can_be_selected_and_is_then_the_contour(text, facts, opti
 TANGENT = "line 2 tangent to circle (Z-40. X120. R10.)"
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "facts", "stays"),
     [
         ("G111 X100. A180. K-30. B?", (TANGENT,), ()),
@@ -130,7 +129,6 @@ TANGENT = "line 2 tangent to circle (Z-40. X120. R10.)"
         ("G111 A180. K-30. B?", ("X of V2 = 100", TANGENT), ("X of V2 = 100",)),
     ],
     ids=["one", "two", "one and what is stated besides"],
-    one_in=3,
 )
 def test_a_selected_value_takes_the_place_of_the_facts_that_asked_for_it(text, facts, stays):
     now = explore.begin(text, facts, **START)
@@ -160,10 +158,9 @@ def changed_lines(old, new):
 
 
 @pytest.mark.slow
-@some_of(
+@pytest.mark.parametrize(
     ("name", "line", "key"),
     [("shaft.nc", 68, "B"), ("roller.nc", 27, "K"), ("cover.nc", 16, "15:Y"), ("plate.nc", 64, ",A")],
-    one_in=2,
 )
 def test_a_line_takes_one_contour_out_of_a_program_and_changes_go_back_into_it(name, line, key):
     text = (PROGRAMS / name).read_text().replace("\n", "\r\n")
@@ -372,7 +369,7 @@ def test_where_a_drag_stops_there_is_a_contour(text, options):
     assert count
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("name", "line", "key", "short", "whole"),
     [
         ("roller.nc", 27, "K", "-9 ≤ K ≤ 9 but 0", ""),
@@ -393,7 +390,6 @@ def test_where_a_drag_stops_there_is_a_contour(text, options):
             "-28.643 ≤ Z ≤ -28.374 or 4.675 ≤ Z ≤ 6.561 or 40.623 ≤ Z ≤ 40.643",
         ),
     ],
-    one_in=2,
 )
 def test_many_ranges_are_told_in_a_line_and_nothing_is_left_out_silently(name, line, key, short, whole):
     now = explore.begin((PROGRAMS / name).read_text(), line=line)

@@ -10,7 +10,7 @@ import flint
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, some_of
+from examples import few_and_many
 
 import contoursolve
 from contoursolve.cli import main
@@ -136,7 +136,7 @@ def expected_points(answer):
                 yield from ((f"{element.name}.{name}.{axis}", value) for axis, value in zip(axes, pair, strict=True))
 
 
-@some_of("name", CASES, one_in=3)
+@pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("count", [60, pytest.param(400, marks=pytest.mark.slow)])
 def test_a_row_of_a_family_is_the_single_solve_of_its_block(name, count):
     block, options, ranges = CASES[name]
@@ -291,7 +291,7 @@ def filled(block, options, values):
 
 
 @pytest.mark.slow
-@some_of("name", SEVERAL, one_in=4)
+@pytest.mark.parametrize("name", SEVERAL)
 @pytest.mark.parametrize("share", [0.25, pytest.param(1, marks=pytest.mark.slow)])
 def test_facts_choices_and_start_points_vary_as_words_do(name, share):
     block, options, ranges = SEVERAL[name]
@@ -424,7 +424,7 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
     assert data["statuses"][-1]["reasons"] == {"corner-too-large": 1}
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("block", "finding", "fix"),
     [
         ("G11l X100. A180. K-30. B120.", "letter l in G11l: did you mean the digit 1", "write G111 for G11l"),
@@ -433,7 +433,6 @@ def test_a_sweep_counts_what_becomes_of_the_contours():
         ("G111 X100. A180. K-30. B120. P?", "radius of corner 1 is still open", "give P? a value"),
         ("G111 X100. A180. K-30. B120. P-5.", "P-5. is negative", "write P5. for P-5."),
     ],
-    one_in=3,
 )
 def test_a_block_that_is_refused_whatever_the_values_says_so_as_solve_does(block, finding, fix):
     start = ("--start", START)
@@ -631,7 +630,7 @@ def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message
     assert message in errors
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("block", "options"),
     [
         (BLOCK, LATHE),
@@ -645,7 +644,6 @@ def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message
             MILL,
         ),
     ],
-    one_in=5,
 )
 def test_derivatives_are_central_differences(block, options):
     slopes = sensitivity(block, **options).slopes

@@ -81,7 +81,7 @@ def test_a_corner_exactly_as_long_as_the_move_is_accepted_and_a_zero_one_is_none
 # Seen in real text ------------------------------------------------------------------------------------------
 
 
-@some_of(
+@pytest.mark.parametrize(
     "text",
     [
         "G1X50.,R5.F100\nY40.",
@@ -99,7 +99,6 @@ def test_a_corner_exactly_as_long_as_the_move_is_accepted_and_a_zero_one_is_none
         "/G1 X50. ,R5.\nY40.",
         "G1 X50000 ,R5000\nY40000",
     ],
-    one_in=2,
 )
 @pytest.mark.parametrize("control", [MILL, HAAS_MILL])
 def test_the_same_corner_is_read_however_it_is_written(control, text):
@@ -108,7 +107,7 @@ def test_the_same_corner_is_read_however_it_is_written(control, text):
     assert gap(drawn("0 0; 45 0 > ccw 50 5 45 5; 50 40", 1), path(result)) < 1e-9
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("control", "text", "found", "fix"),
     [
         (MILL, "G1 Y100 R10\nX50.", "R10", "G1 Y100 ,R10"),
@@ -119,7 +118,6 @@ def test_the_same_corner_is_read_however_it_is_written(control, text):
         (LATHE, "G1 X50. A150.\nZ-60.", "A150.", "G1 X50. ,A150."),
         (LATHE, "G1 Z-50. C10.\nX60.", "C10.", "G1 Z-50. ,C10."),
     ],
-    one_in=2,
 )
 def test_a_lost_comma_is_told_with_what_the_letter_means_without_it(control, text, found, fix):
     start = "G00 X40. Z0\n" if control.endswith("lathe") else "G17 G90 G00 X0 Y0\n"
@@ -130,7 +128,7 @@ def test_a_lost_comma_is_told_with_what_the_letter_means_without_it(control, tex
     assert len(finding.message.split()) <= 20
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "code", "fix"),
     [
         ("G01 Z-20. ,R25.\nX60.", "fanuc-corner-too-large", "G01 Z-20. ,R20.\nX60."),
@@ -501,7 +499,7 @@ def test_a_corner_within_the_guard_may_be_refused(control):
 # Which control ----------------------------------------------------------------------------------------------
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "control"),
     [
         (FL_G1, LATHE),

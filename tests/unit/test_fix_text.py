@@ -3,7 +3,6 @@
 import re
 
 import pytest
-from examples import some_of
 
 from contoursolve import Diagnostic, check, solve
 from contoursolve.controls import DIALECTS
@@ -29,7 +28,7 @@ def outcomes(finding: Diagnostic) -> list[tuple[str, str]]:
     return [(end, fix.replacement) for (_, arrow, end), fix in zip(shown, finding.fixes, strict=True) if arrow]
 
 
-@some_of(("name", "text"), REJECTED[::4], one_in=3)
+@pytest.mark.parametrize(("name", "text"), REJECTED[::4])
 def test_fixes_that_make_different_contours_do_not_look_alike(name, text):
     for finding in check(text, control=name):
         told = outcomes(finding)
@@ -64,7 +63,7 @@ def test_fixes_that_make_one_contour_show_one_place():
     assert len({re.sub(r".*-> ", "", each.description) for each in finding.fixes}) == 1
 
 
-@some_of(("name", "text"), REJECTED[::4], one_in=3)
+@pytest.mark.parametrize(("name", "text"), REJECTED[::4])
 def test_a_line_with_a_number_is_an_element_and_a_line_of_the_program_is_called_so(name, text):
     # Far down in its program, no line of it has the number of an element.
     shifted = "\n" * 40 + text

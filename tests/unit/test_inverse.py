@@ -7,7 +7,6 @@ from random import Random
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from msgspec.structs import replace
@@ -138,10 +137,9 @@ def test_the_solver_of_facts_finds_the_same_values():
     assert len(expected) == 2
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("word", "goal"),
     [("K", "corner 1.end Z-40."), ("straight part of line 2", "corner 1.begin Z-20."), ("X", "corner 1.center X90.")],
-    one_in=3,
 )
 def test_words_and_facts_are_found_where_there_is_no_closed_form(word, goal):
     block, facts = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
@@ -157,7 +155,7 @@ def test_words_and_facts_are_found_where_there_is_no_closed_form(word, goal):
     assert at == pytest.approx(float(want[1:]), abs=0.002)
 
 
-@some_of(("within", "turns"), [(None, [0]), ((-400, 400), [-1, 0]), ((-171, 188), [])], one_in=3)
+@pytest.mark.parametrize(("within", "turns"), [(None, [0]), ((-400, 400), [-1, 0]), ((-171, 188), [])])
 def test_an_angle_that_is_asked_for_is_looked_for_in_its_range(within, turns):
     """The direction of 188.794 degrees is that of -171.206 degrees, too."""
     block, facts = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
@@ -315,7 +313,7 @@ LOST = [
 ]
 
 
-@some_of(("block", "start", "word", "goal", "value"), LOST, one_in=3)
+@pytest.mark.parametrize(("block", "start", "word", "goal", "value"), LOST)
 def test_a_value_that_exists_is_found_to_the_last_digit(block, start, word, goal, value):
     if goal is None:
         answer = contoursolve.solve(block, start=start).answers[0]

@@ -4,7 +4,6 @@ import re
 
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 from examples_fanuc import drawn
 from oracle import Element
 from oracle_corners import gap
@@ -82,7 +81,7 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
 # How it is spelled ------------------------------------------------------------------------------------------------
 
 
-@some_of(
+@pytest.mark.parametrize(
     "text",
     [
         "G1 X80 #RND=5\nG1 Y40",
@@ -99,7 +98,6 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
         "/G1 X80 #RND=5\nY+40.0",
         "G1 # RND=5 X80\nY40.",
     ],
-    one_in=2,
 )
 def test_the_same_corner_is_read_however_it_is_written(text):
     expected = drawn("0 0; 75 0 > ccw 80 5 75 5; 80 40", 1)
@@ -121,7 +119,7 @@ def test_an_expression_has_no_value(text):
     refused(MILL + text, "value-variable")
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("between", "told"),
     [
         ("L SUB1", "SUB1"),
@@ -137,7 +135,6 @@ def test_an_expression_has_no_value(text):
         ("G1 X=P1 Y=P2+5", "variable"),
         ("G161", "G161"),
     ],
-    one_in=2,
 )
 def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
     result = isg(MILL + between + "\nG1 Y60 #ANG=30")
@@ -207,7 +204,7 @@ def test_a_chamfer_is_measured_as_its_word_says():
     assert abs(arc[1].end - 50) == pytest.approx(20)
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "code", "fix"),
     [
         ("G1 #ANG=30 #RND=6\nX60 Y20", "isg-closing-incomplete", "G1 #ANG=30 #RND=6\nX60 Y20 #ANG=?"),
@@ -223,7 +220,6 @@ def test_a_chamfer_is_measured_as_its_word_says():
         ("G1 #ANG=30\nX60 Y20 #ANG=-45 #RND=5\nM30", "isg-corner-without-next", "G1 #ANG=30\nX60 Y20 #ANG=-45"),
         ("G1 X-40 #ANG=30", "isg-line-reversed", "G1 X-40 #ANG=150"),
     ],
-    one_in=2,
 )
 def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
     found = [each for each in check(MILL + text, control=ISG) if each.fixes]
@@ -285,7 +281,7 @@ WRITTEN = {name: program_of(ISG, name) for name in VECTORS[ISG] if name.startswi
 }
 
 
-@some_of("name", [*WRITTEN], one_in=2)
+@pytest.mark.parametrize("name", [*WRITTEN])
 @pytest.mark.parametrize("arcs", ["center", "radius"])
 def test_what_is_written_out_goes_the_same_way(name, arcs, tmp_path):
     old, new = tmp_path / "old.nc", tmp_path / "new.nc"

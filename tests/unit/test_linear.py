@@ -137,10 +137,9 @@ def hold_against_length(shape: tuple[str, str, str], short: int, control: str) -
     assert much <= 3 * TIMES * little + 0.005, texts[0]
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("shape", "short"),
     [pytest.param(*each.values, id=each.id, marks=[pytest.mark.slow] * (each.id in LONG_JUDGED)) for each in EVERY],
-    one_in=10,
 )
 def test_time_goes_by_the_length_of_a_line(shape, short):
     hold_against_length(shape, short, "yasnac-lx3")
@@ -158,7 +157,7 @@ def test_time_goes_by_the_length_of_a_line_of_chains(shape, short):
 @pytest.mark.slow
 def test_time_goes_by_the_length_of_a_line_of_any_atoms():
     draw = random.Random(15)
-    for _ in range(100):
+    for _ in range(40):
         head, unit, tail = ("".join(draw.choices(ATOMS, k=draw.choice((0, 1, 1, 2, 3)))) for _ in range(3))
         hold_against_length((head, unit or " ", tail), SHORT, draw.choice(("yasnac-lx3", "nct-99m")))
 

@@ -8,7 +8,6 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
 from oracle_corners import miss
 from oracle_nct import Settings, runs
@@ -51,7 +50,7 @@ def test_an_over_defined_circle_without_its_q_gets_both_with_their_contours(cont
         assert answer.contour.points["P1"] == pytest.approx(at, abs=5e-5)
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "code", "missing"),
     [
         (FROM_CIRCLE + "G1 X-50 Y42.857 Q-1", "nct-line-incomplete", ",A is missing"),
@@ -64,7 +63,6 @@ def test_an_over_defined_circle_without_its_q_gets_both_with_their_contours(cont
         ("G17 G90 G0 X50 Y0\nG1 X40 Y0 Q1", "nct-q-without-intersection", "chooses nothing"),
         ("G17 G90 G41 G1 X50 Y0\nQ1", "nct-q-without-intersection", "chooses nothing"),
     ],
-    one_in=3,
 )
 def test_a_q_that_belongs_to_nothing_is_told_with_the_word_that_is_missing(text, code, missing):
     found = [each for each in check(text, control="nct-99m") if each.code == code]
@@ -95,7 +93,7 @@ def test_an_arc_of_a_lathe_with_centre_and_radius_does_not_show_a_mill(arc):
 
 
 @pytest.mark.parametrize("rules", ["enforce", "off"])
-@some_of(
+@pytest.mark.parametrize(
     "text",
     [
         TO_CIRCLE,
@@ -107,7 +105,6 @@ def test_an_arc_of_a_lathe_with_centre_and_radius_does_not_show_a_mill(arc):
         LINES.replace("G41 ", "").replace("G1 X10", "G41 G1 X10"),
         "G17 G90 G41 G0 X90 Y10\nG91 G3 X-50 Y0 I0 J0 R50",
     ],
-    one_in=4,
 )
 def test_what_is_refused_here_is_verified(text, rules):
     result = solve(text, control="nct-99m", rules=rules)
@@ -136,7 +133,7 @@ def test_compensation_is_on_before_the_first_of_two_blocks(text, is_refused):
 # N1's point (5, 5a) -----------------------------------------------------------------------------------------
 
 
-@some_of("point", ["X90 Y10", "X90", "Y10", "G91 X0 Y0", "X90.0 Y10.000"], one_in=3)
+@pytest.mark.parametrize("point", ["X90 Y10", "X90", "Y10", "G91 X0 Y0", "X90.0 Y10.000"])
 @pytest.mark.parametrize("after", ["G1 X10 Y20 ,A225", "G3 X20 Y40 I20 J-10 R50 Q-1", "G1 X10 Y20 ,A190"])
 def test_a_point_of_the_line_that_is_its_start_point_is_told_as_that(point, after):
     """P. 123: never parallel, and never a circle that is missed."""
@@ -202,7 +199,7 @@ def draw(rng: Random) -> Drawn:
     return drawn._replace(program=tuple(lines))
 
 
-@some_of("settings", SETTINGS, one_in=2)
+@pytest.mark.parametrize("settings", SETTINGS)
 @pytest.mark.parametrize("count", [3, pytest.param(50, marks=pytest.mark.slow)])
 def test_programs_are_read_as_the_settings_say_and_the_check_of_results_agrees(settings, count):
     rng = Random(f"{settings}{count}")

@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 import numpy
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, some_of
+from examples import few_and_many
 from mutations import mutate, windows
 from test_rules import WRONG
 
@@ -110,7 +110,7 @@ def check(picture: Picture) -> ElementTree.Element:
     return tree
 
 
-@some_of("name", KINDS, one_in=3)
+@pytest.mark.parametrize("name", KINDS)
 def test_every_kind_of_contour_is_drawn_with_labels_apart(name):
     (answer,) = answers_of(name)
     for theme in Theme:
@@ -120,7 +120,7 @@ def test_every_kind_of_contour_is_drawn_with_labels_apart(name):
             assert word.text.strip() in shown
 
 
-@some_of("path", PROGRAMS, ids=lambda path: path.stem, one_in=3)
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
 def test_labels_of_all_programs_in_the_repository_stand_apart(path):
     result = contoursolve.solve_file(path)
     check(draw_result(result))
@@ -141,7 +141,7 @@ def test_contours_that_begin_at_one_place_share_a_label_beside_the_path():
     assert [word for word in words if "line" in word] == ["1, 2, 3, 4  lines 5, 8, 11, 14"]
 
 
-@some_of("block", ["G111 A180.", "G111 A180. B120.", "G111 B-120.", "G111 A170. B100. P5."], one_in=2)
+@pytest.mark.parametrize("block", ["G111 A180.", "G111 A180. B120.", "G111 B-120.", "G111 A170. B100. P5."])
 def test_what_is_free_is_drawn_whatever_way_the_words_lead(block):
     (answer,) = contoursolve.solve(block, start="X40. Z0.").answers
     assert "end (free)" in words_in(draw_answer(answer))
@@ -265,7 +265,7 @@ def roles_of(name: str) -> dict[str, Role]:
     return {run.text.strip(): run.role for text in sheet.drawing if isinstance(text, Text) for run in text.runs}
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("name", "text", "role"),
     [
         ("solved", "A180.", Role.GIVEN),
@@ -286,7 +286,6 @@ def roles_of(name: str) -> dict[str, Role]:
         ("circle-line", "Q-1", Role.GIVEN),
         ("G18", ",A171.87", Role.GIVEN),
     ],
-    one_in=4,
 )
 def test_each_word_and_each_gap_is_shown_in_its_state(name, text, role):
     assert roles_of(name).get(text) is role

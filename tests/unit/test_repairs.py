@@ -83,14 +83,14 @@ def test_every_smallest_set_of_words_to_drop_is_offered(count, form):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("form", "blocks"), [("g111", 50), ("g112", 60)])
+@pytest.mark.parametrize(("form", "blocks"), [("g111", 25), ("g112", 25)])
 def test_every_smallest_set_of_words_to_drop_is_offered_for_many(form, blocks):
     draw = random.Random(71)
     compared = sum(check_drops(FORMS[form](draw)) for _ in range(blocks))
     assert compared > blocks / 5
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("block", "start", "left"),
     [
         (
@@ -102,7 +102,6 @@ def test_every_smallest_set_of_words_to_drop_is_offered_for_many(form, blocks):
         ("G111 X100. A180. K-30. I0. B120. Q-5. M08", "X40. Z0.", "G111 X100. A180. K-30. B120."),
         ("G112 X233.08 P6.541 R51.128 K-88.154 I17.263 Q-28.507 Z-5.276", "X150. Z60.", None),
     ],
-    one_in=2,
 )
 def test_negative_corner_words_are_dropped_like_others(block, start, left):
     spoilt = Spoilt((f"G00 {start}", block), "yasnac-lx3")
@@ -194,7 +193,7 @@ def test_the_numbers_that_are_named_for_a_word_reach_to_the_last_increment_in_ma
     assert sum(check_ends(FORMS[form](draw)) for _ in range(25)) > 0
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("block", "ends"),
     [
         ("G111 X100. A180. B160. C2.", 3),
@@ -203,13 +202,14 @@ def test_the_numbers_that_are_named_for_a_word_reach_to_the_last_increment_in_ma
         ("G111 X100. A180. C2. (contoursolve: length of line 1 = 30)", 6),
         ("G111 K-20. A180. C2. (contoursolve: length of line 2 = 30)", 4),
     ],
-    one_in=3,
 )
 def test_the_numbers_that_are_named_for_a_word_reach_to_the_last_increment(block, ends):
     assert check_ends(Spoilt(("G00 X40. Z0.", block), "yasnac-lx3")) == ends
 
 
-@some_of("block", ["G111 X100. A180. B160. C2.", "G111 X100. A180. B120. C5. D5.", "G111 I10. B180. Z-40."], one_in=3)
+@pytest.mark.parametrize(
+    "block", ["G111 X100. A180. B160. C2.", "G111 X100. A180. B120. C5. D5.", "G111 I10. B180. Z-40."]
+)
 def test_a_word_is_offered_without_its_number_exactly_where_some_number_makes_a_contour(block):
     said = [description for description, _ in placeholders(Spoilt(("G00 X40. Z0.", block), "yasnac-lx3"))]
     for address in sorted(set("AIKBXUZW") - {word[0] for word in block.split()[1:]}):

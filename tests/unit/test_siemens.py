@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, law, some_of
+from examples import few_and_many, law
 from examples_fanuc import drawn
 from hypothesis import strategies as st
 from oracle import Element
@@ -79,7 +79,7 @@ def test_an_arc_whose_radii_differ_is_refused_beside_a_corner():
     assert [each.code for each in result.diagnostics if each.severity.value == "error"] == ["siemens-radius-difference"]
 
 
-@law(st.floats(0.01, 9), st.sampled_from(["", " CHF"]), few=10, many=200)
+@law(st.floats(0.01, 9), st.sampled_from(["", " CHF"]), few=2, many=3)
 def test_the_face_of_a_chamfer_beside_an_arc_has_its_length_between_ends_as_far_from_the_corner(face, behind):
     text = MILL + f"G1 X40 CHF={face:.6f}\nG2 X60 Y20 I20 J0{behind and behind + f'={face / 2:.6f}'}\nG1 X100 Y30"
     (answer,) = siemens(text).answers
@@ -111,7 +111,7 @@ def test_a_chamfer_is_measured_as_its_word_says():
 # How it is spelled ------------------------------------------------------------------------------------------------
 
 
-@some_of(
+@pytest.mark.parametrize(
     "text",
     [
         "G1 X80 RND=5\nY40",
@@ -128,7 +128,6 @@ def test_a_chamfer_is_measured_as_its_word_says():
         "G91 G1 X80 RND=5\nY=AC(40)",
         "G1 X80 RND=5\nG64\nY40 G90",
     ],
-    one_in=2,
 )
 def test_the_same_corner_is_read_however_it_is_written(text):
     for name in ("", "%_N_CONTOUR_MPF\n;$PATH=/_N_WKS_DIR/_N_A_WPD\n"):
@@ -175,7 +174,7 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
     assert "no G code of a motion is in force" in finding.notes[0]
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("between", "told"),
     [
         ("L10", "L10"),
@@ -198,7 +197,6 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
         ("G1 X=_A", "variable"),
         ("G751", "G751"),
     ],
-    one_in=2,
 )
 def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
     text = MILL + between + "\nG1 Y60 ANG=30"
@@ -298,7 +296,7 @@ def test_each_setting_has_an_effect():
 # Slips --------------------------------------------------------------------------------------------------------------
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "code", "fix"),
     [
         ("G1 ANG=30 RND=6\nX60 Y20", "siemens-closing-incomplete", "G1 ANG=30 RND=6\nX60 Y20 ANG=?"),
@@ -316,7 +314,6 @@ def test_each_setting_has_an_effect():
         ("G1 X30 RND=2\nG2 X40 Y10 CR=10 ANG=45", "siemens-angle-on-arc", "G1 X30 RND=2\nG2 X40 Y10 CR=10"),
         ("G1 ANG=30\nX60 Y20 ANG=-45 RND=5\nM30", "siemens-corner-without-next", "G1 ANG=30\nX60 Y20 ANG=-45"),
     ],
-    one_in=2,
 )
 def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
     found = [each for each in check(MILL + text, control=CONTROLS[0]) if each.fixes]
@@ -463,7 +460,7 @@ WRITTEN = {name: program_of(CONTROLS[0], name) for name in VECTORS[CONTROLS[0]] 
 }
 
 
-@some_of("name", [*WRITTEN], one_in=3)
+@pytest.mark.parametrize("name", [*WRITTEN])
 @pytest.mark.parametrize("arcs", ["center", "radius"])
 def test_what_is_written_out_goes_the_same_way(name, arcs, tmp_path):
     old, new = tmp_path / "old.nc", tmp_path / "new.nc"

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 from vectors import BY_HAND as RIGHT, settings
 
 from contoursolve import Severity, check
@@ -34,7 +33,7 @@ FIXES = [
 ]
 
 
-@some_of(("control", "text", "line", "fix"), FIXES, one_in=1)
+@pytest.mark.parametrize(("control", "text", "line", "fix"), FIXES)
 def test_what_is_hardly_meant_is_a_warning_with_what_was_meant(control, text, line, fix):
     (finding,) = check(text, control=control)
     assert (finding.code, finding.severity, finding.span.line) == ("suspected", Severity.WARNING, line)
@@ -49,7 +48,7 @@ def test_a_long_program_is_told_the_same():
     assert [(each.code, each.span.line) for each in found] == [("suspected", 92)]
 
 
-@some_of("right", RIGHT, one_in=2)
+@pytest.mark.parametrize("right", RIGHT)
 def test_right_programs_are_told_nothing(right):
     named = settings(right["control"], right)
     found = check("\n".join(right["program"]), control=right["control"], settings=named)

@@ -86,7 +86,7 @@ def test_no_help_tells_to_write_what_no_fix_writes():
     asked = [LATHE + "G111 A400. K-30. B120. X100.", *MEANT]
     texts = [(text, "nct-99m" if "G17" in text else "yasnac-lx3") for text in asked]
     texts += [(text, name) for name, each in DIALECTS.items() for rule in each.catalogue for text in rule.rejected]
-    found = {text: told for text, control in texts[::3] if (told := list(contradictions(text, control)))}
+    found = {text: told for text, control in texts[::8] if (told := list(contradictions(text, control)))}
     assert found == {}
 
 
@@ -157,7 +157,7 @@ def assert_what_was_meant_is_named(found: list[int | None]) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("seed", "count"), [(16, 200)])
+@pytest.mark.parametrize(("seed", "count"), [(16, 100)])
 def test_of_random_slips_95_percent_have_what_was_meant_as_first_fix_and_99_among_three(seed, count):
     found, sound_again = places(seed, count)
     assert_what_was_meant_is_named(found)

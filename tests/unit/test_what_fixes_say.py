@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 from editor import Served, edits_of, types
-from examples import some_of
 
 from contoursolve import solve
 from contoursolve.cli import main
@@ -29,7 +28,7 @@ def solved(slip):
     return solve("\n".join(slip["slip"]), control=slip["control"], settings=settings)
 
 
-@some_of("slip", SLIPS, one_in=4)
+@pytest.mark.parametrize("slip", SLIPS)
 def test_a_finding_names_every_line_that_its_first_fix_changes(slip):
     result = solved(slip)
     texts = {block.line: block.text for block in result.program.blocks}
@@ -41,7 +40,7 @@ def test_a_finding_names_every_line_that_its_first_fix_changes(slip):
             assert changes_of(fix, result.lines_of(finding), texts).keys() <= lines, (finding, fix)
 
 
-@some_of("slip", SLIPS, one_in=4)
+@pytest.mark.parametrize("slip", SLIPS)
 def test_the_same_contour_is_the_same_contour(slip):
     result = solved(slip)
     texts = {block.line: block.text for block in result.program.blocks}
