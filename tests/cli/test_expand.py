@@ -575,7 +575,7 @@ ENDS = st.sampled_from(["\n", "\r\n", "\r"])
 
 
 @law(
-    st.text(st.characters(codec="utf-8", exclude_characters="\x00"), max_size=80),
+    st.text(st.characters(codec="utf-8", exclude_characters="\x00"), max_size=80).map("{} ".format),
     st.sampled_from(list(DIALECTS)),
     derandomize=False,
 )

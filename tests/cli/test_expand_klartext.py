@@ -286,6 +286,7 @@ def test_compensation_is_said_where_it_changes():
 # --- The same path ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("post", ["same", "linuxcnc"])
 @pytest.mark.parametrize("share", [1.0, 0.5, 0.0])
 def test_diff_finds_an_expanded_program_equal(tmp_path, post, share):

@@ -174,7 +174,7 @@ def test_each_question_shows_the_line_before_and_after(answers, fitting, status)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [15])
+@pytest.mark.parametrize("count", [30])
 def test_fixing_damaged_programs_leaves_no_safe_fix_and_every_other_byte(count):
     applied = 0
     for seed in range(count):

@@ -105,7 +105,7 @@ def test_what_is_trusted_is_there_or_it_is_said_what_may_be_meant(words, reason,
 
 
 @pytest.mark.slow
-@few_and_many(4, 120)
+@few_and_many(4, 60)
 def test_a_trusted_word_of_a_damaged_program_is_in_every_fix(count):
     for seed in range(count):
         data, control = damaged(seed)

@@ -117,7 +117,7 @@ def holds(text: str, control: str, step: int) -> bool:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("seed", "count"), [(0, 120), pytest.param(1, 980, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("seed", "count"), [(0, 120), pytest.param(1, 480, marks=pytest.mark.slow)])
 def test_a_formatted_program_is_read_as_before(seed: int, count: int) -> None:
     rng, numbered = random.Random(seed), 0
     for number in range(count):

@@ -114,6 +114,7 @@ def test_words_that_agree_within_their_increments_agree_in_the_text_and_in_the_t
     assert answer_to(block.replace("178.061", "178.057"), start, rules="off").status.value == "conflicting"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rules", ["enforce", "off"])
 @pytest.mark.parametrize("count", [10, pytest.param(60, marks=pytest.mark.slow)])
 def test_text_and_tie_never_disagree_on_rounded_words(rules, count):

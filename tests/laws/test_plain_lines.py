@@ -47,7 +47,7 @@ def told(text: str, control: str) -> object:
 @law(
     st.lists(st.tuples(st.integers(0, 40), st.integers(-90, 90).map(lambda number: number / 4)), max_size=40),
     few=2,
-    many=100,
+    many=50,
 )
 def test_what_plain_lines_come_to_is_the_same_read_or_not(control, drawn):
     begin, lines, end = _LINES[control]

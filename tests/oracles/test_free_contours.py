@@ -279,7 +279,7 @@ def test_a_closing_line_in_the_wrong_direction_is_told_with_the_right_one():
 
 # Chains drawn forwards ------------------------------------------------------------------------------------------
 
-CHAINS, SHARE, FAST = 60, 20, 3
+CHAINS, SHARE, FAST = 60, 10, 3
 PATIENCE = 120
 """Seconds after which a chain counts as missed; the longest known one takes 15."""
 WITHIN = 1e-3

@@ -93,7 +93,7 @@ def test_g11_g12_and_g01_are_the_drawings_they_were_written_from(count):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [40, pytest.param(250, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [40, pytest.param(120, marks=pytest.mark.slow)])
 def test_verdicts_on_disturbed_blocks_are_those_of_the_oracle(count):
     rng = random.Random(146)
     statuses = Counter()

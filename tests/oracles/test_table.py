@@ -200,6 +200,7 @@ def test_table_has_every_set_of_letters_once():
     assert set(g111_rows()) == set(map(frozenset, sets))
 
 
+@pytest.mark.slow
 def test_276_sets_are_legal_and_they_are_those_of_the_manual():
     legal = {letters for letters, (legality, _) in g111_rows().items() if legality.startswith("legal")}
     assert len(legal) == 276

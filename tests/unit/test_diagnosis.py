@@ -312,6 +312,7 @@ def test_amount_of_a_tie_is_the_largest_change_of_one_word_that_makes_it_agree(c
     assert seen > count
 
 
+@pytest.mark.slow
 @FOR_DIAGNOSES
 def test_freedoms_are_the_null_space_seen_at_each_point(count):
     seen = Counter()

@@ -121,6 +121,7 @@ def test_each_solution_can_be_selected_and_is_then_the_contour(text, facts, opti
 TANGENT = "line 2 tangent to circle (Z-40. X120. R10.)"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "facts", "stays"),
     [

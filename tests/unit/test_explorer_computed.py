@@ -157,6 +157,7 @@ def test_the_page_writes_beside_a_variable_and_marks_whole_words():
     assert "edits" not in refused
 
 
+@pytest.mark.slow
 def test_a_range_beside_a_variable_is_that_of_the_whole_program():
     now = begun("fanuc-lathe", PROGRAMS["fanuc-lathe"][0][0])
     found = range_of(now, next(each for each in view_of(now)["fields"] if each["key"] == ",C"))

@@ -373,6 +373,7 @@ def check_table(table, found):
         assert np.array_equal(table[name], found[name].ravel(), equal_nan=True), name
 
 
+@pytest.mark.slow
 def test_every_column_names_its_unit_as_in_one_row_words_and_points_differ():
     """X4. is a diameter in inches; the end point is a radius in mm."""
     block, options = "G111 X4. A180. K-1.2 B120. P.2 Q.2", {"start": "X1.6 Z0.", "units": "inch"}

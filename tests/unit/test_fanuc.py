@@ -457,7 +457,7 @@ def test_many_corners_between_two_axes_come_out_as_each_alone():
         assert (answer.status, elements(answer)) == (alone.status, elements(alone)), text
 
 
-@pytest.mark.parametrize("count", [30])
+@pytest.mark.parametrize("count", [15])
 @pytest.mark.slow
 def test_random_chains_in_plain_words_are_those_with_commas(count):
     rng = Random(count)

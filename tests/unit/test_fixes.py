@@ -153,7 +153,7 @@ def path(contour):
 def test_a_fix_that_keeps_the_contour_keeps_every_element():
     rng, kept = Random(8), 0
     for kind in KINDS:
-        for _ in range(2):
+        for _ in range(5):
             first, *rest = KINDS[kind](rng).split("\n")
             rest[0] += rng.choice((" M08", " ,A45", " I5", " R-30", " X10", " C2", " Q2", " S100"))
             for rules in ("enforce", "off"):
