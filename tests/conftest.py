@@ -57,6 +57,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 QUICK_CASES = 2
 """Of a test with more cases, so many are run by default, drawn by their names; the others are slow."""
 
+SAMPLED = ({"slow"}, {"interpreter"}, {"slow", "interpreter"}, {"slow", "browser"})
+"""The markers of the tests of whose cases `--one-in` takes a share."""
+
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -66,7 +69,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             own = {mark.name for mark in item.iter_markers()} & SLOW
             if not own:
                 quick[item.path, item.originalname].append(item)
-            elif own <= {"slow", "interpreter"}:
+            elif own in SAMPLED:
                 slow[item.path, item.originalname].append(item)
     for name, cases in quick.items():
         for item in sorted(cases, key=drawn)[QUICK_CASES:]:
