@@ -6,13 +6,10 @@ part did at the same place; from there on, the old parts hold.
 """
 
 from bisect import bisect_left, bisect_right
-from collections import Counter
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import SequenceMatcher
 from functools import partial
 from itertools import accumulate, chain, islice, takewhile
-from typing import overload
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -20,39 +17,24 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer, Context, Policy, rank
 from contoursolve.diagnostics import Diagnostic, Span, choice_of
 from contoursolve.execution import needs_running, surroundings_of
-from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse_block, split_lines
+from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax
 from contoursolve.geometry import Length
-from contoursolve.program.agreeing_controls import choose_alike
 from contoursolve.program.contour_answers import TooFarError
 from contoursolve.program.examination import Cursor, Examination
 from contoursolve.program.named_words import has_named, is_named_for_all
 from contoursolve.program.no_contour import conclusions, nothing_to_solve
+from contoursolve.program.open_lines import OpenLines, Place, Splice
 from contoursolve.program.pipeline import Result, Run, frame_of
-from contoursolve.program.project_file import CONTROL, FIRST_LINES, SettingError, stated_settings
-from contoursolve.program.recognise import (
-    PLANE,
-    TURNED_AXES,
-    Recogniser,
-    UnknownControlError,
-    may_make_corner,
-    shown_by,
-    shown_of_machine,
-)
 from contoursolve.program.renumbering import renumbered
 from contoursolve.program.request import Request
 from contoursolve.program.running import KeptSteps
 from contoursolve.program.solve_queue import Step
+from contoursolve.program.told_control import ToldControl
 from contoursolve.program.told_outside import Outside
-from contoursolve.reading import Dialect, ReadIssue
-
-Place = tuple[int, int]
-"""A line and a column, both from 1."""
+from contoursolve.reading import Dialect
 
 _LONGEST = 16
 """Lines of a part without contours and findings."""
-
-_MOST_BLOCKS = 20_000
-"""Blocks that are kept; one takes 50 times the memory of its line."""
 
 _MOST_RENEWED = 16
 """Contours on lines that have moved that are found anew one by one; more are solved together."""
@@ -104,51 +86,6 @@ class _Move:
         return span._replace(line=self.line(span.line)) if span.line >= self.first else span
 
 
-class _Lines(Sequence[Block]):
-    """The blocks of lines that change, read when somebody looks at them."""
-
-    def __init__(self, texts: list[str]) -> None:
-        self.texts, self.syntax = texts, ISO
-        self._read: dict[int, Block] = {}
-
-    def __len__(self) -> int:
-        return len(self.texts)
-
-    @overload
-    def __getitem__(self, index: int) -> Block: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> list[Block]: ...
-
-    def __getitem__(self, index: int | slice) -> Block | list[Block]:
-        if isinstance(index, slice):
-            return [self[each] for each in range(len(self))[index]]
-        if not 0 <= index < len(self):
-            raise IndexError(index)
-        block = self._read.get(index)
-        if block is None:
-            if len(self._read) >= _MOST_BLOCKS:
-                self._read = {}
-            block = self._read[index] = parse_block(self.texts[index].rstrip("\r\n"), index + 1, self.syntax)
-        return block
-
-    def between(self, first: int, last: int) -> Iterator[Block]:
-        """Those from an index on to before another one, each read when it is asked for."""
-        return map(self.__getitem__, range(first, min(last, len(self))))
-
-    def spell(self, syntax: Syntax) -> None:
-        """Read them in this syntax from now on."""
-        if self.syntax is not syntax:
-            self.syntax, self._read = syntax, {}
-
-    def change(self, first: int, last: int, texts: Sequence[str]) -> None:
-        """Put others in the place of some."""
-        is_moved = len(texts) != last - first
-        self.texts[first:last] = texts
-        for index in [each for each in self._read if each >= first] if is_moved else range(first, last):
-            self._read.pop(index, None)
-
-
 class OpenProgram:
     """A program that is open in an editor: its contours and findings follow every edit.
 
@@ -174,21 +111,9 @@ class OpenProgram:
     ) -> None:
         """Arguments as for `solve`; but what a comment in the program states counts more than `settings`."""
         self.name = name
-        self.dialect: Dialect | None = None
-        """The control; None where nothing tells it."""
-        self.is_stated = False
-        """Whether a comment in the program states it."""
-        self.trouble = ""
-        """Why the control cannot be told, if it cannot."""
-        self.is_ambiguous = False
-        """Whether that is because the program may be for several."""
-        self._control, self._settings = control, dict(settings or {})
         self._asked = Request(None, choice_of(Length, units, "units"), choice_of(Policy, rules, "rules"))
-        self._lines = _Lines(_split(text))
-        self._stated: dict[str, str] = {}
-        """The settings that comments in its first lines state."""
-        self._shown: Counter[str] | None = None
-        """How many lines show what of the control; None where they are not asked."""
+        self._lines = OpenLines(text)
+        self._control = ToldControl(self._lines, name, self._asked)
         self._parts: list[_Part] = []
         self._moves: list[_Move] = []
         self._walk: Iterator[None] | None = None
@@ -205,15 +130,35 @@ class OpenProgram:
         """What is found where no control is known, or in a program that runs."""
         self._kept = KeptSteps()
         """What is kept of it for the next run."""
-        self._choose()
+        self._control.configure(control, settings or {})
         self._begin()
 
     def copy(self) -> "OpenProgram":
         """The same text with the same options, examined by itself."""
-        units, rules, settings = self._asked.unit.value, self._asked.policy.value, self._settings
+        units, rules, own = self._asked.unit.value, self._asked.policy.value, self._control
         return OpenProgram(
-            self.text, control=self._control, units=units, rules=rules, settings=settings, name=self.name
+            self.text, control=own.named, units=units, rules=rules, settings=own.settings, name=self.name
         )
+
+    @property
+    def dialect(self) -> Dialect | None:
+        """The control; None where nothing tells it."""
+        return self._control.dialect
+
+    @property
+    def is_stated(self) -> bool:
+        """Whether a comment in the program states it."""
+        return self._control.is_stated
+
+    @property
+    def trouble(self) -> str:
+        """The reason for which the control cannot be told, if it cannot."""
+        return self._control.trouble
+
+    @property
+    def is_ambiguous(self) -> bool:
+        """Whether that is because the program may be for several."""
+        return self._control.is_ambiguous
 
     @property
     def syntax(self) -> Syntax:
@@ -223,7 +168,7 @@ class OpenProgram:
     @property
     def text(self) -> str:
         """The program as it is now."""
-        return "".join(self._lines.texts)
+        return self._lines.text
 
     @property
     def blocks(self) -> Sequence[Block]:
@@ -232,46 +177,27 @@ class OpenProgram:
 
     def line(self, number: int) -> str:
         """The text of a line, without its end; empty where there is none."""
-        texts = self._lines.texts
-        return texts[number - 1].rstrip("\r\n") if 0 < number <= len(texts) else ""
+        return self._lines.line(number)
+
+    @property
+    def line_end(self) -> str:
+        """The end of its first line; a line feed if that line has no end."""
+        return self._lines.line_end
+
+    def changes_to(self, text: str) -> Iterator[tuple[Place, Place, str]]:
+        """The edits by whole lines, each as `edit` takes it, that make another text of the program; places are those
+        before any of them."""
+        return self._lines.changes_to(text)
+
+    def edits_of(self, changes: Mapping[int, str | None]) -> Iterator[tuple[Place, Place, str]]:
+        """The edits, each as `edit` takes it, that write other texts for lines, with a line feed between several, or
+        take lines out (None): each from the first character that differs to the last one. Places are those before."""
+        return self._lines.edits_of(changes)
 
     @property
     def unit(self) -> str:
         """The unit of numbers before any code that says it."""
         return self._asked.unit.value
-
-    def changes_to(self, text: str) -> Iterator[tuple[Place, Place, str]]:
-        """The edits by whole lines, each as `edit` takes it, that make another text of the program; places are those
-        before any of them."""
-        old, new = self._lines.texts, _split(text)
-        for tag, first, last, begin, end in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
-            if tag != "equal":
-                yield self._begin_of(first), self._begin_of(last), "".join(new[begin:end])
-
-    def edits_of(self, changes: Mapping[int, str | None]) -> Iterator[tuple[Place, Place, str]]:
-        """The edits, each as `edit` takes it, that write other texts for lines, with a line feed between several, or
-        take lines out (None): each from the first character that differs to the last one. Places are those before."""
-        for line, text in changes.items():
-            if text is None:
-                yield (line, 1), (line + 1, 1), ""
-                continue
-            old, new = self.line(line), text.replace("\n", self.line_end)
-            most = min(len(old), len(new))
-            same = next((at for at in range(most) if old[at] != new[at]), most)
-            most -= same
-            behind = next((at for at in range(most) if old[-1 - at] != new[-1 - at]), most)
-            if old != new:
-                yield (line, same + 1), (line, len(old) - behind + 1), new[same : len(new) - behind]
-
-    def _begin_of(self, index: int) -> Place:
-        """The place where a line begins; after the last one, where that ends."""
-        return (index + 1, 1) if index < len(self._lines) else (index, len(self._lines.texts[-1]) + 1)
-
-    @property
-    def line_end(self) -> str:
-        """The end of its first line; a line feed if that line has no end."""
-        first = self._lines.texts[0]
-        return first[len(first.rstrip("\r\n")) :] or "\n"
 
     @property
     def request(self) -> Request:
@@ -280,117 +206,35 @@ class OpenProgram:
 
     def configure(self, control: str | Dialect | None, settings: Mapping[str, str]) -> None:
         """Read the program as one for this control (None: as it shows), with these settings."""
-        if (control, dict(settings)) != (self._control, self._settings):
-            self._control, self._settings = control, dict(settings)
-            self._choose()
+        if (control, dict(settings)) != (self._control.named, self._control.settings):
+            self._control.configure(control, settings)
             self._begin()
 
     def replace(self, text: str) -> None:
         """Put another text in the place of the whole."""
-        self._change(0, len(self._lines), _split(text))
+        self._follow_change(self._lines.replace(text))
 
     def edit(self, begin: Place, end: Place, text: str) -> None:
-        """Put a text in the place of what stands from one place to another, the second one not included. A place behind
+        """Put a text in the place of what stands from one place to another, the second one not included. A place after
         the end of a line, or of the program, is that end."""
-        lines = self._lines.texts
-        (first, start), (last, stop) = (self._within(place) for place in sorted((begin, end)))
-        new, behind = lines[first][:start] + text + lines[last][stop:], last + 1
-        # A carriage return and the line feed behind it are one end of a line.
-        if first and lines[first - 1].endswith("\r") and new.startswith("\n"):
-            first -= 1
-            new = lines[first] + new
-        if behind < len(lines) and new.endswith("\r") and lines[behind].startswith("\n"):
-            new += lines[behind]
-            behind += 1
-        self._change(first, behind, _split(new)[: None if behind == len(lines) else -1])
+        self._follow_change(self._lines.edit(begin, end, text))
 
-    def _within(self, place: Place) -> tuple[int, int]:
-        """The index of a line, and an offset in it."""
-        lines, (line, column) = self._lines.texts, place
-        if line > len(lines):
-            return len(lines) - 1, len(lines[-1])
-        return max(line, 1) - 1, min(max(column, 1) - 1, len(lines[max(line, 1) - 1].rstrip("\r\n")))
-
-    def _change(self, first: int, last: int, new: Sequence[str]) -> None:
-        """Put other lines in the place of some, and make stale what rests on them. Lines that are the same at the
-        beginning and the end are not touched: an edit may begin or end in one."""
-        lines, most = self._lines.texts, min(last - first, len(new))
-        head = next((at for at in range(most) if lines[first + at] != new[at]), most)
-        most -= head
-        tail = next((at for at in range(most) if lines[last - 1 - at] != new[-1 - at]), most)
-        first, last, new = first + head, last - tail, new[head : len(new) - tail]
-        gone = lines[first:last]
-        if not (gone or new):
+    def _follow_change(self, change: Splice | None) -> None:
+        """Make stale what rests on lines that have changed."""
+        if change is None:
             return
-        self._lines.change(first, last, new)
         self._forget()
-        old = self.dialect
-        # Where blocks show several controls, the reason names their lines.
-        is_shown = self._shows_something_else(gone, new)
-        is_stated = first < FIRST_LINES and self._states_something_else()
-        if is_stated or self.trouble or is_shown or self._concludes_otherwise([*gone, *new]):
-            self._choose()
+        is_another = self._control.follow(change)
         is_run = self.dialect is not None and (
-            self._examination is None or needs_running(new, self.dialect.modes.language) or any(map(has_named, new))
+            self._examination is None
+            or needs_running(change.come, self.dialect.modes.language)
+            or any(map(has_named, change.come))
         )
-        if old is None or self.dialect is None or is_run or not _alike(old, self.dialect):
+        if is_another or is_run:
             self._begin()
         else:
-            self.dialect = old
-            self._make_stale(first, last, len(new) - (last - first))
-
-    def _states_something_else(self) -> bool:
-        """Whether the first lines state other settings, now that some of them are others."""
-        try:
-            return stated_settings(self._lines.texts) != self._stated
-        except SettingError:
-            return True
-
-    def _shows_something_else(self, gone: Sequence[str], come: Sequence[str]) -> bool:
-        """Whether another control may be shown, now that some lines are gone and others have come."""
-        if self._shown is None:
-            return False
-        before = {each for each, count in self._shown.items() if count}
-        taken, given = [*map(_shown, gone)], [*map(_shown, come)]
-        for shown in taken:
-            self._shown.subtract(shown)
-        for shown in given:
-            self._shown.update(shown)
-        # Where a plane is selected, their order counts, too.
-        is_ordered = PLANE in before and taken != given
-        return is_ordered or before != {each for each, count in self._shown.items() if count}
-
-    def _concludes_otherwise(self, changed: Sequence[str]) -> bool:
-        """Whether something else may be concluded about the control, now that these lines are gone or have come."""
-        if self.dialect is None:
-            return any(map(may_make_corner, changed))
-        syntax = self.dialect.modes.syntax
-        is_alike = any(each.about is ReadIssue.CONTROL_ALIKE for each in self.dialect.taken)
-        return is_alike or any(shown_of_machine(line, syntax) - TURNED_AXES for line in changed)
-
-    def _choose(self) -> None:
-        """Find the control."""
-        text = self.text
-        self.trouble, self.is_ambiguous, self.is_stated, self._shown = "", False, False, None
-        try:
-            program = Program(self.name, text, Blocks(text, 1, ISO))
-            self._stated = stated_settings(self._lines.texts)
-            self.is_stated = CONTROL in self._stated
-            settings = self._settings | self._stated
-            self.dialect = choose_alike(self._control, program, self._asked, settings, self._recognise)
-        except (UnknownControlError, SettingError) as error:
-            self.dialect, self.trouble = None, str(error)
-            named = {self._control, self._settings.get(CONTROL)} - {None}
-            self.is_ambiguous = isinstance(error, UnknownControlError) and not named
-
-    def _recognise(self, blocks: Iterable[Block]) -> Dialect | None:
-        """The control that blocks show, as `recognise` does; it is kept what they show."""
-        recogniser, self._shown = Recogniser(), Counter()
-        for block in blocks:
-            shown = shown_by(block)
-            self._shown.update(shown)
-            recogniser.take(block, shown)
-        return recogniser.find()
+            gone = len(change.gone)
+            self._make_stale(change.first, change.first + gone, len(change.come) - gone)
 
     def _begin(self) -> None:
         """Make everything stale."""
@@ -692,21 +536,6 @@ class OpenProgram:
             step, _, _ = next(self._examination.resume(self._lines, start, part.known))
             part.answer, part.answer_age = step.answer, len(self._moves)
         return part.answer
-
-
-def _split(text: str) -> list[str]:
-    """The lines of a text, each with its end; the last one has none."""
-    lines = split_lines(text)
-    return [*lines, ""] if not lines or lines[-1].endswith(("\r", "\n")) else lines
-
-
-def _shown(line: str) -> frozenset[str]:
-    return shown_by(parse_block(line.rstrip("\r\n"), 1))
-
-
-def _alike(one: Dialect, other: Dialect) -> bool:
-    """Whether two are the same control with the same settings."""
-    return one is other or (one.name == other.name and one.modes.settings == other.modes.settings)
 
 
 def _is_plain(part: _Part) -> bool:

@@ -13,7 +13,7 @@ import contoursolve
 from contoursolve import OpenProgram
 from contoursolve.gcode import lexer, parse_block
 from contoursolve.gcode.decoding import decode
-from contoursolve.program import contour_answers, open_program
+from contoursolve.program import contour_answers, open_lines, open_program, told_control
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = sorted(
@@ -157,7 +157,7 @@ def test_an_edit_reads_what_depends_on_it_alone(line: int, monkeypatch: pytest.M
         assert program.diagnostics == ()
         number, read = line % len(program.blocks), list[object]()
         column = re.search(r"\d", program.line(number)[1:]).start() + 2
-        for module in (open_program, lexer):
+        for module in (open_lines, told_control, lexer):
             monkeypatch.setattr(
                 module, "parse_block", lambda *given, read=read: read.append(given) or parse_block(*given)
             )
