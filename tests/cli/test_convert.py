@@ -94,7 +94,7 @@ def test_everything_else_stays_as_it_was(path, control, to):
     assert found.summary.in_words > 0
 
 
-@few_and_many(6, 75)
+@few_and_many(6, 36)
 def test_a_converted_program_cuts_the_same_path(count, tmp_path):
     """`convert` proves it by what it writes; here both are expanded, and the plain programs compared."""
     rng = Random(count)

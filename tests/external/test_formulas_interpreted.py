@@ -165,8 +165,8 @@ def nested(line: str) -> int:
 
 
 LANGUAGES = {"fanuc": "#140-#400", "haas": "#140-#400", "sinumerik": "R140-R400", "klartext": "Q240-Q500"}
-FEW = 2
-"""Programs of every form, and a tenth of the values, for each of the other controls."""
+FEW = 1
+"""Programs of every form for each of the other controls."""
 
 
 @pytest.mark.slow

@@ -42,7 +42,7 @@ def is_gouging(motions: list[Motion], shift: complex, parts: list[Part], radius:
     return min(clearance(each, parts).min() for each in places) < radius - 1e-4
 
 
-@few_and_many(20, 120)
+@few_and_many(20, 60)
 def test_linuxcnc_goes_the_same_way(count: int, tmp_path: Path):
     random, alike, refused = numpy.random.default_rng(274), 0, 0
     for number in range(count):

@@ -100,7 +100,7 @@ def check(result: Result, text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("seed", "mutants"), [(0, 15), *(pytest.param(seed, 100, marks=pytest.mark.slow) for seed in range(2))]
+    ("seed", "mutants"), [(0, 15), *(pytest.param(seed, 50, marks=pytest.mark.slow) for seed in range(2))]
 )
 def test_mutated_contours_are_answered(seed, mutants):
     draw = random.Random(seed)

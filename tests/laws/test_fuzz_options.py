@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from contoursolve.cli import main
 
-OPTIONS = 15_000
+OPTIONS = 6_000
 SHARDS = 6
 """A failing shard names its seed, so that one failure is repeated in seconds."""
 

@@ -295,7 +295,7 @@ def test_a_path_on_one_side_of_the_spindle_axis_is_no_crossing():
 @pytest.mark.slow
 def test_contours_that_are_solved_together_cross_the_axis_as_each_by_itself():
     """The columns of `solve` and the patterns of `expand` tell the same as one contour by itself."""
-    blocks = [f"G111 I1.766 Z-4.662 A90. B-{60 + number / 4:.2f}" for number in range(40)]
+    blocks = [f"G111 I1.766 Z-4.662 A90. B-{60 + number / 2:.2f}" for number in range(20)]
     text = "\n".join(f"G00 X26.193 Z-11.645\n{block}" for block in blocks)
     alone = [solve(f"G00 X26.193 Z-11.645\n{block}").diagnostics for block in blocks]
     assert 0 < sum(map(bool, alone)) < len(blocks)

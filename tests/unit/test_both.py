@@ -136,7 +136,7 @@ def test_both_parts_of_every_block_of_six_words_are_told(is_shaken):
 @pytest.mark.slow
 def test_both_parts_of_blocks_of_any_words_are_told():
     draw = Random(5)
-    for _ in range(2_000):
+    for _ in range(1_000):
         letters = draw.sample(LETTERS, draw.randint(1, len(LETTERS)))
         check(*draw_values(draw, letters, is_shaken=draw.random() < 0.5))
 

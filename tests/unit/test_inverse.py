@@ -433,7 +433,7 @@ def ask_back(rng, scans):
 
 @pytest.mark.parametrize(
     ("seed", "questions"),
-    [(1, 4), pytest.param(2, 50, marks=pytest.mark.slow)],
+    [(1, 4), pytest.param(2, 20, marks=pytest.mark.slow)],
 )
 def test_asked_for_the_end_that_it_has_each_word_finds_its_own_value(seed, questions):
     """Or the list is not called complete; one that is has every value that a scan of single solves brackets."""

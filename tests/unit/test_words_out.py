@@ -344,7 +344,7 @@ STEPS = st.lists(
 
 
 @pytest.mark.slow
-@law(STEPS, st.booleans(), st.booleans(), few=2, many=30)
+@law(STEPS, st.booleans(), st.booleans(), few=2, many=12)
 def test_random_contours_are_the_same_for_all_controls(
     steps: list[tuple[str, int, int, str]], is_turned: bool, is_inch: bool
 ):
