@@ -243,7 +243,7 @@ def block_of(words: Words) -> str:
     )
 
 
-FOR_DIAGNOSES, FOR_BLOCKS = few_and_many(18, 36), few_and_many(8, 16)
+FOR_DIAGNOSES, FOR_BLOCKS = few_and_many(18, 36), few_and_many(10, 16)
 
 
 @lru_cache
