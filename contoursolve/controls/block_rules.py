@@ -127,7 +127,7 @@ READING_RULES = (
     Rule(
         code="word-unknown",
         message="{words}: contoursolve knows no word {address} of this control, so the block is read without it",
-        help="delete it; if the machine builder has added it, name it by --set CONTROL.words={address}",
+        help="delete it; if the machine builder has added it, name it by --set {control}.words={address}",
         source=_READING,
         about=ReadIssue.WORD_UNKNOWN,
         severity=Severity.WARNING,
@@ -213,7 +213,7 @@ READING_RULES = (
     Rule(
         code="suspected",
         message="{words} was probably meant to be {meant}: {reason}",
-        help="change it if that is meant; --set CONTROL.suspicions=off switches such warnings off",
+        help="change it if that is meant; --set {control}.suspicions=off switches such warnings off",
         source=own_source("slips that machinists make, and how the paths of turned parts run"),
         about=ReadIssue.SUSPECTED,
         severity=Severity.WARNING,

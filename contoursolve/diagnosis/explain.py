@@ -169,6 +169,7 @@ def report(
         "present": Present(context.typed),
         "absent": NotStated(context.typed),
         "address": blamed[0].address if blamed else "",
+        "control": rule.control,
         **{several: several if len(blamed) > 1 else one for several, one in VERBS.items()},
         **fields,
     }

@@ -12,7 +12,7 @@ from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span
 from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
-from contoursolve.reading import Bearing, Code, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
+from contoursolve.reading import Bearing, Code, Dialect, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
 
 _SHORTEST = 2
 """Letters of an address by which no other one is meant."""
@@ -365,14 +365,14 @@ def _unknown_code(context: Context, word: Word, modes: Modes) -> Iterator[Diagno
     yield report(context, row, Basis.RULE, [word], name=name, advice=advice)
 
 
-def explain_call(context: Context, name: str, modes: Modes) -> Iterator[Diagnostic]:
+def explain_call(context: Context, name: str, dialect: Dialect) -> Iterator[Diagnostic]:
     """A subprogram that is nowhere, and has almost the name of a command."""
-    near = sorted((distance, each) for each in modes.syntax.codes if (distance := _apart(name, each)) == 1)
+    near = sorted((distance, each) for each in dialect.modes.syntax.codes if (distance := _apart(name, each)) == 1)
     if near:
         named = either([each for _, each in near[:_MOST]])
         advice = (
             f"write {named} if that is meant; else name the folder of the subprogram with --path. A command of the "
-            f"machine builder that moves nothing is stated with --set CONTROL.words={name}"
+            f"machine builder that moves nothing is stated with --set {dialect.name}.words={name}"
         )
         yield report(context, ReadIssue.CODE_UNKNOWN, Basis.RULE, [], name=name, advice=advice)
 

@@ -62,6 +62,11 @@ class Limit(Struct, frozen=True):
     blocks: int = MOST_BLOCKS
     setting: str = "most-blocks"
 
+    @property
+    def control(self) -> str:
+        """The control whose setting it is, as a message names it."""
+        return self.setting.rpartition(".")[0] or "CONTROL"
+
 
 DEEPEST = 50
 """Calls in one another; controls admit ten at most."""
@@ -88,7 +93,8 @@ def machine_of(
     """The machine that runs a program; None for one that neither calls, jumps nor computes."""
     if language is None or not needs_running((block.text for block in telling(program.blocks)), language):
         return None
-    return Machine(program, language, Library(language, syntax, around.folders), around.values, limit)
+    library = Library(language, syntax, around.folders, (limit or Limit()).control)
+    return Machine(program, language, library, around.values, limit)
 
 
 class _Loop(Struct):

@@ -220,8 +220,10 @@ class ProgramFile:
 class Library:
     """The subprograms that may be called from a program, found by their names."""
 
-    def __init__(self, language: MacroLanguage, syntax: Syntax, folders: Sequence[Path]) -> None:
-        self.language, self.syntax, self.folders = language, syntax, folders
+    def __init__(
+        self, language: MacroLanguage, syntax: Syntax, folders: Sequence[Path], control: str = "CONTROL"
+    ) -> None:
+        self.language, self.syntax, self.folders, self.control = language, syntax, folders, control
         self._files: dict[str, ProgramFile | None] = {}
 
     @cached_property
@@ -289,7 +291,7 @@ class Library:
             where = f"; neither is {files[0]} beside it: name its folder with --path" if files else ""
             is_command = name.replace("_", "A").isalpha() and "CALL" not in text.upper()
             if files and is_command and self.language.with_names is not None:
-                where += f", or state with --set CONTROL.words={name} that it moves nothing"
+                where += f", or state with --set {self.control}.words={name} that it moves nothing"
             return Unknown(f"{text} calls {name}, which is not in this file{where}")
         first = found.sections.get(name, 0)
         return found, first, found.section_end(first) if len(found.sections) > 1 else len(found) - 1

@@ -31,7 +31,6 @@ from contoursolve.program.told_outside import Outside
 from contoursolve.program.windows import further
 from contoursolve.reading import (
     Dialect,
-    Modes,
     ParsedContour,
     PlainLines,
     ReadIssue,
@@ -219,7 +218,7 @@ class Examination:
     def happen(self, event: ProgramEvent, cursor: Cursor) -> Cursor:
         """The cursor behind an event of the program, with what is found there; its state is that before the event."""
         context = Context(self.asked.rules, self.asked.unit, place=Span(event.line, 1, 2))
-        found = (*cursor.findings, *_findings_of_event(event, context, self.dialect.modes))
+        found = (*cursor.findings, *_findings_of_event(event, context, self.dialect))
         count = self.begin.count if event.kind is EventKind.FRESH else cursor.count
         return Cursor(cursor.state, cursor.marks, count, findings=found)
 
@@ -319,7 +318,7 @@ class _OneByOne:
         return [each() for each in examine]
 
 
-def _findings_of_event(event: ProgramEvent, context: Context, modes: Modes) -> Iterator[Diagnostic]:
+def _findings_of_event(event: ProgramEvent, context: Context, dialect: Dialect) -> Iterator[Diagnostic]:
     """Findings about what happens between two blocks."""
     if event.kind in (EventKind.STOPPED, EventKind.MAY_STOP):
         stopped = report(context, context.row(ReadIssue.NOT_FOLLOWED), Basis.RULE, [], reason=event.reason)
@@ -328,7 +327,7 @@ def _findings_of_event(event: ProgramEvent, context: Context, modes: Modes) -> I
     if event.unread:
         yield report(context, context.row(ReadIssue.NOT_READ), Basis.RULE, [], name=event.unread)
     if event.called:
-        yield from explain_call(context, event.called, modes)
+        yield from explain_call(context, event.called, dialect)
 
 
 # What is told ----------------------------------------------------------------------------------------------------

@@ -107,6 +107,11 @@ class Dialect:
     taken: "tuple[Taken, ...]" = ()
     """The things that were concluded from the program at hand, where that does not say it."""
 
+    def __post_init__(self) -> None:
+        # A setting is named with its control, so that it can be typed as it is shown.
+        named = (replace(each, control=self.name) if "{control}" in each.help else each for each in self.rules)
+        object.__setattr__(self, "rules", tuple(named))
+
     @property
     def catalogue(self) -> tuple[Rule, ...]:
         """The rules that a program of this control can meet, with their examples."""

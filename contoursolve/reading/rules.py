@@ -290,6 +290,8 @@ class Rule(Shown):
     """A file beside its examples: the name, and the text from the second line on."""
     absent: str = ""
     """The reason why no program of the control meets it; such a row is not listed."""
+    control: str = THIS_CONTROL
+    """The control that its help names, of a row that is told for one."""
     fill: "Callable[[Rule], Rule] | None" = field(default=None, repr=False)
     """The maker of its examples in a control's words; None where it has them."""
 

@@ -6,6 +6,7 @@ the end of each line as it was.
 
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from itertools import accumulate
 from pathlib import Path
 from time import monotonic
@@ -24,6 +25,7 @@ from contoursolve.solving import Status
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import Data
 from contoursolve.workbench.files import FileRefusedError, FileText, mark_of
+from contoursolve.workbench.page_words import in_page_words
 
 
 class TextEdit(Struct, frozen=True, rename={"begin": "from", "end": "to"}):
@@ -251,17 +253,17 @@ class ProgramView:
 
     def told(self, finding: Diagnostic, lines: tuple[int, ...]) -> Data:
         """A finding as a page shows it, with its fixes, which replace some lines."""
-        alarm = finding.alarm
+        alarm, words = finding.alarm, partial(in_page_words, syntax=self.program.syntax)
         return {
             "code": finding.code,
             "severity": finding.severity.value,
             **self.stretch(finding.span),
-            "message": finding.message,
-            "notes": [*finding.notes],
-            "help": finding.help,
+            "message": words(finding.message),
+            "notes": [*map(words, finding.notes)],
+            "help": words(finding.help),
             "source": str(finding.source) if finding.source.is_of_manual else "",
             "alarm": f"alarm {alarm.number} ({alarm.evidence.value})" if alarm else "",
-            "labels": [{**self.stretch(each.span), "text": each.text} for each in finding.labels if each.text],
+            "labels": [{**self.stretch(each.span), "text": words(each.text)} for each in finding.labels if each.text],
             "fixes": [self._fix(each, finding, lines) for each in finding.fixes],
         }
 
