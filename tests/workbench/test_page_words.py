@@ -37,3 +37,18 @@ def test_the_comment_that_it_names_is_taken(control):
     assert again["control"]["name"] == control
     assert "word-unknown" not in [each["code"] for each in again["findings"]]
     assert again["contours"]
+
+
+@pytest.mark.parametrize(
+    ("text", "note"),
+    [
+        (
+            "G18 G0 X40 Z0\nG1 X60 RND=2\nZ-20\n",
+            "RND=2 in program line 2 is for siemens-840d or siemens-808d: choose one of them in the list above",
+        ),
+        ("L X+0 Y+0\nFL AN+0 LEN20\n", "FL in program line 2 is for heidenhain: choose heidenhain in the list above"),
+    ],
+)
+def test_another_control_is_chosen_in_the_list(text, note):
+    opened = Page(Desk()).ask("open", name="part.nc", text=text, control="yasnac-lx3")
+    assert note in [each for finding in opened["findings"] for each in finding["notes"]]
