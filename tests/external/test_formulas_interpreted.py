@@ -193,7 +193,7 @@ def test_what_is_written_for_other_controls_does_the_same(language):
             most = LONGEST_LINE + 20 * (language == "klartext")
             assert max(map(len, written)) < most, max(written, key=len)
             assert max(map(nested, written)) <= MOST_BRACKETS
-            for _ in range(VALUES // 20 // FEW):
+            for _ in range(VALUES // 60):
                 values = {name: another(rng, value) for name, value in family.values.items()}
                 contours, is_refused, is_off = solved(family, values)
                 prefix = {"sinumerik": "R", "klartext": "Q"}.get(language, "#")

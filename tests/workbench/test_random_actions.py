@@ -113,7 +113,7 @@ def walk(folder, steps, seed):
 
 @pytest.mark.slow
 def test_memory_stays_flat_over_many_random_actions(tmp_path):
-    sizes = walk(tmp_path, 320, 2)
+    sizes = walk(tmp_path, 200, 2)
     assert max(sizes[2:]) < 1.1 * max(sizes[:2])
 
 
