@@ -54,8 +54,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
 
 
-QUICK_CASES = 2
-"""Of a test with more cases, so many are run by default, drawn by their names; the others are slow."""
+QUICK_CASES = 1
+"""Of the cases of a test, so many are run by default, drawn by their names; the others are slow."""
 
 SAMPLED = ({"slow"}, {"interpreter"}, {"slow", "interpreter"}, {"slow", "browser"})
 """The markers of the tests of whose cases `--one-in` takes a share."""
