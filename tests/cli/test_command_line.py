@@ -188,7 +188,10 @@ def test_six_typical_mistakes_are_each_found_in_their_block():
     assert ignored["values"]["expected"] == pytest.approx(140.1944, abs=1e-4)
 
 
-@pytest.mark.parametrize(("path", "control", "contours"), [(SHAFT, "yasnac-lx3", 7), (PLATE, "nct-99m", 6)])
+@pytest.mark.parametrize(
+    ("path", "control", "contours"),
+    [pytest.param(SHAFT, "yasnac-lx3", 7, id="shaft"), pytest.param(PLATE, "nct-99m", 6, id="plate")],
+)
 def test_realistic_program_is_solved_without_a_finding(path, control, contours):
     found = solve_json(path)
     assert (found["control"], found["diagnostics"]) == (control, [])
