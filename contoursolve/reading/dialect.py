@@ -109,8 +109,9 @@ class Dialect:
 
     def __post_init__(self) -> None:
         # A setting is named with its control, so that it can be typed as it is shown.
-        named = (replace(each, control=self.name) if "{control}" in each.help else each for each in self.rules)
-        object.__setattr__(self, "rules", tuple(named))
+        if any("{control}" in each.help and each.control != self.name for each in self.rules):
+            named = (replace(each, control=self.name) if "{control}" in each.help else each for each in self.rules)
+            object.__setattr__(self, "rules", tuple(named))
 
     @property
     def catalogue(self) -> tuple[Rule, ...]:
