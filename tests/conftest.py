@@ -3,11 +3,10 @@
 import shutil
 import signal
 import sys
-from collections import defaultdict
 from importlib.util import find_spec
-from zlib import crc32
 
 import pytest
+import sampling
 from hypothesis import settings
 
 pytest_plugins = ["browsing"]
@@ -45,7 +44,7 @@ PACKAGES = {
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("contoursolve")
     group.addoption("--insist", action="store_true", help="fail where a program or a package is missing, not skip")
-    group.addoption("--one-in", metavar="N", type=int, help="of a test with many slow cases, run one in N of these")
+    group.addoption("--record-costs", action="store_true", help="write what cases cost to tests/durations.json")
     group.addoption("--sarif-schema", metavar="FILE", help="the SARIF 2.1.0 schema, which our output is held against")
     group.addoption("--axe", metavar="FILE", help="axe.min.js of axe-core, by which pages are held to be accessible")
     group.addoption("--code-server", metavar="FOLDER", help="where code-server is, or is to stay for the next time")
@@ -54,36 +53,21 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
 
 
-QUICK_CASES = 1
-"""Of the cases of a test, so many are run by default, drawn by their names; the others are slow."""
-
-SAMPLED = ({"slow"}, {"interpreter"}, {"slow", "interpreter"}, {"slow", "browser"})
-"""The markers of the tests of whose cases `--one-in` takes a share."""
-
-
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    quick, slow = defaultdict(list), defaultdict(list)
+    """Cases are slow that the sample by time leaves out."""
+    quick = sampling.quick_cases(sampling.read_costs())
     for item in items:
-        if isinstance(item, pytest.Function):
-            own = {mark.name for mark in item.iter_markers()} & SLOW
-            if not own:
-                quick[item.path, item.originalname].append(item)
-            elif own in SAMPLED:
-                slow[item.path, item.originalname].append(item)
-    for name, cases in quick.items():
-        for item in sorted(cases, key=drawn)[QUICK_CASES:]:
-            item.add_marker("slow")
-            slow[name].append(item)
-    if one_in := config.getoption("--one-in"):
-        left = {item for cases in slow.values() for item in sorted(cases, key=drawn)[max(1, len(cases) // one_in) :]}
-        config.hook.pytest_deselected(items=[item for item in items if item in left])
-        items[:] = [item for item in items if item not in left]
+        if isinstance(item, pytest.Function) and not {mark.name for mark in item.iter_markers()} & SLOW:
+            file, name = sampling.place_of(item)
+            known = quick.get(file, {}).get(sampling.test_of(name))
+            if known is not None and name not in known and item.get_closest_marker("boundary") is None:
+                item.add_marker("slow")
 
 
-def drawn(item: pytest.Item) -> int:
-    """A number by which cases are drawn: of the name, so that it is the same wherever they are drawn."""
-    return crc32(item.name.encode())
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("record_costs"):
+        config.pluginmanager.register(sampling.Recorder())
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:

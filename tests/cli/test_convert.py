@@ -5,7 +5,6 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many
 from generate_nct import random_chain, random_cornered
 from generate_typing import random_g111
 
@@ -94,7 +93,7 @@ def test_everything_else_stays_as_it_was(path, control, to):
     assert found.summary.in_words > 0
 
 
-@few_and_many(6, 36)
+@pytest.mark.parametrize("count", [6, 36])
 def test_a_converted_program_cuts_the_same_path(count, tmp_path):
     """`convert` proves it by what it writes; here both are expanded, and the plain programs compared."""
     rng = Random(count)

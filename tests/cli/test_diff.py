@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from examples import law, some_of
+from examples import law
 from hypothesis import strategies as st
 
 from contoursolve.api import read_program
@@ -96,8 +96,8 @@ def test_the_slip_of_the_conversion_in_the_notebooks_is_the_only_one(diff):
     assert diff(SHAFT, converted.replace("X59.775", "X59.757"))["verdict"] == "equal"
 
 
-@some_of(
-    ("program", "by_hand"), [(SHAFT, SHAFT_BY_HAND), (PLATE, PLATE_BY_HAND)], ids=["shaft", "plate"], only=("plate",)
+@pytest.mark.parametrize(
+    ("program", "by_hand"), [(SHAFT, SHAFT_BY_HAND), (PLATE, PLATE_BY_HAND)], ids=["shaft", "plate"]
 )
 def test_every_coordinate_by_hand_that_is_off_by_a_hundredth_is_found(diff, program, by_hand):
     whole = replaced(program, **by_hand)

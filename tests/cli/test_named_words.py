@@ -6,7 +6,6 @@ from random import Random
 import pytest
 from click.testing import CliRunner, Result
 from damaged import damaged
-from examples import few_and_many, some_of
 
 from contoursolve import DIALECTS, OpenProgram, apply_fixes, solve
 from contoursolve.cli import main
@@ -40,7 +39,7 @@ PROGRAMS = {
 """For each control a contour with a word that a fix would change, and the place of a comment."""
 
 
-@some_of("control", PROGRAMS, only=("yasnac-lx3", "fanuc-lathe", "siemens-840d", "heidenhain"))
+@pytest.mark.parametrize("control", PROGRAMS)
 def test_no_fix_changes_a_word_that_is_right_whichever_way_it_is_said(control):
     text, word = PROGRAMS[control]
     said = DIALECTS[control].modes.syntax.remark.format(f"contoursolve trust: {word}")
@@ -105,7 +104,7 @@ def test_what_is_trusted_is_there_or_it_is_said_what_may_be_meant(words, reason,
 
 
 @pytest.mark.slow
-@few_and_many(4, 60)
+@pytest.mark.parametrize("count", [4, 60])
 def test_a_trusted_word_of_a_damaged_program_is_in_every_fix(count):
     for seed in range(count):
         data, control = damaged(seed)

@@ -7,7 +7,6 @@ from random import Random
 from typing import NamedTuple
 
 import pytest
-from examples import few_and_many
 from examples_fanuc import EXAMPLES, drawn
 from fanuc import read
 from generate_fanuc import random_lathe, random_mill
@@ -181,7 +180,7 @@ def test_linuxcnc_runs_every_program_where_it_was_drawn(post, arcs, tmp_path):
 
 
 @pytest.mark.interpreter
-@few_and_many(3, 60)
+@pytest.mark.parametrize("count", [3, 60])
 def test_linuxcnc_runs_blocks_in_pairs_where_they_were_drawn(count, tmp_path):
     blocks = [random_block(Random(number), form, 17 + number % 2) for form in PAIRS for number in range(count)]
     drawn = [each for each in blocks if each.elements and not each.is_near]
@@ -258,7 +257,7 @@ def test_words_that_linuxcnc_cannot_know_are_told(control, text, told):
 
 
 @pytest.mark.parametrize("arcs", ["center", "radius"])
-@few_and_many(5, 1, "stride")
+@pytest.mark.parametrize("stride", [5, 1])
 def test_a_fanuc_control_runs_every_program_where_it_was_drawn(arcs, stride):
     for each, text in zip(drawings()[::stride], expanded("fanuc", arcs, stride), strict=True):
         motions = list(read(text, is_lathe=each.control == LX3))

@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy
 import pytest
-from examples import few_and_many
 from interpreter import Motion, RefusedError, interpret
 from oracle_tool import TIPS, Part, clearance, draw, program_of, run
 
@@ -42,7 +41,7 @@ def is_gouging(motions: list[Motion], shift: complex, parts: list[Part], radius:
     return min(clearance(each, parts).min() for each in places) < radius - 1e-4
 
 
-@few_and_many(20, 60)
+@pytest.mark.parametrize("count", [20, 60])
 def test_linuxcnc_goes_the_same_way(count: int, tmp_path: Path):
     random, alike, refused = numpy.random.default_rng(274), 0, 0
     for number in range(count):

@@ -6,7 +6,6 @@ from random import Random
 
 import numpy as np
 import pytest
-from examples import few_and_many, some_of
 from generate_families import BLOCKS, ROWS, draw
 
 from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
@@ -40,8 +39,8 @@ def difference(row, answer):
     return "" if row["residual"] <= NEAR else f"off by {row['residual']}"
 
 
-@some_of("form", BLOCKS, only=[*BLOCKS][::2])
-@few_and_many(3, 8)
+@pytest.mark.parametrize("form", BLOCKS)
+@pytest.mark.parametrize("count", [3, 8])
 def test_every_row_is_what_a_single_solve_says(form, count):
     wrong, seen, number = [], Counter(), 0
     while seen["answered"] < count:

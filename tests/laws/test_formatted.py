@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import pytest
-from examples import few_and_many
 from generate_fanuc import random_lathe, random_mill
 from mutations import mutate, windows
 from respell import isg, sinumerik
@@ -179,7 +178,7 @@ def draw_jumps(rng: random.Random, control: str) -> Drawn:
     return Drawn(lines, own, [line for line, (_, words) in enumerate(kinds, 1) if words is WORDS or line in own])
 
 
-@few_and_many(20, 400)
+@pytest.mark.parametrize("count", [20, 400])
 @pytest.mark.parametrize("control", JUMPS)
 def test_jumps_lead_to_the_same_blocks(control: str, count: int) -> None:
     rng = random.Random(count)

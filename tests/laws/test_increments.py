@@ -6,7 +6,6 @@ from random import Random
 
 import numpy as np
 import pytest
-from examples import few_and_many
 
 import contoursolve
 from contoursolve.comparison import Document, ReceiptVerdict, verify
@@ -34,7 +33,7 @@ def test_a_bevel_at_a_taper_onto_a_cylinder_is_inside_within_the_increment_of_x(
         assert answer.diagnostics[0].values["off_by_mm"] == pytest.approx(outside)
 
 
-@few_and_many(30, 200)
+@pytest.mark.parametrize("count", [30, 200])
 @pytest.mark.parametrize("unit", ["mm", "inch"])
 def test_every_taper_onto_a_cylinder_with_x_rounded_to_the_increment_is_accepted(count, unit):
     draw, decimals, scale = Random(1), *((3, 1.0) if unit == "mm" else (4, 1 / 25.4))
@@ -71,7 +70,7 @@ def half_circle(draw):
     return text, size, abs(end - begin) / 2
 
 
-@few_and_many(30, 150)
+@pytest.mark.parametrize("count", [30, 150])
 def test_every_half_circle_by_r_with_rounded_numbers_is_one(count):
     draw, rounded = Random(2), 0
     for _ in range(count):

@@ -9,7 +9,6 @@ import casadi
 import mpmath
 import numpy
 import pytest
-from examples import few_and_many
 from mpmath import mp, mpf
 
 from contoursolve.numeric import intervals
@@ -47,7 +46,7 @@ OPERATIONS: dict[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
 }
 
 
-@few_and_many(300, 3000)
+@pytest.mark.parametrize("count", [300, 3000])
 @pytest.mark.parametrize("name", OPERATIONS)
 def test_the_interval_of_a_result_holds_every_result(count: int, name: str) -> None:
     of_intervals, exact = OPERATIONS[name]
@@ -75,7 +74,7 @@ EQUATIONS: dict[str, Callable[..., Any]] = {
 }
 
 
-@few_and_many(300, 3000)
+@pytest.mark.parametrize("count", [300, 3000])
 @pytest.mark.parametrize("name", EQUATIONS)
 def test_what_satisfies_an_equation_stays_in_the_box(count: int, name: str) -> None:
     """The right side is an input that holds the exact value at a point of the box."""

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 import small_interpreter
 from editor import random_edit
-from examples import some_of
 
 import contoursolve
 from contoursolve import OpenProgram
@@ -146,7 +145,7 @@ def test_what_is_found_so_far_is_found_in_the_end() -> None:
     assert all(each in final for early in found for each in early)
 
 
-@some_of("line", [2, 4, 5, 203, 204, -5, -2], only=(2, 203, -5))
+@pytest.mark.parametrize("line", [2, 4, 5, 203, 204, -5, -2])
 def test_an_edit_reads_what_depends_on_it_alone(line: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """How many blocks are read for an edit depends neither on the length of the program, nor on the line."""
     counts = []
@@ -170,7 +169,7 @@ def test_an_edit_reads_what_depends_on_it_alone(line: int, monkeypatch: pytest.M
     assert 0 < counts[0] == counts[1] < 400
 
 
-@some_of("contours", [5, 40], only=[5])
+@pytest.mark.parametrize("contours", [5, 40])
 def test_an_edit_of_a_program_that_runs_solves_what_depends_on_it_alone(
     contours: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -192,7 +191,7 @@ def test_an_edit_of_a_program_that_runs_solves_what_depends_on_it_alone(
 
 
 @pytest.mark.slow
-@some_of("path", PROGRAMS, only=PROGRAMS[::6], ids=lambda path: path.name)
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.name)
 def test_random_edits(path: Path) -> None:
     edit_at_random(decode(path.read_bytes(), path.name), path.name, CONTROLS.get(path.name), 1, 3)
 
@@ -206,7 +205,7 @@ def test_many_random_edits(path: Path, seed: int) -> None:
 
 
 @pytest.mark.slow
-@some_of("seed", range(40), only=range(2))
+@pytest.mark.parametrize("seed", range(40))
 def test_random_edits_of_programs_that_run(seed: int) -> None:
     control = sorted(small_interpreter.CONTROLS)[seed % len(small_interpreter.CONTROLS)]
     edit_at_random(small_interpreter.program(control, seed).text, control, control, seed, 4)

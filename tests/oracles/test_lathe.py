@@ -9,7 +9,6 @@ from math import cos, radians, sin
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many
 from generate_lx3 import FORMS, random_g11, random_g112
 from generate_nct import disturbed
 from oracle_lx3 import WORD, contours
@@ -66,7 +65,7 @@ def test_forms_of_this_control_show_that_a_program_is_for_it():
 
 
 @pytest.mark.slow
-@few_and_many(3, 12)
+@pytest.mark.parametrize("count", [3, 12])
 def test_g112_is_the_drawing_it_was_written_from(count):
     rng = random.Random(112)
     for form, one, two in product(FORMS, ("", "P", "C"), ("", "Q", "D")):
@@ -78,7 +77,7 @@ def test_g112_is_the_drawing_it_was_written_from(count):
 
 
 @pytest.mark.slow
-@few_and_many(15, 60)
+@pytest.mark.parametrize("count", [15, 60])
 def test_g11_g12_and_g01_are_the_drawings_they_were_written_from(count):
     rng = random.Random(11)
     for _ in range(count):

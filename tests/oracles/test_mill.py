@@ -17,7 +17,6 @@ from random import Random
 from typing import Any
 
 import pytest
-from examples import some_of
 from generate_nct import FORMS, Drawn, disturbed, random_chain, random_cornered, random_pair
 from oracle import PLANES
 from oracle_corners import miss
@@ -223,7 +222,7 @@ def spoil(program: Sequence[str], kind: str) -> tuple[list[str], int]:
     return lines, index + 1
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("kind", "code"),
     [
         ("no Q", "nct-q-missing"),
@@ -231,7 +230,6 @@ def spoil(program: Sequence[str], kind: str) -> tuple[list[str], int]:
         ("off its circle", "nct-radius-difference"),
         ("corner twice", "nct-two-corners"),
     ],
-    only=("no Q", "corner twice"),
 )
 @pytest.mark.parametrize("blocks", [7, pytest.param(13, marks=pytest.mark.slow)])
 def test_a_mistake_in_a_long_chain_is_found_in_its_block_and_soon(kind, code, blocks):

@@ -8,7 +8,6 @@ from random import Random
 
 import numpy
 import pytest
-from examples import few_and_many
 from generate_lx3 import FORMS as LATHE_FORMS, random_g11, random_g112
 from generate_nct import FORMS, disturbed, draw_path, random_chain, random_cornered, random_pair
 from oracle import PLANES, Element, Outcome, _RefusedError as Refused, circle_line, cross, dot
@@ -186,7 +185,7 @@ def assert_same(drawn, found):
     assert all(abs(found.points[name] - at) < CLOSE for name, at in drawn.points.items()), drawn.text
 
 
-@few_and_many(1, 5, "times")
+@pytest.mark.parametrize("times", [1, 5])
 def test_every_drawn_run_is_read_back_from_its_text(times):
     rng = Random(16)
     drawings = [
@@ -286,7 +285,7 @@ def test_the_bevels_of_the_sheet_end_as_its_drawing_says():
     assert [element.end for each in found for element in each.elements] == [-12 + 15j, -20 + 23j, -20 + 33j, -27 + 40j]
 
 
-@few_and_many(45, 120)
+@pytest.mark.parametrize("count", [45, 120])
 def test_every_drawn_arc_with_corners_is_read_back_from_its_text(count):
     rng = Random(112)
     covered: Counter[tuple[str, ...]] = Counter()

@@ -7,7 +7,6 @@ from math import inf
 from random import Random
 
 import pytest
-from examples import few_and_many
 from generate_fanuc import disturbed, random_lathe, random_mill
 from oracle import Element
 from oracle_corners import gap
@@ -91,7 +90,7 @@ def machine_of(control: str, plane: int | None) -> Machine:
 
 @pytest.mark.parametrize("plane", MACHINES)
 @pytest.mark.parametrize("control", [SINUMERIK, ISG])
-@few_and_many(12, 40)
+@pytest.mark.parametrize("count", [12, 40])
 def test_random_contours_come_out_where_they_were_drawn(control, plane, count):
     rng, verdicts = Random(f"{control}{plane}{count}"), Counter[str]()
     for _ in range(count):
@@ -105,7 +104,7 @@ def test_random_contours_come_out_where_they_were_drawn(control, plane, count):
 
 @pytest.mark.parametrize("plane", MACHINES)
 @pytest.mark.parametrize("control", [SINUMERIK, ISG])
-@few_and_many(12, 40)
+@pytest.mark.parametrize("count", [12, 40])
 def test_no_program_with_a_word_lost_too_many_or_wrong_is_solved_wrongly(control, plane, count):
     rng, verdicts = Random(f"wrong {control}{plane}{count}"), Counter[str]()
     for _ in range(count):

@@ -17,7 +17,6 @@ import oracle_apollonius as oracle
 import pytest
 from chains import Arc, Chain, solutions
 from click.testing import CliRunner
-from examples import few_and_many
 from mpmath import mp, mpf
 from oracle_apollonius import KNOWN, Circle, EndlessError, Line, Point, Thing
 from sketches import chain_case, chain_of, is_among, is_drawing, sketch_of
@@ -129,7 +128,7 @@ def compare_circles(things: Sequence[Thing]) -> str:
 
 
 @pytest.mark.parametrize("kinds", KINDS)
-@few_and_many(3, 25)
+@pytest.mark.parametrize("count", [3, 25])
 def test_as_many_circles_touch_three_things_as_there_are_and_they_are_those(kinds: str, count: int) -> None:
     random = Random(f"circles {kinds}")
     results = Counter(compare_circles(written(oracle.random_things(random, kinds))) for _ in range(count))
@@ -137,7 +136,7 @@ def test_as_many_circles_touch_three_things_as_there_are_and_they_are_those(kind
 
 
 @pytest.mark.parametrize("kinds", KINDS)
-@few_and_many(1, 12)
+@pytest.mark.parametrize("count", [1, 12])
 def test_a_circle_is_found_among_those_that_touch_what_touches_it(kinds: str, count: int) -> None:
     """The things are where rounding has put them: two solutions may be close together, or just vanished."""
     random = Random(f"touching {kinds}")
@@ -208,7 +207,7 @@ def test_a_circle_moves_through_another_and_has_4_3_2_1_and_0_tangents_with_it(t
 
 
 @pytest.mark.parametrize("kinds", ["CC", "CP"])
-@few_and_many(15, 60)
+@pytest.mark.parametrize("count", [15, 60])
 def test_as_many_lines_touch_two_things_as_there_are(kinds: str, count: int) -> None:
     random = Random(f"lines {kinds}")
     counts = Counter(compare_lines(written(oracle.random_things(random, kinds))) for _ in range(count))
@@ -491,12 +490,12 @@ def search_from(stage: Stage, guesses: int, random: Random) -> None:
             assert hits == set(range(len(places)))
 
 
-@few_and_many(150, 500)
+@pytest.mark.parametrize("count", [150, 500])
 def test_guesses_lead_to_the_certified_solutions_and_to_no_other(count: int) -> None:
     search_from(stage_of(three_circles()), count, Random(1000))
 
 
-@few_and_many(50, 200)
+@pytest.mark.parametrize("count", [50, 200])
 def test_guesses_for_a_step_without_closed_form_lead_to_the_solutions_that_dividing_finds(count: int) -> None:
     search_from(stage_of(two_rods()), count, Random(200))
 
@@ -743,7 +742,7 @@ def test_the_end_of_a_line_is_within_the_certified_radius_wherever_the_sketch_be
 
 
 @pytest.mark.slow
-@few_and_many(9, 40)
+@pytest.mark.parametrize("count", [9, 40])
 def test_the_exact_intersection_of_a_pair_is_within_the_certified_radius(count: int) -> None:
     random = Random(1633)
     with mp.workdps(60):
@@ -792,7 +791,7 @@ def test_what_the_command_line_prints_is_within_the_radius_that_it_prints() -> N
 
 
 @pytest.mark.parametrize("kinds", KINDS)
-@few_and_many(3, 15)
+@pytest.mark.parametrize("count", [3, 15])
 def test_the_exact_circle_is_within_the_certified_radius(kinds: str, count: int) -> None:
     random = Random(f"certified {kinds}")
     for _ in range(count):
@@ -815,7 +814,7 @@ def fraction_gap(circle: Circle, thing: Thing) -> Fraction:
     return min(square - (r + other) ** 2, square - (r - other) ** 2, key=abs)
 
 
-@few_and_many(50, 150)
+@pytest.mark.parametrize("count", [50, 150])
 def test_a_circle_is_exact_only_if_it_touches_exactly(count: int) -> None:
     """Whole numbers and quarters: some of the circles have a rational place, most have not."""
     random = Random(60)

@@ -9,7 +9,6 @@ from typing import Any
 import numpy
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many
 from oracle_tool import SPELLINGS, TIPS, Part, Spelling, clearance, draw, is_cut, parts_of, run
 
 from contoursolve.cli import main
@@ -112,7 +111,7 @@ class Drawn:
 
 
 @pytest.mark.slow
-@few_and_many(14, 100)
+@pytest.mark.parametrize("count", [14, 100])
 def test_random_contours(count: int, tmp_path: Path):
     """No path comes nearer to any wall than the radius; each stays at it, where something is left out, too; what fits
     is not refused."""

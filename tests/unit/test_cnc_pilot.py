@@ -5,7 +5,6 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many
 from free_chains import Drawn, Step, draw
 from vectors import program_of
 
@@ -177,7 +176,7 @@ WORDINGS = {
 """The words of elements that touch, as few as they need."""
 
 
-@few_and_many(4, 60)
+@pytest.mark.parametrize("count", [4, 60])
 @pytest.mark.parametrize("kinds", WORDINGS)
 def test_elements_that_touch_are_found_again(kinds, count):
     for seed in range(count):

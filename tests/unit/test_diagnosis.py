@@ -17,7 +17,7 @@ from typing import Any
 import mpmath
 import numpy
 import pytest
-from examples import control_of, few_and_many
+from examples import control_of
 from records import replace
 
 from contoursolve import Answer, completions, parse, solve, what_if
@@ -243,7 +243,7 @@ def block_of(words: Words) -> str:
     )
 
 
-FOR_DIAGNOSES, FOR_BLOCKS = few_and_many(18, 36), few_and_many(10, 16)
+FOR_DIAGNOSES, FOR_BLOCKS = pytest.mark.parametrize("count", [18, 36]), pytest.mark.parametrize("count", [10, 16])
 
 
 @lru_cache
@@ -341,7 +341,7 @@ def test_freedoms_are_the_null_space_seen_at_each_point(count):
 
 
 @pytest.mark.slow
-@few_and_many(10, 40)
+@pytest.mark.parametrize("count", [10, 40])
 def test_identities_hold_for_every_consistent_block_that_has_them(count):
     random, seen = Random(4), set()
     for _ in range(count):
@@ -871,7 +871,7 @@ def test_what_if_without_an_edit_is_solve(count):
 
 
 @pytest.mark.slow
-@few_and_many(2, 30)
+@pytest.mark.parametrize("count", [2, 30])
 def test_what_if_does_what_its_words_say(count):
     for case, _ in broken_blocks(count):
         if case.kind == "comma":

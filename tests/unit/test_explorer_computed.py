@@ -1,7 +1,6 @@
 """Words whose values are variables or expressions: the explorer leaves them, and every other character, as they are."""
 
 import pytest
-from examples import some_of
 
 import contoursolve
 from contoursolve.notebook import exploration as explore
@@ -111,7 +110,7 @@ def begun(control, text):
 
 
 @pytest.mark.slow
-@some_of(("control", "text", "computed"), CASES, only=("fanuc-lathe-0", "nct-99m-0", "siemens-840d-0"))
+@pytest.mark.parametrize(("control", "text", "computed"), CASES)
 def test_a_word_with_a_variable_stays_and_moves_of_others_keep_every_character(control, text, computed):
     now = begun(control, text)
     fields = {each["key"]: each for each in view_of(now)["fields"]}

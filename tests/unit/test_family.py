@@ -10,7 +10,6 @@ import flint
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many
 
 import contoursolve
 from contoursolve.cli import main
@@ -176,7 +175,7 @@ def test_a_grid_has_an_axis_for_each_word_and_the_rows_of_its_columns():
     assert sum(grid.summary().values()) == len(grid) == a.size * p.size
 
 
-@few_and_many(100, 400)
+@pytest.mark.parametrize("count", [100, 400])
 def test_the_number_of_threads_changes_nothing(count):
     vary = {"A": np.linspace(90, 270, count), "P": np.linspace(0, 30, count // 2)}
     one, two = (family(BLOCK, start=START, vary=vary, workers=workers) for workers in (1, 2))

@@ -9,7 +9,6 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, some_of
 from examples_fanuc import (
     EXAMPLES,
     FL_G1,
@@ -222,7 +221,7 @@ def judge(program: Sequence[str], control: str, machine: Machine, settings: dict
 
 
 @pytest.mark.parametrize("control", MACHINES)
-@few_and_many(12, 120)
+@pytest.mark.parametrize("count", [12, 120])
 def test_random_chains_come_out_where_they_were_drawn(control, count):
     rng = Random(f"{control}{count}")
     for _ in range(count):
@@ -230,7 +229,7 @@ def test_random_chains_come_out_where_they_were_drawn(control, count):
 
 
 @pytest.mark.parametrize("kinds", PAIRS)
-@few_and_many(12, 120)
+@pytest.mark.parametrize("count", [12, 120])
 def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
     rng = Random(f"{kinds}{count}")
     for _ in range(count):
@@ -238,7 +237,7 @@ def test_random_pairs_come_out_where_they_were_drawn(kinds, count):
 
 
 @pytest.mark.parametrize("control", MACHINES)
-@few_and_many(12, 120)
+@pytest.mark.parametrize("count", [12, 120])
 @pytest.mark.slow
 def test_no_program_with_a_word_lost_too_many_or_wrong_is_solved_wrongly(control, count):
     rng, verdicts = Random(f"wrong {control}{count}"), Counter[str]()
@@ -261,7 +260,7 @@ SETTINGS = [
 
 
 @pytest.mark.parametrize(("control", "settings", "changes"), SETTINGS)
-@few_and_many(12, 120)
+@pytest.mark.parametrize("count", [12, 120])
 def test_programs_are_read_as_the_settings_say(control, settings, changes, count):
     rng, machine = Random(f"{settings}{count}"), MACHINES[control]._replace(**changes)
     named = {f"{control}.{name}": value for name, value in settings.items()}
@@ -414,7 +413,7 @@ PLAIN = {"fanuc-lathe.corner-words": "plain"}
 
 
 @pytest.mark.parametrize("control", [LATHE, MILL, HAAS_LATHE])
-@few_and_many(40, 300)
+@pytest.mark.parametrize("count", [40, 300])
 def test_random_steps_with_signs_come_out_as_the_oracle_says(control, count):
     rng, verdicts = Random(f"steps {control}{count}"), Counter[str]()
     plane, letters = ("G18", "ZXKI") if control != MILL else rng.choice((("G17", "XYIJ"), ("G19", "YZJK")))
@@ -574,7 +573,7 @@ def test_a_dwell_behind_an_open_line_stays_at_its_end():
     assert [line[:3] for line in lines] == ["G00", "G01", "G04", "G01"]
 
 
-@some_of("number", range(len(EXAMPLES)), only=(1, 4, 7))
+@pytest.mark.parametrize("number", range(len(EXAMPLES)))
 @pytest.mark.parametrize("post", ["same", "fanuc"])
 def test_an_example_and_what_it_is_expanded_to_are_the_same_path(number, post, tmp_path):
     control, row = EXAMPLES[number]

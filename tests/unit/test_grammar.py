@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
-from examples import law, some_of
+from examples import law
 from hypothesis import strategies as st
 
 from contoursolve import solve
@@ -198,7 +198,7 @@ def _rest() -> tuple[Any, ...]:
 MARKED = [case for case in MISTAKES if case[1]]
 
 
-@some_of(("fact", "marked", "expected"), MARKED, only=[fact for fact, *_ in MARKED[::5]])
+@pytest.mark.parametrize(("fact", "marked", "expected"), MARKED)
 def test_the_columns_of_a_finding_underline_the_mistake_inside_the_comment(
     fact: str, marked: str, expected: str
 ) -> None:
@@ -210,7 +210,7 @@ def test_the_columns_of_a_finding_underline_the_mistake_inside_the_comment(
     assert found["column"] > block.index(fact)
 
 
-@some_of(("fact", "marked", "expected"), MARKED, only=[fact for fact, *_ in MARKED[::4]])
+@pytest.mark.parametrize(("fact", "marked", "expected"), MARKED)
 def test_a_fact_apart_from_the_program_has_columns_of_its_own(fact: str, marked: str, expected: str) -> None:
     (found,) = [each for each in findings(WHOLE, "X of V1 = 40", fact) if each["code"] == "fact-unreadable"]
     assert (found["line"], found["fact"]["number"]) == (1, 2)

@@ -13,7 +13,6 @@ from collections.abc import Callable
 import numpy
 import pytest
 from counted import calls
-from examples import some_of
 
 from contoursolve import check, expand, parse
 from contoursolve.controls import DIALECTS
@@ -181,7 +180,7 @@ CORNER = {
 
 
 @pytest.mark.parametrize(("control", "line"), QUIET.values(), ids=QUIET)
-@some_of("place", [0, 1, 2, 3], only=(0, 2))
+@pytest.mark.parametrize("place", [0, 1, 2, 3])
 def test_time_goes_by_the_number_of_lines_that_say_nothing(control, line, place):
     """A program that is read as a stream. It waited for the next line that says something once for each of them."""
 
@@ -211,7 +210,7 @@ def pairs(count: int, code: str) -> str:
 
 
 @pytest.mark.slow
-@some_of("control", ["nct-99m", "siemens-840d", "fanuc-lathe"], only={"nct-99m"})
+@pytest.mark.parametrize("control", ["nct-99m", "siemens-840d", "fanuc-lathe"])
 def test_time_goes_by_the_number_of_angle_pairs(control, monkeypatch):
     """What Python does goes by their number, and no matrix that is decomposed grows with it. Each spare fact was held
     against all facts before it."""
@@ -247,7 +246,7 @@ ROWS = {
 
 
 @pytest.mark.slow
-@some_of("control", ROWS, only={"fanuc-mill"})
+@pytest.mark.parametrize("control", ROWS)
 def test_time_goes_by_the_number_of_corners_that_are_none(control, monkeypatch):
     """Every repair of one corner was solved as a whole, although all others were there still."""
     head, line = ROWS[control]
@@ -287,7 +286,7 @@ def increments(count: int, code: str) -> str:
 
 
 @pytest.mark.slow
-@some_of("control", ["nct-99m", "fanuc-lathe"], only={"nct-99m"})
+@pytest.mark.parametrize("control", ["nct-99m", "fanuc-lathe"])
 def test_time_goes_by_the_number_of_pairs_that_are_refused(control):
     def steps(count: int) -> int:
         told = []
@@ -347,7 +346,7 @@ LOOPS = {
 
 
 @pytest.mark.slow
-@some_of("kind", LOOPS, only=("WHILE", "GOTOB"))
+@pytest.mark.parametrize("kind", LOOPS)
 def test_loops_in_one_another_end_as_soon_as_nothing_new_follows(kind):
     """Each ran four times in each pass of the one around it; with long ones in them, they were followed no further."""
     head, tail = LOOPS[kind]

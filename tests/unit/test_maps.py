@@ -9,7 +9,6 @@ from html.parser import HTMLParser
 
 import numpy
 import pytest
-from examples import some_of
 
 import contoursolve
 from contoursolve.pictures import Theme, draw_family_map, draw_region
@@ -68,7 +67,7 @@ SHOWN = (("a taper", "line 1.room"), ("a chain with a boss", "length"), ("a ques
 
 
 @pytest.mark.slow
-@some_of(("name", "result"), SHOWN, only=["a chain with a boss"])
+@pytest.mark.parametrize(("name", "result"), SHOWN)
 def test_a_line_of_equal_value_runs_where_single_solves_have_its_value(name, result):
     block, box, options = BOXES[name]
     words = tuple(box)
@@ -183,7 +182,7 @@ def data_of(page):
 
 
 @pytest.mark.slow
-@some_of("name", BOXES, only=["a taper", "a chain with a boss"])
+@pytest.mark.parametrize("name", BOXES)
 def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
     family = family_of(name, 13)
     page = contoursolve.map_page(family, "length")

@@ -14,7 +14,6 @@ from xml.etree import ElementTree
 import numpy
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many
 from mutations import mutate, windows
 from test_rules import WRONG
 
@@ -325,7 +324,7 @@ def test_states_are_told_apart_without_colour():
     assert len({DASHES.get(role, ()) for role in states}) == len(states)
 
 
-@few_and_many(6, 100)
+@pytest.mark.parametrize("count", [6, 100])
 def test_several_pictures_stand_in_one_page(count):
     names = [
         each.get("id")

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy
 import pytest
-from examples import few_and_many, some_of
 from generate_slips import FORMS, Spoilt
 
 from contoursolve import Status, solve
@@ -75,7 +74,7 @@ def check_drops(spoilt: Spoilt) -> bool:
 
 
 @pytest.mark.parametrize("form", FORMS)
-@few_and_many(1, 4)
+@pytest.mark.parametrize("count", [1, 4])
 def test_every_smallest_set_of_words_to_drop_is_offered(count, form):
     draw = random.Random(7)
     compared = [check_drops(FORMS[form](draw)) for _ in range(count)]
@@ -137,7 +136,7 @@ def check_placeholders(spoilt: Spoilt) -> int:
     return len(found)
 
 
-@some_of(("form", "blocks"), [("g111", 4), ("g112", 8), ("cornered", 8)], only=("g112",))
+@pytest.mark.parametrize(("form", "blocks"), [("g111", 4), ("g112", 8), ("cornered", 8)])
 def test_a_word_without_its_number_is_offered_with_a_number_that_makes_a_contour(form, blocks):
     draw = random.Random(6)
     assert sum(check_placeholders(FORMS[form](draw)) for _ in range(blocks)) > 0
@@ -286,7 +285,7 @@ def trials(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return found
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("text", "fix"),
     [
         (OUTLINE, "write ,R29.313 for ,R30"),
@@ -310,7 +309,6 @@ def trials(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         "place missing",
         "circle undefined",
     ],
-    only=("outline", "comma"),
 )
 def test_one_mistake_in_a_long_chain_is_repaired_near_it(text, fix, trials, decompositions):
     result = solve(text, control="nct-99m")

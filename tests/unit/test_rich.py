@@ -10,7 +10,6 @@ from xml.etree import ElementTree
 
 import pandas
 import pytest
-from examples import some_of
 
 import contoursolve
 from contoursolve import Status
@@ -291,7 +290,7 @@ def test_ranges_and_regions_without_an_end_or_a_contour_are_drawn():
         assert "figure" in Page(data[HTML]).tags
 
 
-@some_of(
+@pytest.mark.parametrize(
     ("name", "arguments"),
     [
         ("range", ("range", "--word", "P")),
@@ -299,7 +298,6 @@ def test_ranges_and_regions_without_an_end_or_a_contour_are_drawn():
         ("found", ("find", "--word", "B", "--bring", "end Z-50.")),
         ("tolerances", ("sensitivity", "--tolerance", "A=0.1", "--tolerance", "K=0.02")),
     ],
-    only=("range", "tolerances"),
 )
 def test_questions_are_told_as_the_terminal_tells_them(name, arguments):
     from click.testing import CliRunner  # noqa: PLC0415

@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
-from examples import few_and_many, law
+from examples import law
 from examples_fanuc import drawn
 from hypothesis import strategies as st
 from oracle import Element
@@ -496,7 +496,7 @@ def heading(element: Element, at: complex) -> complex:
     return (at - element.center) / element.radius * (1j if element.turn == "ccw" else -1j)
 
 
-@few_and_many(5, 50)
+@pytest.mark.parametrize("count", [5, 50])
 def test_random_tangent_arcs_begin_in_the_direction_before_them_and_end_at_their_words(count):
     rng = Random(count)
     for _ in range(count):
@@ -522,7 +522,7 @@ def test_random_tangent_arcs_begin_in_the_direction_before_them_and_end_at_their
             before = own or line
 
 
-@few_and_many(5, 50)
+@pytest.mark.parametrize("count", [5, 50])
 def test_a_rounding_in_force_is_the_same_as_one_at_each_corner(count):
     rng = Random(count)
     for _ in range(count):

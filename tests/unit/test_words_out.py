@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from examples import law, some_of
+from examples import law
 from hypothesis import assume, strategies as st
 
 import contoursolve
@@ -131,7 +131,7 @@ def test_the_words_of_manuals_come_back(control: str, text: str, blocks: str):
     assert not found.candidates[0].words(contoursolve.NumberGround.COMPUTED)
 
 
-@some_of(("control", "text", "blocks"), OWN_WORDS, only=("yasnac-lx3", "siemens-840d", "heidenhain"))
+@pytest.mark.parametrize(("control", "text", "blocks"), OWN_WORDS)
 def test_all_that_is_found_for_them_is_the_same_contour(control: str, text: str, blocks: str):
     answer = contoursolve.solve(text, control=control).answers[0]
     check_all(answer, contoursolve.write(answer, control))
@@ -314,7 +314,7 @@ def test_plain_lines_that_come_first_say_why(sketch: str, control: str, told: st
     assert sum(not each.is_plain for each in found.candidates) == (3 if "3 further" in told else 0)
 
 
-@some_of("path", SKETCHES, only=SKETCHES[::4], ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", SKETCHES, ids=lambda path: path.stem)
 def test_no_two_ways_differ_in_increments_alone(path: Path):
     sketch = read_sketch(path.read_text(encoding="utf-8"))
     for control in OF_KIND[sketch.part]:

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from examples import some_of
 from workbench_page import Page
 
 import contoursolve
@@ -216,7 +215,7 @@ READ = sorted(each for each in PROGRAMS if each.suffix != ".dxf")
 CONTROLS = {"plate.nc": "nct-99m", "cover.nc": "nct-99m", "bracket.nc": "isg", "flange.mpf": "siemens-840d"}
 
 
-@some_of("path", READ, only=[each for each in READ if each.stem == "lever"], ids=lambda path: path.name)
+@pytest.mark.parametrize("path", READ, ids=lambda path: path.name)
 def test_a_contour_in_the_explorer_is_that_of_the_whole_program(path):
     """The desk examines only what a move makes necessary; the explorer of a notebook solves all of it each time."""
     text, control = decode(path.read_bytes(), path.name), CONTROLS.get(path.name)
