@@ -289,11 +289,6 @@ def fact_of(kind: str, elements: Sequence[int], values: Sequence[float] = ()) ->
     return Fact(kind, tuple(elements), tuple(values), TEXTS[kind].format(*elements, **named))
 
 
-def with_values(fact: Fact, values: Sequence[float]) -> Fact:
-    """The same fact with other numbers, for example rounded ones."""
-    return fact_of(fact.kind, fact.elements, values)
-
-
 # Chains
 
 

@@ -12,7 +12,6 @@ configuration's size: whatever is true only after rounding is decided as the dou
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from functools import wraps
 from itertools import product
 from math import cos, pi, radians, sin
 from random import Random
@@ -52,15 +51,6 @@ Thing = Point | Circle | Line
 
 class EndlessError(Exception):
     """Infinitely many solutions."""
-
-
-def precise(function: Any) -> Any:
-    @wraps(function)
-    def run(*given: Any, **named: Any) -> Any:
-        with mp.workdps(DIGITS):
-            return function(*given, **named)
-
-    return run
 
 
 class Frame(NamedTuple):
@@ -253,32 +243,6 @@ def meet(rows: Sequence[tuple[Vector, mpf]]) -> Iterator[tuple[mpf, mpf, mpf]]:
 # Circles of a given radius
 
 
-@precise
-def circles_of_radius(radius: Real, one: Thing, other: Thing) -> list[Circle]:
-    """All circles of a radius which touch two things, but for the things themselves."""
-    frame = frame_of((one, other), radius)
-    things, r = [frame.into(one), frame.into(other)], mpf(radius) / frame.size
-    found = []
-    for first, second in product(*(places_of_centers(thing, r) for thing in things)):
-        circles = [Circle(point.x, point.y, r) for point in _common(first, second)]
-        found += [circle for circle in circles if not any(circle_is(circle, thing) for thing in things)]
-    return [frame.back(circle) for circle in different(found)]
-
-
-def places_of_centers(thing: Thing, r: mpf) -> list[Thing]:
-    """Where the centres of circles of a radius are, which touch a thing."""
-    match thing:
-        case Point():
-            return [Circle(thing.x, thing.y, r)]
-        case Circle():
-            outside = Circle(thing.x, thing.y, thing.r + r)
-            inside = Circle(thing.x, thing.y, abs(thing.r - r))
-            return [outside, inside] if not is_zero(thing.r) else [outside]
-        case Line():
-            n, m, _ = normal_of(thing)
-            return [Line(thing.x + side * r * n, thing.y + side * r * m, thing.a) for side in (1, -1)]
-
-
 # Lines that touch two circles
 
 
@@ -388,14 +352,6 @@ def gap(one: Circle | Line, other: Thing) -> mpf:
     radius = other.r if isinstance(other, Circle) else mpf(0)
     distance = mp.hypot(one.x - other.x, one.y - other.y)
     return min(distance - (one.r + radius), distance - abs(one.r - radius), key=abs)
-
-
-@precise
-def relative_gap(one: Circle | Line, other: Thing) -> float:
-    """`gap` in 110 digits, over the size of the two, or of the shift that the place has been rounded with."""
-    values = [mpf(part) for thing in (one, other) for part in (thing[:2] if isinstance(thing, Line) else thing)]
-    exact = [type(thing)(*map(mpf, thing)) for thing in (one, other)]
-    return float(abs(gap(*exact)) / max(*map(abs, values), mpf(10) ** -30))
 
 
 # Random instances
