@@ -12,6 +12,7 @@ configuration's size: whatever is true only after rounding is decided as the dou
 """
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import wraps
 from itertools import product
 from math import cos, pi, radians, sin
 from random import Random
@@ -51,6 +52,15 @@ Thing = Point | Circle | Line
 
 class EndlessError(Exception):
     """Infinitely many solutions."""
+
+
+def precise(function: Any) -> Any:
+    @wraps(function)
+    def run(*given: Any, **named: Any) -> Any:
+        with mp.workdps(DIGITS):
+            return function(*given, **named)
+
+    return run
 
 
 class Frame(NamedTuple):

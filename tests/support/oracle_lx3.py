@@ -151,6 +151,15 @@ def g11(start: complex, words: Words) -> Outcome:
     return _leave(start, words, is_round=False)
 
 
+def g12(start: complex, words: Words) -> Outcome:
+    """Along one axis, then a quarter circle.
+
+    >>> g12(15j, {"Z": -20, "I": 8}).elements[1].center
+    (-12+23j)
+    """
+    return _leave(start, words, is_round=True)
+
+
 def _leave(start: complex, words: Words, *, is_round: bool) -> Outcome:
     outcome = Outcome(status="rejected", end=start)
     named = words.keys() - {"F"}
