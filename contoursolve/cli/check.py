@@ -22,7 +22,6 @@ from contoursolve.cli.options import (
     tool_options,
 )
 from contoursolve.cli.printing import is_screen, print_lines, print_pieces, say, style_of_output
-from contoursolve.cli.watching import watchable
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import Severity, UserError
 from contoursolve.gcode import ENDINGS, STANDARD_INPUT, Program, check_target, write_whole
@@ -83,7 +82,6 @@ _NOTHING = "nothing"
 @explain_option("every reason, every fix, and the equations of each contour")
 @click.option("--strict", "is_strict", is_flag=True, help="Also report faults outside contours that change no contour.")
 @click.option("--all", "shows_all", is_flag=True, help=f"Show more than {MOST_ALIKE} findings of a kind in a program.")
-@watchable
 @click.pass_context
 def check(
     context: click.Context,
