@@ -83,18 +83,13 @@ from .output import (
     tool_text as tool_text,
 )
 from .postprocess import (
-    BlockNumber as BlockNumber,
     Conversion as Conversion,
     Expansion as Expansion,
     NumberGround as NumberGround,
-    Replacement as Replacement,
     Written as Written,
     WrittenBlock as WrittenBlock,
     WrittenContour as WrittenContour,
     WrittenWord as WrittenWord,
-    block_number_at as block_number_at,
-    format_program as format_program,
-    rename_block as rename_block,
 )
 from .program import (
     Mended as Mended,

@@ -335,7 +335,8 @@ def expand(
         keep_untranslated: whether to write what the target would run along another path (`summary.misread`).
         block_numbers: `first`: of the lines in the place of a block, the first one has its number; `all`: the others
             have numbers, too, which the program does not use.
-        inline: whether to write out each call, jump and loop, with numbers for variables.
+        inline: whether to write out each call, jump and loop, with numbers for variables. `text` is None where one of
+            them cannot be decided.
         formulas: whether contours whose words hold variables become formulas in the target's macro language; `post` may
             then be `haas`, `sinumerik` or `klartext`, too. Values of `variables` are examples.
         scratch: the variables in which formulas compute, such as `#140-#160`.
@@ -375,7 +376,7 @@ def expand(
     source = file_in_memory(text, name)
     rewritten = rewrite(source, BytesIO(), wish, asked, control=told.control, settings=own, writer=writer)
     summary, written = rewritten.summary, b"".join(rewritten.pieces())
-    is_whole = (keep_going or not summary.left) and (keep_untranslated or not summary.misread)
+    is_whole = (keep_going or not summary.left) and not summary.has_end and (keep_untranslated or not summary.misread)
     return Expansion(written.decode(*ANY_TEXT) if is_whole else None, rewritten.control, summary)
 
 

@@ -22,7 +22,6 @@ from contoursolve.cli.options import (
     tool_options,
 )
 from contoursolve.cli.printing import is_screen, print_lines, print_pieces, say, style_of_output
-from contoursolve.cli.watching import watchable
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import Severity, UserError
 from contoursolve.gcode import ENDINGS, STANDARD_INPUT, Program, check_target, write_whole
@@ -56,8 +55,7 @@ _NOTHING = "nothing"
     type=click.Choice(["text", *MACHINE_READ]),
     default="text",
     show_default=True,
-    help="What to print: text, one JSON document, SARIF 2.1.0, GitHub's annotations, GitLab's code quality report, or "
-    "JUnit's XML.",
+    help="What to print: text, one JSON document, SARIF 2.1.0, or GitHub's annotations.",
 )
 @click.option(
     "--fail-on",
@@ -83,7 +81,6 @@ _NOTHING = "nothing"
 @explain_option("every reason, every fix, and the equations of each contour")
 @click.option("--strict", "is_strict", is_flag=True, help="Also report faults outside contours that change no contour.")
 @click.option("--all", "shows_all", is_flag=True, help=f"Show more than {MOST_ALIKE} findings of a kind in a program.")
-@watchable
 @click.pass_context
 def check(
     context: click.Context,
@@ -139,7 +136,6 @@ def check(
     told = _NOTHING if is_silent and format_ == "text" else format_
     telling = _Telling(context.with_resource(Shelf()), told, is_alone=len(names) <= 1, is_err=is_err)
     telling.most, telling.is_explained = None if shows_all else MOST_ALIKE, is_explained
-    telling.failing = _FAILING[fail_on]
     # A bar among the lines of a terminal, or before a question, would be torn.
     is_torn = (format_ == "text" and sys.stdout.isatty()) or (fixing is not None and fixing.asks)
     is_shown = not telling.is_alone and is_screen(sys.stderr) and not is_torn
@@ -155,9 +151,8 @@ def check(
             except UserError as error:
                 CouldNotRunError(str(error)).show()
                 telling.rows.append((name, None))
-                telling.reasons[name] = str(error)
     hiding.write(is_whole=not telling.has_failed)
-    if telling.has_failed and telling.is_alone and format_ != "junit":
+    if telling.has_failed and telling.is_alone:
         context.exit(COULD_NOT_RUN)
     control = options["control"]
     telling.close(fixing.summary if fixing else "", control if isinstance(control, Dialect) else None)
@@ -228,12 +223,10 @@ class _Telling:
 
     most: int | None = None
     is_explained = False
-    failing: tuple[Severity, ...] = ()
 
     def __init__(self, shelf: Shelf, format_: str, *, is_alone: bool, is_err: bool) -> None:
         self.format, self.is_alone, self.is_err = format_, is_alone, is_err
         self.tally, self.rows = Totals(), list[tuple[str, Totals | None]]()
-        self.reasons = dict[str, str]()
         self._document, self._results = Findings(shelf), list[Result]()
         self._is_strict = False
 
@@ -276,15 +269,10 @@ class _Telling:
                 from contoursolve.output import to_sarif  # noqa: PLC0415 - only here
 
                 click.echo(to_sarif(self._results, __version__, own), err=self.is_err)
-            case "github" | "gitlab":
-                from contoursolve.output import to_github, to_gitlab  # noqa: PLC0415 - only here
+            case "github":
+                from contoursolve.output import to_github  # noqa: PLC0415 - only here
 
-                write = to_github if self.format == "github" else to_gitlab
-                click.echo(write(self._results), err=self.is_err)
-            case "junit":
-                from contoursolve.output import to_junit  # noqa: PLC0415 - only here
-
-                click.echo(to_junit(self._results, self.failing, self.reasons), err=self.is_err)
+                click.echo(to_github(self._results), err=self.is_err)
             case "text" if not self.is_alone:
                 print_lines(table_lines(self.rows), err=self.is_err)
                 say(total, err=self.is_err)

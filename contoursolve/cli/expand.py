@@ -156,7 +156,7 @@ def expand(
     expand writes the other blocks in G codes, too.
 
     Calls stay. A contour of a subprogram is written once, and must be the same in every call. With --inline, it may
-    differ: expand writes out each call.
+    differ: expand writes out each call. It writes nothing where a jump cannot be decided.
 
     Exit status: 0 every contour is expanded, 1 one is left or nothing is written, 2 could not run.
 
@@ -184,8 +184,8 @@ def expand(
         summary = rewritten.summary
         report_left(summary, program or "<block>", style_of_output())
         report_misread(summary, wish.post, style_of_output(), is_kept=keeps_untranslated)
-        if summary.left and not keeps_going:
-            say("nothing was written (--keep-going expands the others)", err=True)
+        if summary.has_end or (summary.left and not keeps_going):
+            say("nothing was written" + " (--keep-going expands the others)" * (not summary.has_end), err=True)
             context.exit(FOUND_ERRORS)
         if summary.misread and not keeps_untranslated:
             report_told(summary, wish.post)

@@ -27,7 +27,7 @@ from contoursolve.gcode import (
 from contoursolve.output import Collected, printable
 from contoursolve.program import DECLINED, Examined, Mend, Result, Run, examined_result, likely_fixes, mend, safe_fixes
 
-MACHINE_READ = ("json", "sarif", "github", "gitlab", "junit")
+MACHINE_READ = ("json", "sarif", "github")
 """Formats that are no place for a diff."""
 
 

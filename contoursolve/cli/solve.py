@@ -15,7 +15,6 @@ from contoursolve.cli.options import (
     tool_options,
 )
 from contoursolve.cli.printing import print_lines, print_pieces, style_of_output
-from contoursolve.cli.watching import watchable
 from contoursolve.diagnostics import Severity
 from contoursolve.output import Collected, Totals, closing_lines, stream_listing, tool_lines
 
@@ -35,7 +34,6 @@ from contoursolve.output import Collected, Totals, closing_lines, stream_listing
 )
 @click.option("--derivation", "is_derived", is_flag=True, help="Also print the calculation by hand.")
 @explain_option("the equations, the construction, the checks, every reason and every fix")
-@watchable
 @click.pass_context
 def solve(
     context: click.Context,

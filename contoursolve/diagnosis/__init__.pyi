@@ -93,7 +93,6 @@ from .solutions import (
 )
 from .solved_contours import mend_behind as mend_behind
 from .spelling import (
-    Meanings as Meanings,
     are_points_usual as are_points_usual,
     counted_text as counted_text,
     counts_few as counts_few,
@@ -135,7 +134,6 @@ from .window import (
 )
 from .wording import (
     NUMBERS as NUMBERS,
-    SHOWN as SHOWN,
     angle_text as angle_text,
     axis_labels as axis_labels,
     coordinate_texts as coordinate_texts,

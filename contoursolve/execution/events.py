@@ -38,6 +38,9 @@ class EventKind(Enum):
     """Blocks that are not followed have run behind a move: the tool's position is not known, as behind each move. A
     contour of several moves goes on, and is refused for its start."""
 
+    UNDECIDED = "undecided"
+    """Nobody knows what runs on from here, so that a program without jumps ends."""
+
     MAY_STOP = "may stop"
     """The program stops here, if a decision is taken of which nobody knows; what follows runs where it is not."""
 

@@ -223,6 +223,14 @@ class _RefusedError(Exception):
     """The control stops at a block; the message says why."""
 
 
+class _UndecidedError(Exception):
+    """Nobody knows what runs on from a line, so that nothing can be written out; the message says why."""
+
+    def __init__(self, line: int, told: str) -> None:
+        super().__init__(told)
+        self.line = line
+
+
 class Machine:
     """One run of a program. `given` are values of variables that are stated apart from it."""
 
@@ -235,7 +243,6 @@ class Machine:
         limit: Limit | None = None,
     ) -> None:
         self.language, self.library = language, library
-        self._program = program
         self.main = ProgramFile(program, language, is_other=False)
         self.variables = Variables(language, given or {}, self._own)
         self._frames: list[_Frame] = []
@@ -265,19 +272,26 @@ class Machine:
         self._is_alone, self._is_reached, self._is_passing_over = False, True, False
         """Whether calls are written out, whether what runs is reached from the main program, and whether what runs is
         passed over there."""
+        self._has_to_decide = False
+        """Whether it ends where nobody knows what is decided."""
 
     def run_alone(self) -> Iterator[Block | ProgramEvent]:
-        """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
-        that is not known stays; the profile of a cycle that is written elsewhere does not run."""
-        self._is_alone, self._named = True, self._named_by_what_stays()
-        yield from self._with_own_numbers(self._run_from(self._begin_main()))
+        """The blocks of the main program and of what it calls, as one program without calls and jumps. What is set to a
+        value that is not known stays; the profile of a cycle that is written elsewhere does not run. It ends at a
+        decision of which nobody knows how it is taken."""
+        self._is_alone = self._has_to_decide = True
+        try:
+            yield from self._with_own_numbers(self._run_from(self._begin_main()))
+        except _UndecidedError as error:
+            yield ProgramEvent(EventKind.UNDECIDED, error.line, str(error))
+            return
         last = next((at for at in reversed(range(len(self.main))) if self.main.blocks[at].text.strip()), None)
         if last is not None and last not in self._visited and _ENDS_FILE.fullmatch(self.main.blocks[last].text):
             yield self.main.blocks[last]
 
     def _with_own_numbers(self, ran: Iterable[Block | ProgramEvent]) -> Iterator[Block | ProgramEvent]:
-        """The blocks that run, no block number twice. A block of a call, and one that runs again, loses its number,
-        unless a jump leads to it that stays. It is told where the profile of a cycle would lose its number."""
+        """The blocks that run, no block number twice. A block of a call, and one that runs again, loses its number. It
+        is told where the profile of a cycle would lose its number."""
         first = self._begin()
         last, taken = self.main.section_end(first), set[str]()
 
@@ -295,21 +309,11 @@ class Machine:
                         told = f"{call.cycle} names N{name}, which stands twice in a program without calls"
                         yield ProgramEvent(EventKind.BARRIER, each.line, told)
             number = _numbered(each)
-            if number and is_taken(number, each) and (each.file, each.line - 1) not in self._named:
+            if number and is_taken(number, each):
                 yield _without_number(each)
                 continue
             taken.add(number)
             yield each
-
-    def _named_by_what_stays(self) -> set[tuple[str, int]]:
-        """By file and index: lines to which jumps lead that stay as they are written, also those behind the lines."""
-        if not any(isinstance(each, Jump) for at in range(len(self.main)) for each in self.main.code(at).statements):
-            return set()
-        ahead = Machine(self._program, self.language, self.library, self.variables.given, self._limit)
-        ahead._is_alone = True
-        for _ in ahead._run_from(ahead._begin_main()):
-            pass
-        return ahead._named
 
     def run_all_alone(self) -> Iterator[Block | ProgramEvent]:
         """The same, and behind it what nothing calls."""
@@ -658,6 +662,18 @@ class Machine:
 
     # Ways: where nobody knows what is decided, both run, and only what they agree on is known where they meet
 
+    def _decide(self, frame: _Frame, reason: str) -> None:
+        """Refuse to write out what nobody knows whether it runs."""
+        if not self._has_to_decide:
+            return
+        block, file = frame.source.blocks[frame.here], frame.source.name
+        where = f", line {block.line} of {file}," if file else ""
+        advice = "state its value by --let"
+        if self.variables.truth(SKIP_SWITCH) == Unknown(reason):
+            advice = "delete the block, or its /"
+        told = f"{block.text.strip()}{where} cannot be decided: {reason}; {advice}"
+        raise _UndecidedError(self._line(frame, frame.here), told)
+
     def _part(self, frame: _Frame, reason: str, change: Callable[[_Frame], object]) -> ProgramEvent:
         """Keep another way, which goes on where a change of what runs now puts it."""
         frames = [*(each.copy() for each in self._frames[:-1]), frame.copy()]
@@ -825,6 +841,7 @@ class Machine:
             return
         jumps = [each for each in when.then if isinstance(each, Jump)]
         if isinstance(truth, Unknown) and len(jumps) < len(when.then):
+            self._decide(frame, truth.reason)
             yield from self._stay(frame, index)
             if self._is_alone and any(isinstance(each, Call) for each in when.then):
                 yield ProgramEvent(EventKind.LOST, self._line(frame, index), truth.reason)
@@ -848,9 +865,12 @@ class Machine:
             if target is not None:
                 self._keep(frame, target)
             return
+        if isinstance(where := self.variables.resolve(jump.target), Unknown):
+            self._decide(frame, where.reason)
         if target is None and frame.jumped == told:
             raise _RefusedError(told)
         if isinstance(truth, Unknown):
+            self._decide(frame, truth.reason)
             yield from self._jump_in_doubt(frame, index, target, truth.reason, told)
             return
         if target is None:
@@ -969,6 +989,7 @@ class Machine:
     def _begin_branch(self, frame: _Frame, index: int, branch: If | ElseIf) -> Iterator[Block | ProgramEvent]:
         truth, lines = self.variables.truth(branch.condition), self._branch_lines(frame, index)
         if isinstance(truth, Unknown):
+            self._decide(frame, truth.reason)
             yield from self._stay(frame, index)
             yield self._part(frame, truth.reason, partial(_begin_part, first=index, lines=lines))
             frame.branches.append(_Branch(lines, has_run=True, is_undecided=True))
@@ -1046,6 +1067,7 @@ class Machine:
         self, frame: _Frame, lines: LineRange, reason: str, known: _Loop | None
     ) -> Iterator[Block | ProgramEvent]:
         """Run a loop once more, of which nobody knows whether it does."""
+        self._decide(frame, reason)
         if not self._is_alone and not (known is not None and known.reason):
             yield self._begin_head(frame, lines.first)
         if self._is_alone:
@@ -1089,6 +1111,7 @@ class Machine:
         until = self.variables.truth(end.until) if end.until is not None else False
         if loop.reason or isinstance(until, Unknown):
             reason = until.reason if isinstance(until, Unknown) else loop.reason
+            self._decide(frame, reason)
             yield from self._stay(frame, index)
             if isinstance(until, Unknown):
                 yield self._part(frame, reason, lambda other: _leave_loop(other, loop.lines))

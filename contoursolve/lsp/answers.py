@@ -6,7 +6,6 @@ from typing import Any
 from lsprotocol import types
 
 from contoursolve.lsp import commands
-from contoursolve.lsp.editing import block_number_under, formatted, renamed, target_of
 from contoursolve.lsp.findings import actions_of, fix_all, with_edit
 from contoursolve.lsp.language_features import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
 from contoursolve.lsp.opened import FIX_ALL, Opened
@@ -48,9 +47,5 @@ ANSWERS: Mapping[str, Callable[[Opened, Any], Any]] = {
     types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: lambda opened, _: [*symbols_of(opened)],
     types.TEXT_DOCUMENT_FOLDING_RANGE: lambda opened, _: [*folds_of(opened)],
     types.TEXT_DOCUMENT_CODE_LENS: _lenses,
-    types.TEXT_DOCUMENT_FORMATTING: lambda opened, _: formatted(opened),
-    types.TEXT_DOCUMENT_PREPARE_RENAME: lambda opened, params: block_number_under(opened, params.position),
-    types.TEXT_DOCUMENT_RENAME: lambda opened, params: renamed(opened, params.position, params.new_name),
-    types.TEXT_DOCUMENT_DEFINITION: lambda opened, params: target_of(opened, params.position),
 }
 """Functions that answer, by what is asked."""

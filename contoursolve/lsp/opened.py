@@ -25,7 +25,6 @@ class ClientSettings(Struct, frozen=True):
     is_hinting: bool = True
     has_lenses: bool = True
     has_pictures: bool = True
-    block_numbers: int = 0
     has_commands: bool = False
     """Whether the client shows by itself what is made for it."""
 
@@ -40,15 +39,13 @@ def read_client_settings(section: Any, *, has_commands: bool = False) -> ClientS
     def switch(name: str) -> bool:
         return table.get(name) is not False
 
-    style, given, control = table.get("format"), table.get("settings"), table.get(CONTROL)
-    step = style.get("blockNumbers") if isinstance(style, dict) else 0
+    given, control = table.get("settings"), table.get(CONTROL)
     return ClientSettings(
         control if isinstance(control, str) else "",
         {str(name): str(value) for name, value in given.items()} if isinstance(given, dict) else {},
         switch("inlayHints"),
         switch("codeLenses"),
         table["pictures"] if isinstance(table.get("pictures"), bool) else has_commands,
-        step if isinstance(step, int) and not isinstance(step, bool) and step > 0 else 0,
         has_commands,
     )
 

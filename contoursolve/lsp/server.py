@@ -347,10 +347,6 @@ _REQUESTS: tuple[tuple[str, Any, float | None], ...] = (
     (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, None),
     (types.TEXT_DOCUMENT_FOLDING_RANGE, None, None),
     (types.TEXT_DOCUMENT_CODE_LENS, None, None),
-    (types.TEXT_DOCUMENT_FORMATTING, None, None),
-    (types.TEXT_DOCUMENT_PREPARE_RENAME, None, None),
-    (types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True), None),
-    (types.TEXT_DOCUMENT_DEFINITION, None, None),
 )
 """Requests of a client about a program, with the options that it is told, and the seconds that it waits for a place in
 it, if it is not about the whole; `answers` has the functions that answer."""

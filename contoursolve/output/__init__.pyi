@@ -43,8 +43,6 @@ from .equations_html import (
 )
 from .exchange import (
     to_github as to_github,
-    to_gitlab as to_gitlab,
-    to_junit as to_junit,
     to_sarif as to_sarif,
 )
 from .explanation_html import (

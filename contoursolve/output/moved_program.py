@@ -85,6 +85,7 @@ class BesideTool(Struct, frozen=True):
             renumbered(left.reason, self),
             tuple(map(self._finding, left.diagnostics)),
             {self.line(line): each.callers[0].text if each.file else each.text for line, each in own.items()},
+            left.is_end,
         )
 
     def _finding(self, finding: Diagnostic) -> Diagnostic:

@@ -1,9 +1,3 @@
-from .block_numbers import (
-    BlockNumber as BlockNumber,
-    Replacement as Replacement,
-    block_number_at as block_number_at,
-    rename_block as rename_block,
-)
 from .chain_wordings import (
     language_of as language_of,
 )
@@ -14,9 +8,6 @@ from .expansion_report import (
     ExpansionOptions as ExpansionOptions,
     Left as Left,
     Summary as Summary,
-)
-from .formatting import (
-    format_program as format_program,
 )
 from .formulas.formula_request import (
     formulas_for as formulas_for,

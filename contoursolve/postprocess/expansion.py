@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from msgspec.structs import replace as replace_fields
 
 from contoursolve.diagnosis import Depth
-from contoursolve.execution import ProgramEvent
+from contoursolve.execution import EventKind, ProgramEvent
 from contoursolve.gcode import Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.postprocess.expander import OPENING, Expander
@@ -49,9 +49,10 @@ def expand_lines(
         blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, asked.around)
 
     def leave(event: ProgramEvent) -> None:
-        if kind is not InGCodes:  # which tells of each block that it cannot write
-            told = event.reason or "which part of the branch runs is not known"
-            summary.left.append(Left((event.line,), told, (), {}))
+        is_end = event.kind is EventKind.UNDECIDED
+        if is_end or kind is not InGCodes:  # which tells of each block that it cannot write
+            told = f"{event.reason}, or leave out --inline" if is_end and options.is_inline else event.reason
+            summary.left.append(Left((event.line,), told, (), {}, is_end))
 
     telling = leave if options.is_inline or kind is InGCodes else None
     asked = replace_fields(asked, dialect=dialect, depth=Depth.PATH)

@@ -35,6 +35,8 @@ class Left(Struct, frozen=True):
     reason: str
     diagnostics: tuple[Diagnostic, ...]
     sources: Mapping[int, str]
+    is_end: bool = False
+    """Whether the program is not followed beyond these lines, so that nothing may be written."""
 
 
 class FixedWords(Struct, frozen=True):
@@ -82,6 +84,11 @@ class Summary(Struct):
     """The use of X as a diameter in contours of a program that does not state it; None without such contours."""
     line_end: str = "\n"
     """The end of the first line that has one."""
+
+    @property
+    def has_end(self) -> bool:
+        """Whether the program is not followed to its end, so that nothing may be written."""
+        return any(each.is_end for each in self.left)
 
     @property
     def misread(self) -> list[Unfamiliar]:

@@ -8,9 +8,14 @@ from math import hypot, sqrt
 
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
-from contoursolve.postprocess.block_numbers import LONG, PROFILE_CYCLES, SHORT
 from contoursolve.reading import Dialect, Effect, Modes, State, apply_modes, codes_of, rows_of
 from contoursolve.tolerance import ARC_START
+
+SHORT, LONG = 9_999, 99_999
+"""The highest block number: four digits, unless the program itself uses five."""
+
+PROFILE_CYCLES = (70, 71, 72, 73)
+"""Turning cycles whose profile is between the blocks P and Q."""
 
 _NUMBER = re.compile(r"(?:[NPQ]|GOTO)[ \t]*([0-9]{1,5})(?![0-9])", re.IGNORECASE)
 """Block numbers, and numbers of blocks to which a program may jump; in comments, too."""

@@ -58,7 +58,6 @@ from .project_file import (
     find_baseline as find_baseline,
     find_settings as find_settings,
     find_tool_table as find_tool_table,
-    project_files as project_files,
     read_setting as read_setting,
     restate_control as restate_control,
     stated_settings as stated_settings,

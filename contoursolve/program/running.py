@@ -25,7 +25,7 @@ from contoursolve.program.tape_markers import Marks
 from contoursolve.program.told_outside import Outside
 from contoursolve.reading import State, Ways
 
-_OPENING = (EventKind.LOST, EventKind.STOPPED, EventKind.PART)
+_OPENING = (EventKind.LOST, EventKind.STOPPED, EventKind.UNDECIDED)
 """Events behind which it is not known what runs, or where the tool is."""
 
 
@@ -179,7 +179,7 @@ class Running:
 
 
 def lines_alone(machine: Machine, told: Callable[[ProgramEvent], None]) -> Iterator[Line]:
-    """The lines of a program as one without calls; `told` is called where it is not known what runs."""
+    """The lines of a program as one without calls and jumps; `told` is called where it is not known what runs."""
     for each in machine.run_alone():
         if isinstance(each, ProgramEvent):
             is_unknown = each.kind in _OPENING and not each.is_told

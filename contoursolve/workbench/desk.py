@@ -46,7 +46,7 @@ class PageWindow:
 
     def __init__(self) -> None:
         self.programs: dict[str, ProgramView] = {}
-        self.may_write, self.busy = True, 0
+        self.busy = 0
 
 
 class Desk:
@@ -59,24 +59,21 @@ class Desk:
     ('part.nc', 2, True)
     """
 
-    def __init__(self, folder: Path | None = None, *, first: str = "", can_unlock: bool = False) -> None:
+    def __init__(self, folder: Path | None = None, *, first: str = "") -> None:
         self.folder = Folder(folder) if folder is not None else None
-        self.first, self.can_unlock = first, can_unlock
+        self.first = first
         self._windows: dict[str, PageWindow] = {}
         self._examined: dict[str, tuple[PageWindow, ProgramView]] = {}
         """The programs that may be examined, the newest last."""
         self._lock = Lock()
 
-    def answer(self, action: Mapping[str, Any], *, may_write: bool = True) -> Data:
-        """The reply to an action of a window that may write, or only read."""
+    def answer(self, action: Mapping[str, Any]) -> Data:
+        """The reply to an action of a window."""
         do = action.get("do") if isinstance(action, Mapping) else None
         try:
             if not isinstance(do, str) or do not in ACTIONS:
                 raise ActionError(f"nothing is called {do!r} here")
-            if do in WRITING and not may_write:
-                raise ActionError("this window may only read; your text is still here")
             with self._window(action) as window:
-                window.may_write = may_write
                 return ACTIONS[do](self, window, action)
         except FileConflictError as error:
             return {"trouble": str(error), "conflict": error.mark}
@@ -160,7 +157,7 @@ _LONGEST_NAME = 64
 # Actions ------------------------------------------------------------------------------------------------------------
 
 
-def _hello(desk: Desk, window: PageWindow, _action: Mapping[str, Any]) -> Data:
+def _hello(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
     return {
         "version": contoursolve.__version__,
         "controls": [
@@ -173,9 +170,7 @@ def _hello(desk: Desk, window: PageWindow, _action: Mapping[str, Any]) -> Data:
             for name, each in DIALECTS.items()
         ],
         "folder": desk.folder.name if desk.folder is not None else "",
-        "has_folder": desk.folder is not None,
-        "may_write": window.may_write and desk.folder is not None,
-        "can_unlock": desk.can_unlock and not window.may_write,
+        "may_write": desk.folder is not None,
         "open": desk.first,
         "style": notebook_style(has_tool=True),
         "drawing_words": {
@@ -394,9 +389,6 @@ ACTIONS: dict[str, Answering] = {
     "dxf_in": lambda desk, _window, action: _later("sketching").sketch_in_drawing(_file_of(desk, action), action),
 }
 """Functions that answer, by the name of the action."""
-
-WRITING = frozenset(("save",))
-"""Actions that write files."""
 
 
 def _control_of(action: Mapping[str, Any]) -> str | None:

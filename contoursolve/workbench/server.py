@@ -1,4 +1,4 @@
-"""The server of the workbench: its page, and its desk behind `POST /ask`, for this machine or for a network.
+"""The server of the workbench: its page, and its desk behind `POST /ask`, for this machine alone.
 
 A page of a stranger in the same browser can send requests here, but it knows no token, may set no header without being
 asked first, and is refused by its origin and by the name of the host. Nothing of another host is ever loaded.
@@ -10,19 +10,15 @@ import hmac
 import json
 import logging
 import mimetypes
-import secrets
 import socket
 import sys
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from functools import partial
-from ipaddress import ip_address
 from pathlib import Path
 from typing import Any
 
 import uvicorn
-from msgspec import Struct, field
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, Response
@@ -39,10 +35,10 @@ MOST_BYTES = 20_000_000
 MOST_WAITING = 64
 """Actions of one window that wait for their turn."""
 
-MOST_KEYS = 32
 _WORKERS = 4
 _PAGE = Path(__file__).with_name("page")
-_LOOPBACK = frozenset(("127.0.0.1", "localhost", "[::1]"))
+HOST = "127.0.0.1"
+_LOOPBACK = frozenset((HOST, "localhost", "[::1]"))
 
 _HEADERS = {
     "Content-Security-Policy": (
@@ -64,59 +60,26 @@ class CannotServeError(UserError, OSError):
     """The address cannot be served; the message says why and what to do."""
 
 
-class Access(Struct):
-    """Who may ask, and who may write: whoever knows the token; in a network, whoever has a key for a password, too."""
-
-    is_in_network: bool = False
-    password: str = ""
-    token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
-    keys: list[str] = field(default_factory=list)
-    failures: int = 0
-    """Wrong passwords in a row."""
-
-    def may_write(self, key: str) -> bool:
-        """Whether a window with this key may write."""
-        return not self.is_in_network or any(_is_same(key, each) for each in self.keys)
-
-    def unlock(self, password: str) -> str:
-        """A key for a password; empty if it is wrong."""
-        if not self.password or not _is_same(password, self.password):
-            self.failures += 1
-            return ""
-        self.failures = 0
-        self.keys = [*self.keys[1 - MOST_KEYS :], secrets.token_urlsafe(24)]
-        return self.keys[-1]
-
-    def knows(self, host: str) -> bool:
-        """Whether a host is named as this machine is. A name that a stranger owns may lead here, too."""
-        name = host.rpartition(":")[0] if host.rpartition(":")[2].isdigit() else host
-        if name.lower() in _LOOPBACK:
-            return True
-        own = socket.gethostname().lower()
-        return self.is_in_network and (_is_number(name) or name.lower() in (own, f"{own}.local"))
-
-
 def _is_same(one: str, other: str) -> bool:
     """Whether two secrets are the same, in a time that does not tell how much of them is."""
     return hmac.compare_digest(*(hashlib.sha256(each.encode("utf-8", "replace")).digest() for each in (one, other)))
 
 
-def _is_number(name: str) -> bool:
-    """Whether a host is named by its number."""
-    with suppress(ValueError):
-        return bool(ip_address(name.strip("[]")))
-    return False
+def _is_own(host: str) -> bool:
+    """Whether a host is named as this machine is. A name that a stranger owns may lead here, too."""
+    name = host.rpartition(":")[0] if host.rpartition(":")[2].isdigit() else host
+    return name.lower() in _LOOPBACK
 
 
 class Workbench:
     """The application: it takes actions one after the other for each window, in the order in which they came."""
 
-    def __init__(self, desk: Desk, access: Access) -> None:
-        self.desk, self.access = desk, access
+    def __init__(self, desk: Desk, token: str) -> None:
+        """Only who knows the token may ask."""
+        self.desk, self.token = desk, token
         self._pool = ThreadPoolExecutor(_WORKERS, thread_name_prefix=THREADS)
         self._turns: dict[str, tuple[asyncio.Lock, int]] = {}
         """The turn of each window that has actions, and how many."""
-        self._trying = False
         for ending, kind in _TYPES.items():
             mimetypes.add_type(kind, ending)
         routes = [
@@ -139,7 +102,7 @@ class Workbench:
             await send(message)
 
         is_file = request.method == "GET" and request.url.path != "/"
-        if not self.access.knows(request.headers.get("host", "")):
+        if not _is_own(request.headers.get("host", "")):
             refused = PlainTextResponse(
                 "This name is not that of the workbench; open the address that it printed.\n", 403
             )
@@ -149,7 +112,7 @@ class Workbench:
 
     async def index(self, request: Request) -> Response:
         """The page, for who knows the token."""
-        if not _is_same(request.query_params.get("token", ""), self.access.token):
+        if not _is_same(request.query_params.get("token", ""), self.token):
             told = "Open the whole address that contoursolve serve printed: it ends in a token.\n"
             return PlainTextResponse(told, 403)
         return Response((_PAGE / "index.html").read_bytes(), media_type="text/html")
@@ -160,7 +123,7 @@ class Workbench:
         own = f"http://{headers.get('host', '')}"
         if headers.get("origin", own) != own or headers.get("sec-fetch-site", "same-origin") != "same-origin":
             return _refused(403, "another page asked; only the workbench's own page may")
-        if not _is_same(headers.get("x-token", ""), self.access.token):
+        if not _is_same(headers.get("x-token", ""), self.token):
             return _refused(403, "the token is another one; open the address that contoursolve serve printed last")
         if headers.get("content-type", "").partition(";")[0].strip().lower() != "application/json":
             return _refused(415, "an action is JSON")
@@ -176,11 +139,9 @@ class Workbench:
             return _refused(400, "the action did not arrive whole; nothing was changed")
         if not isinstance(action, dict):
             return _refused(400, "an action is an object; nothing was changed")
-        if action.get("do") == "unlock":
-            return await self._unlock(str(action.get("password", "")))
-        return await self._answer(action, self.access.may_write(headers.get("x-key", "")))
+        return await self._answer(action)
 
-    async def _answer(self, action: Mapping[str, Any], may_write: bool) -> Response:
+    async def _answer(self, action: Mapping[str, Any]) -> Response:
         window = str(action.get("window", ""))
         turn, waiting = self._turns.get(window, (asyncio.Lock(), 0))
         if waiting >= MOST_WAITING:
@@ -188,7 +149,7 @@ class Workbench:
         self._turns[window] = turn, waiting + 1
         try:
             async with turn:
-                work = partial(self._work, action, may_write=may_write)
+                work = partial(self._work, action)
                 data = await asyncio.get_running_loop().run_in_executor(self._pool, work)
         except asyncio.CancelledError:  # at Ctrl-C; what is computed is given up
             return _refused(503, "the workbench was ended; your text stays on the page")
@@ -198,39 +159,21 @@ class Workbench:
                 self._turns[window] = turn, waiting - 1
         return Response(data, media_type="application/json")
 
-    def _work(self, action: Mapping[str, Any], *, may_write: bool) -> bytes:
-        reply = self.desk.answer(action, may_write=may_write)
+    def _work(self, action: Mapping[str, Any]) -> bytes:
+        reply = self.desk.answer(action)
         # Surrogates that a program holds are no UTF-8; JSON has an escape for them.
         return json.dumps(reply, separators=(",", ":")).encode("ascii")
-
-    async def _unlock(self, password: str) -> Response:
-        """A key for a password. A wrong one takes seconds, twice as many each time, and only one is tried at a time."""
-        if self._trying:
-            return _refused(429, "another password is being tried; wait for its answer")
-        self._trying = True
-        try:
-            key = self.access.unlock(password)
-            if not key:
-                await asyncio.sleep(min(2**self.access.failures, _LONGEST_WAIT) / 2)
-                return _refused(403, "this is not the password" if self.access.password else "no password was set")
-        finally:
-            self._trying = False
-        return JSONResponse({"may_write": True, "key": key})
 
 
 def _not_finite(name: str) -> float:
     raise ValueError(f"{name} is no number of JSON")
 
 
-_LONGEST_WAIT = 60
-"""Half seconds until a wrong password is answered, at most."""
-
-
 def _refused(status: int, trouble: str) -> Response:
     return JSONResponse({"trouble": trouble}, status)
 
 
-def bind(port: int, *, is_in_network: bool) -> socket.socket:
+def bind(port: int) -> socket.socket:
     """A socket at a port, or at a free one for 0. Raises CannotServeError."""
     own = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     # On Windows, two programs might share a port; elsewhere, one that has just ended might hold it.
@@ -239,7 +182,7 @@ def bind(port: int, *, is_in_network: bool) -> socket.socket:
         option = socket.SO_EXCLUSIVEADDRUSE
     try:
         own.setsockopt(socket.SOL_SOCKET, option, 1)
-        own.bind(("0.0.0.0" if is_in_network else "127.0.0.1", port))
+        own.bind((HOST, port))
         own.listen()
     except (OSError, OverflowError) as error:
         own.close()
@@ -250,20 +193,10 @@ def bind(port: int, *, is_in_network: bool) -> socket.socket:
     return own
 
 
-def address_in_network() -> str:
-    """The number of this machine in its network; the loopback one where it has none. Nothing is sent."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        try:
-            probe.connect(("192.0.2.1", 9))
-        except OSError:
-            return "127.0.0.1"
-        return str(probe.getsockname()[0])
-
-
-def run(desk: Desk, access: Access, own: socket.socket) -> None:
+def run(desk: Desk, token: str, own: socket.socket) -> None:
     """Serve until Ctrl-C, which raises KeyboardInterrupt."""
     config = uvicorn.Config(
-        Workbench(desk, access),
+        Workbench(desk, token),
         loop="asyncio",
         http="h11",
         ws="none",

@@ -2,9 +2,7 @@
 
 import json
 import os
-import re
 import shlex
-import signal
 import subprocess
 import sys
 import time
@@ -306,52 +304,6 @@ def test_a_shell_completes_commands_controls_and_files_whatever_stands_before():
     assert completed("check", "sha") == completed("solve", "sha") == ["file,sha"]
     assert completed("chek", "--con") == []
     assert completed("check", "--control", "x", "--control", "y", "--stri") == ["plain,--strict"]
-
-
-# --- Again and again -------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform == "win32", reason="a test there cannot send Ctrl-C to one process alone")
-def test_watch_runs_again_when_a_program_its_subprogram_or_a_setting_is_saved(tmp_path):
-    (tmp_path / "part.nc").write_text("O0001\nG00 X40. Z0.\nM98 P8001\nM30\n")
-    output = tmp_path / "output.txt"
-    with output.open("wb") as file:
-        command = [sys.executable, "-m", "contoursolve", "check", "--watch", "--control", "yasnac-lx3", "part.nc"]
-        process = subprocess.Popen(command, cwd=tmp_path, stdout=file, stderr=subprocess.STDOUT)
-
-    def told(times: int) -> list[str]:
-        """What each run has printed, once there are so many."""
-        while (text := output.read_text(encoding="utf-8")).count("Ctrl-C ends\n") < times:
-            assert process.poll() is None, text
-            time.sleep(0.05)
-        return re.split(r"watching .*\n", text)
-
-    try:
-        assert "no contour block" in told(1)[0]
-        (tmp_path / "8001.txt").write_text("O8001\nG111 A180. K-30. B120. X100.\nM99\n")
-        assert told(2)[1].startswith("8001.txt was changed\n")
-        assert "the contour in program line 2 of 8001.txt, which is called here, is solved" in told(2)[1]
-        (tmp_path / "contoursolve.toml").write_text('contrl = "yasnac-lx3"\n')
-        assert "contoursolve.toml, line 1: 'contrl' stands in no table; did you mean control?" in told(3)[2]
-        (tmp_path / "contoursolve.toml").unlink()
-        (tmp_path / "part.nc").unlink()
-        assert "part.nc: no such file" in told(4)[3]
-        process.send_signal(signal.SIGINT)
-        assert process.wait() == 130
-    finally:
-        process.kill()
-    assert output.read_text(encoding="utf-8").endswith("\nstopped\n")
-
-
-def test_watch_reads_files_only():
-    for arguments, told in (
-        (("check", "-"), "name a PROGRAM"),
-        (("check", "--block", "G1 X1"), "name a PROGRAM"),
-        (("solve",), "name a PROGRAM"),
-    ):
-        status, _, errors = run(*arguments, "--watch")
-        assert (status, told in errors) == (2, True)
 
 
 # --- JSON ------------------------------------------------------------------------------------------

@@ -4,7 +4,6 @@ import json
 import re
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
-from xml.etree import ElementTree
 
 import jsonschema
 import pytest
@@ -155,94 +154,6 @@ def test_github_prints_no_finding_where_there_is_none(save):
     assert check(save(CLEAN), "--format", "github").output.strip() == ""
 
 
-# GitLab -----------------------------------------------------------------------------------------------
-
-
-def quality(*paths: str) -> list[dict]:
-    return json.loads(check(*paths, "--format", "gitlab").stdout)
-
-
-def test_gitlab_has_its_fields_for_each_finding(save, tmp_path, monkeypatch):
-    rows = quality(save(BROKEN))
-    found = solve(BROKEN).diagnostics
-    assert [{**row, "fingerprint": ""} for row in rows] == [
-        {
-            "description": each.message,
-            "check_name": each.code,
-            "fingerprint": "",
-            "severity": {"error": "major", "warning": "minor"}[each.severity.value],
-            "location": {"path": "part.nc", "lines": {"begin": each.span.line}},
-        }
-        for each in found
-    ]
-    monkeypatch.setenv("CI_PROJECT_DIR", str(tmp_path.parent))
-    assert quality(str(tmp_path / "part.nc"))[0]["location"]["path"] == f"{tmp_path.name}/part.nc"
-    assert quality(save(CLEAN)) == []
-
-
-@pytest.mark.slow
-def test_a_fingerprint_of_gitlab_is_unique_and_stays_when_lines_are_inserted_above(save):
-    save(BROKEN, "other.nc")
-    before = [row["fingerprint"] for row in quality(save(BROKEN + BROKEN), "other.nc")]
-    after = [row["fingerprint"] for row in quality(save("(a comment)\nG21\n\n" + BROKEN + BROKEN), "other.nc")]
-    assert before == after
-    assert len(set(before)) == len(before) == 6
-    assert quality("other.nc", "./other.nc") == quality("other.nc")
-
-
-# JUnit ------------------------------------------------------------------------------------------------
-
-SUITE = {"testcase", "system-out", "system-err", "properties", "testsuite"}
-STRUCTURE = {
-    "testsuites": ({"name", "time", "tests", "failures", "disabled", "errors"}, {"testsuite"}),
-    "testsuite": ({"name", "tests", "failures", "errors", "group", "time", "skipped", "timestamp", "hostname"}, SUITE),
-    "testcase": ({"name", "time", "classname", "group"}, {"skipped", "error", "failure", "system-out", "system-err"}),
-    "failure": ({"type", "message"}, set()),
-    "error": ({"type", "message"}, set()),
-    "system-out": (set(), set()),
-}
-"""Attributes and children of each element in the schema by which Jenkins' xUnit plugin reads JUnit (junit-10.xsd)."""
-
-
-def suites(text: str) -> dict[str, ElementTree.Element]:
-    """The suites of a document by their names; its structure and its counts are right."""
-    root = ElementTree.fromstring(text)
-    assert root.tag == "testsuites"
-    for each in root.iter():
-        attributes, children = STRUCTURE[each.tag]
-        assert {*each.keys()} <= attributes
-        assert {child.tag for child in each} <= children
-        if each.tag in ("testsuites", "testsuite"):
-            counted = [len([*each.iter(kind)]) for kind in ("testcase", "failure", "error")]
-            assert [int(each.get(name)) for name in ("tests", "failures", "errors")] == counted
-        if each.tag in ("testsuite", "testcase"):
-            assert each.get("name")
-    return {suite.get("name"): suite for suite in root}
-
-
-def test_junit_has_a_suite_a_program_and_a_test_a_finding_which_fails_as_fail_on_says(save):
-    names = [
-        save(BROKEN),
-        save(CLEAN, "clean.nc"),
-        save("#include <x>\n", "x.h"),
-        save(f"{START * 9}G111 A\1\n", "1.nc"),
-    ]
-    done = check(*names, "--format", "junit")
-    found = suites(done.stdout)
-    assert (done.exit_code, [*found]) == (2, [*(each for each in names if each != "x.h"), "x.h"])
-    (passed, failed), (clean,), (unread,) = found["part.nc"], found["clean.nc"], found["x.h"]
-    warning, error = solve(BROKEN).diagnostics
-    assert failed.get("classname") == "part"
-    assert dict(failed[0].items()) == {"type": error.code, "message": error.message}
-    assert failed[0].text.startswith(f"part.nc:4:{error.span.column}: error: {error.message}\n")
-    assert (passed[0].tag, warning.message in passed[0].text) == ("system-out", True)
-    assert len(clean) == 0
-    assert (unread[0].tag, unread[0].text) == ("error", "x.h is C source, no CNC program")
-    both = suites(check("part.nc", "--format", "junit", "--fail-on", "warning").stdout)["part.nc"]
-    assert [case[0].tag for case in both] == ["failure", "failure"]
-    assert suites(check("x.h", "--format", "junit").stdout)["x.h"][0][0].tag == "error"
-
-
 # Folders ----------------------------------------------------------------------------------------------
 
 
@@ -269,7 +180,7 @@ def test_a_folder_stands_for_its_programs_and_those_of_the_folders_in_it(save):
 # Exit statuses and the summary ------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("format_", ["text", "json", "sarif", "github", "gitlab", "junit"])
+@pytest.mark.parametrize("format_", ["text", "json", "sarif", "github"])
 @pytest.mark.parametrize(
     ("text", "fails_on"),
     [(BROKEN, {"error", "warning"}), (WARNED, {"warning"}), (NOTHING, set()), (CLEAN, set())],

@@ -4,7 +4,6 @@ import json
 import random
 import re
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from editor import Editor, Served, applied, edits_of, in_editor, random_edit, types
@@ -542,51 +541,6 @@ def test_an_empty_line_offers_the_legal_forms_of_the_control(served, control):
             assert each.label == text.replace("\n", " / ")
 
     served(use)
-
-
-# Edits of the whole program ----------------------------------------------------------------------------------
-
-NUMBERED = "N10  G00 X40. Z0.\nN20 G01 X50.F0.2\nGOTO 10\n"
-
-
-def test_formatting_and_block_numbers(served):
-    async def use(editor: Editor) -> None:
-        client, document = editor.client, types.TextDocumentIdentifier(SHAFT)
-        editor.open(SHAFT, NUMBERED)
-        options = types.FormattingOptions(tab_size=4, insert_spaces=True)
-        edits = await editor.ask(
-            client.text_document_formatting_async(types.DocumentFormattingParams(document, options))
-        )
-        editor.edit(SHAFT, *edits)
-        assert editor.texts[SHAFT] == "N10 G00 X40. Z0.\nN20 G01 X50. F0.2\nGOTO 10\n"
-        place = about(editor, SHAFT, at(3, 7))
-        ready = await editor.ask(client.text_document_prepare_rename_async(types.PrepareRenameParams(**place)))
-        assert ready.placeholder == "10"
-        target = await editor.ask(client.text_document_definition_async(types.DefinitionParams(**place)))
-        assert target.range.start == at(1, 1)
-        change = await editor.ask(client.text_document_rename_async(types.RenameParams(new_name="N300", **place)))
-        editor.edit(SHAFT, *edits_of(SimpleNamespace(edit=change)))
-        assert editor.texts[SHAFT] == "N300 G00 X40. Z0.\nN20 G01 X50. F0.2\nGOTO 300\n"
-        with pytest.raises(Exception, match="N20 is in program line 2 already"):
-            await editor.ask(client.text_document_rename_async(types.RenameParams(new_name="20", **place)))
-
-    served(use)
-
-
-@pytest.mark.slow
-def test_formatting_numbers_blocks_where_that_is_wanted():
-    async def use(editor: Editor) -> None:
-        editor.open(SHAFT, NUMBERED)
-        options = types.FormattingOptions(tab_size=4, insert_spaces=True)
-        edits = await editor.ask(
-            editor.client.text_document_formatting_async(
-                types.DocumentFormattingParams(types.TextDocumentIdentifier(SHAFT), options)
-            )
-        )
-        editor.edit(SHAFT, *edits)
-        assert editor.texts[SHAFT] == "N5 G00 X40. Z0.\nN10 G01 X50. F0.2\nGOTO 5\n"
-
-    in_editor(use, {"format": {"blockNumbers": 5}})
 
 
 # The control -------------------------------------------------------------------------------------------------

@@ -167,7 +167,7 @@ def test_a_version_of_the_changes_is_short_and_each_line_leads_to_a_page() -> No
     for version in versions:
         assert len(version.split()) > 1
         assert len([line for line in version.splitlines() if line]) <= 20
-        assert {*re.findall(r"^(\w+):$", version, re.MULTILINE)} <= {"Added", "Changed", "Mended"}
+        assert {*re.findall(r"^(\w+):$", version, re.MULTILINE)} <= {"Added", "Changed", "Mended", "Removed"}
         for entry in re.split(r"^\* ", version, flags=re.MULTILINE)[1:]:
             assert re.search(r"\]\([\w./#-]+\)", entry), entry
 
@@ -207,7 +207,7 @@ def test_the_page_of_editors_starts_a_command_that_exists_for_the_files_of_the_h
     helix, kate = tomllib.loads(found["helix"]), json.loads(found["kate"])["servers"]["gcode"]
     server = helix["language-server"]["contoursolve"]
     assert [server["command"], *server["args"]] == kate["command"] == ["contoursolve", "lsp"]
-    assert server["config"] == kate["settings"] == {"contoursolve": {"format": {"blockNumbers": 0}}}
+    assert server["config"] == kate["settings"] == {"contoursolve": {"inlayHints": True}}
     assert "lsp" in commands().list_commands(Context(commands()))
 
     (hook,) = read_yaml(".pre-commit-hooks.yaml")

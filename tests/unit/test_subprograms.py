@@ -554,17 +554,63 @@ LABELLED = """0 BEGIN PGM A MM
 
 
 @pytest.mark.parametrize(
-    ("line", "kept"),
-    [
-        ("CALL LBL 2 REP 1", []),
-        ('FN 9: IF +1 EQU +1 GOTO LBL "END"', []),
-        ('FN 9: IF +Q5 EQU +1 GOTO LBL "END"', ['5 FN 9: IF +Q5 EQU +1 GOTO LBL "END"', '6 LBL "END"']),
-        ("FN 9: IF +Q5 EQU +1 GOTO LBL 2", ["2 LBL 2", "5 FN 9: IF +Q5 EQU +1 GOTO LBL 2"]),
-    ],
+    "line", ["CALL LBL 2 REP 1", 'FN 9: IF +1 EQU +1 GOTO LBL "END"', "FN 9: IF +1 EQU +2 GOTO LBL 2"]
 )
-def test_labels_that_nothing_names_any_more_are_not_written(line, kept):
-    inline = expand(LABELLED.format(line), control="heidenhain", inline=True, comments=False, keep_going=True)
-    assert [each for each in inline.text.splitlines() if "LBL" in each] == kept
+def test_labels_that_nothing_names_any_more_are_not_written(line):
+    inline = expand(LABELLED.format(line), control="heidenhain", inline=True, comments=False)
+    assert "LBL" not in inline.text
+
+
+UNDECIDED = {
+    "goto": ("fanuc-mill", "G17 G90 G0 X0. Y0.\nG1 F200\n{}\nX38.\nN20 Y10. ,R5.\nX80.\nM30", "IF[#500 EQ 1]GOTO20"),
+    "goto to what is not there": ("fanuc-mill", "G90 G0 X0. Y0.\nG1\n{}\nY10. ,R5.\nX80.", "IF[#500 EQ 1]GOTO77"),
+    "computed": ("fanuc-mill", "G17 G90 G0 X0. Y0.\nG1 F200\n{}\nN20 Y10. ,R5.\nX80.\nM30", "GOTO#500"),
+    "loop": ("fanuc-mill", "G17 G90 G0 X0. Y0.\nG1 F200\n{}\nY10. ,R5.\nX80.\nEND1\nM30", "WHILE[#500 LT 3]DO1"),
+    "call": ("fanuc-mill", "G90 G0 X0. Y0.\nG1\n{}\nY10. ,R5.\nX80.\nM30\nO5\nX1.\nM99", "/M98 P5"),
+    "end": ("fanuc-mill", "G90 G0 X0. Y0.\nG1\n{}\nY10. ,R5.\nX80.\nM30", "/M30"),
+    "if": ("siemens-840d", "G17 G90 G0 X0 Y0\nG1 F200\n{}\nX38\nENDIF\nY10 RND=5\nX80\nM30", "IF R5==1"),
+    "case": (
+        "siemens-840d",
+        "G90 G0 X0 Y0\nG1\n{}\nL1: X10\nL2: Y10 RND=5\nX60",
+        "CASE R1 OF 1 GOTOF L1 DEFAULT GOTOF L2",
+    ),
+    "until": ("siemens-840d", "G90 G0 X0 Y0\nREPEAT\n{}\nG1 Y10 RND=5\nX60\nM30", "UNTIL R5==1"),
+    "for": ("siemens-840d", "G90 G0 X0 Y0\nG1\n{}\nX=IC(10)\nY10 RND=5\nX60\nENDFOR\nM30", "FOR R1=1 TO R5"),
+    "label": (
+        "heidenhain",
+        "L X+0 Y+0 R0 F100\nL Y+5\n{}\nL X+10\nLBL 5\nFL X+20 AN+10",
+        "FN 9: IF +Q5 EQU +1 GOTO LBL 5",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", UNDECIDED)
+@pytest.mark.parametrize("keeps_going", [False, True])
+def test_a_jump_that_cannot_be_decided_is_not_written_out(name, keeps_going):
+    control, text, line = UNDECIDED[name]
+    inline = expand(text.format(line), control=control, inline=True, keep_going=keeps_going)
+    (left,) = inline.summary.left
+    advice = "delete the block, or its /" if line.startswith("/") else "state its value by --let"
+    assert (inline.text, left.lines) == (None, (3,))
+    assert re.fullmatch(rf"{re.escape(line)} cannot be decided: .+; {advice}, or leave out --inline", left.reason)
+
+
+def test_a_jump_that_a_stated_value_decides_is_written_out():
+    control, text, line = UNDECIDED["goto"]
+    for value, is_taken in ((1, True), (2, False)):
+        inline = expand(text.format(line), control=control, inline=True, variables={"#500": value}, comments=False)
+        assert ("X38." in inline.text) is not is_taken
+        assert "GOTO" not in inline.text
+
+
+def test_the_command_names_the_line_and_the_file_of_such_a_jump_and_writes_nothing(tmp_path):
+    (tmp_path / "main.nc").write_text("G17 G90 G0 X0. Y0.\nG1 F200\nM98 P5\nM30")
+    (tmp_path / "O0005.nc").write_text("O5\nX38.\nIF[#500 EQ 1]GOTO9\nY10. ,R5.\nX80.\nN9 M99")
+    words = ["expand", "--inline", "--keep-going", "--control", "fanuc-mill", str(tmp_path / "main.nc")]
+    done = CliRunner().invoke(main, words)
+    told = "program line 3: IF[#500 EQ 1]GOTO9, line 3 of O0005.nc, cannot be decided: #500 is set by nothing before"
+    assert (done.exit_code, done.stdout, told in done.stderr) == (1, "", True), done.stderr
+    assert done.stderr.endswith("\nnothing was written\n")
 
 
 CUTS = "G71 U2. R1.\nG71 P10 Q60 U.5 W.1 F.3\nN10 G00 X16.\nG01 Z0.\nX30. ,C1.5\nN60 Z-20.\n"

@@ -362,27 +362,6 @@ def test_converted_for_the_controls_of_the_same_machine_and_verified_in_a_senten
     expect(page.get_by_text("SHA-256")).to_be_visible()
 
 
-def test_in_a_network_the_page_saves_only_with_the_password(browser, tmp_path) -> None:
-    (tmp_path / "part.nc").write_bytes(SHAFT.encode())
-    server = Served(tmp_path, "--lan", CONTOURSOLVE_PASSWORD="correct horse")
-    page = browser.new_page()
-    page.goto(f"http://127.0.0.1:{server.port}/?token={server.token}")
-    page.get_by_role("button", name="part.nc").click()
-    page.locator(".actions button", has_text="Download").wait_for()
-    page.locator(".cm-line").nth(3).click()
-    page.keyboard.press("Home")
-    page.keyboard.type("N5 ")
-    page.get_by_role("button", name="File").click()
-    page.get_by_role("menuitem", name="Allow saving").click()
-    page.get_by_label("Password").fill("correct horse")
-    page.keyboard.press("Enter")
-    page.locator(".actions button", has_text="Save").click()
-    said(page, "Saved as part.nc.")
-    assert (tmp_path / "part.nc").read_bytes() == SHAFT.replace("G00 X150.", "N5 G00 X150.").encode()
-    page.close()
-    server.end()
-
-
 @pytest.mark.parametrize("screen", SCREENS)
 def test_every_view_can_be_reached_and_read(screen, axe, opened, folder, artefacts) -> None:
     (folder / "axe.nc").write_bytes(SHAFT.replace("P6.", "P60.").encode())

@@ -77,12 +77,12 @@ async function start(folder: string, output: LogOutputChannel, status: StatusBar
   }
   output.info(`The server, from ${running.source}: ${spell(running)}`);
   const server: ServerOptions = { command: running.command, args: running.args };
-  const { control, settings, inlayHints, codeLenses, pictures, format } = workspace.getConfiguration("contoursolve");
+  const { control, settings, inlayHints, codeLenses, pictures } = workspace.getConfiguration("contoursolve");
   const options: LanguageClientOptions = {
     documentSelector: LANGUAGES.flatMap((language) => ["file", "untitled"].map((scheme) => ({ language, scheme }))),
     outputChannel: output,
     revealOutputChannelOn: RevealOutputChannelOn.Never,
-    initializationOptions: { control, settings, inlayHints, codeLenses, pictures, format, clientCommands: true },
+    initializationOptions: { control, settings, inlayHints, codeLenses, pictures, clientCommands: true },
     synchronize: { configurationSection: "contoursolve" },
     middleware: {
       didOpen: (document, next) => (isResult(document) ? Promise.resolve() : next(document)),

@@ -167,7 +167,6 @@ export class App {
       { text: "Download", act: () => this.downloadActive(), isOff },
       ...(this.isEmbedded ? [{ text: "Copy a link to this program", act: () => void this.copyLink(), isOff: isOff || !this.address.told }] : []),
       { text: "Copy the text", act: () => void this.copyActive(), isOff },
-      ...(hello?.can_unlock && !hello.may_write ? [{ text: "Allow saving: enter the password…", act: () => void this.unlock() }] : []),
       { text: "Close", act: () => void this.close(active!), isOff },
     ];
   }
@@ -370,15 +369,6 @@ export class App {
   private async copyLink(): Promise<void> {
     this.address.show();
     this.say((await copyText(location.href)) ? "The link is copied." : "The link stands in the address bar: copy it there.");
-  }
-
-  private async unlock(): Promise<void> {
-    const password = make("input", { type: "password", autocomplete: "current-password" });
-    if (!(await dialog(this.root, "Allow saving", [labelled("Password", password)], "Allow"))) return;
-    const reply = await this.asked<{ may_write: boolean }>({ do: "unlock", password: password.value });
-    if (!reply || !this.hello) return;
-    this.hello.may_write = reply.may_write;
-    this.follow();
   }
 
   // What is said -----------------------------------------------------------------------------------------------------

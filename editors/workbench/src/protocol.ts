@@ -31,7 +31,7 @@ export interface View {
 
 export interface Hello {
   controls: ControlName[];
-  folder: string | null; may_write: boolean; can_unlock: boolean;
+  folder: string | null; may_write: boolean;
   examples: { title: string; control: string }[];
   style?: string;
   drawing_words?: Record<string, Record<"line" | "arc", Record<string, string>>>;

@@ -15,19 +15,16 @@ function checked<Reply>(reply: Record<string, unknown>): Reply {
 // To the server that sent this page; the token stands in the page's address.
 export class ServerTransport implements Transport {
   private readonly token = new URLSearchParams(location.search).get("token") ?? "";
-  private key = ""; // where a password has unlocked writing
 
   async ask<Reply>(request: Record<string, unknown>): Promise<Reply> {
-    const headers = { "Content-Type": "application/json", "X-Token": this.token, ...(this.key ? { "X-Key": this.key } : {}) };
+    const headers = { "Content-Type": "application/json", "X-Token": this.token };
     const answer = await fetch("ask", { method: "POST", headers, body: asked(request) }).catch(() => {
       throw new Trouble(GONE);
     });
     const reply: Record<string, unknown> | null = await answer.json().catch(() => null);
     if (!reply || (!answer.ok && !reply["trouble"])) throw new Trouble(`The workbench answers ${answer.status}. Load this page again.`);
-    const isUnlocking = request["do"] === "unlock";
-    if (isUnlocking && typeof reply["key"] === "string") this.key = reply["key"];
     // Another token: the workbench was started anew, and this page belongs to an older one.
-    if (answer.status === 403 && !isUnlocking) throw new Trouble(`${String(reply["trouble"])}. The text here stays: copy it or download it.`);
+    if (answer.status === 403) throw new Trouble(`${String(reply["trouble"])}. The text here stays: copy it or download it.`);
     return checked<Reply>(reply);
   }
 }
