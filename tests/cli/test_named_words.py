@@ -5,8 +5,8 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner, Result
-from damaged import damaged
 from examples import few_and_many, some_of
+from mutants import damaged
 
 from contoursolve import DIALECTS, OpenProgram, apply_fixes, solve
 from contoursolve.cli import main

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import pytest
 from examples import few_and_many
 from generate_fanuc import random_lathe, random_mill
-from mutations import mutate, windows
+from mutants import mutate, right_programs
 from respell import isg, sinumerik
 
 from contoursolve import Replacement, block_number_at, format_program, rename_block, solve
@@ -42,7 +42,7 @@ def draw(rng: random.Random) -> tuple[str, str]:
     """A program for one of the controls, small and mostly sound, and the name of the control."""
     control = rng.choice([*DIALECTS])
     if control in ("yasnac-lx3", "nct-99m"):
-        return rng.choice([each for each in windows() if each[1] == control])
+        return rng.choice(right_programs(control)), control
     is_mill = control.endswith("-mill") or (control in ("siemens-840d", "siemens-808d", "isg") and rng.random() < 0.3)
     if is_mill:
         program = random_mill(rng, [rng.choice(("line", "line", "arc")) for _ in range(rng.randint(2, 4))], 17)

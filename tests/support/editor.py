@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable, Coroutine
 from typing import Any
 
 from lsprotocol import types
-from mutations import ODD
+from mutants import ODD
 from pygls.lsp.client import LanguageClient
 
 from contoursolve.gcode import split_lines

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from examples import law
 from hypothesis import strategies as st
-from mutations import mutate
+from mutants import mutate
 
 from contoursolve import DIALECTS, parse
 
