@@ -106,6 +106,7 @@ def test_what_solve_says_of_mutants_is_complete_and_each_word_has_a_meaning(coun
 
 MENDED = [
     ("fanuc-lathe", "check part.nc", "G0 X0 Z0\nG1 X#100 ,A30"),
+    ("fanuc-lathe", "sensitivity {blocks}", "G00 X20. Z0.\nG01 Z-20. ,R5. (contoursolve trust: X777.)\nX40. Z-30."),
 ]
 """What ended in a traceback, or took too long: the control, the command with part.nc or {blocks}, and the program."""
 
