@@ -108,6 +108,7 @@ MENDED = [
     ("fanuc-lathe", "check part.nc", "G0 X0 Z0\nG1 X#100 ,A30"),
     ("fanuc-lathe", "sensitivity {blocks}", "G00 X20. Z0.\nG01 Z-20. ,R5. (contoursolve trust: X777.)\nX40. Z-30."),
     ("haas-mill", "convert part.nc --to fanuc-mill --rules off", "G17 G90 G00 X0 Y0\nG00 X30.\n,C5.\nX40. Y40."),
+    ("heidenhain", "sweep {blocks} --vary tool=1:9:4 --side left --quiet", "X0 Y0\nFL AN+60\nFL X+80 Y+20 AN-30"),
 ]
 """What ended in a traceback, or took too long: the control, the command with part.nc or {blocks}, and the program."""
 
