@@ -109,6 +109,7 @@ MENDED = [
     ("fanuc-lathe", "sensitivity {blocks}", "G00 X20. Z0.\nG01 Z-20. ,R5. (contoursolve trust: X777.)\nX40. Z-30."),
     ("haas-mill", "convert part.nc --to fanuc-mill --rules off", "G17 G90 G00 X0 Y0\nG00 X30.\n,C5.\nX40. Y40."),
     ("heidenhain", "sweep {blocks} --vary tool=1:9:4 --side left --quiet", "X0 Y0\nFL AN+60\nFL X+80 Y+20 AN-30"),
+    ("yasnac-lx3", "sensitivity {blocks}", "G00 X100. Z-50.\nG112 U0 I10. K-50. R30. P5. Q5.\nG00 X60.\nG112"),
 ]
 """What ended in a traceback, or took too long: the control, the command with part.nc or {blocks}, and the program."""
 
