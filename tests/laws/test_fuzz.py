@@ -110,6 +110,7 @@ MENDED = [
     ("haas-mill", "convert part.nc --to fanuc-mill --rules off", "G17 G90 G00 X0 Y0\nG00 X30.\n,C5.\nX40. Y40."),
     ("heidenhain", "sweep {blocks} --vary tool=1:9:4 --side left --quiet", "X0 Y0\nFL AN+60\nFL X+80 Y+20 AN-30"),
     ("yasnac-lx3", "sensitivity {blocks}", "G00 X100. Z-50.\nG112 U0 I10. K-50. R30. P5. Q5.\nG00 X60.\nG112"),
+    ("cnc-pilot", "solve part.nc", "FERTIGTEIL\nG0 X30 Z0\nG1 X30 Z-20\nG1 Z? X30\nG1 X30 Z-50\nG1 A60"),
 ]
 """What ended in a traceback, or took too long: the control, the command with part.nc or {blocks}, and the program."""
 
