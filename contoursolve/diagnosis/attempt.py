@@ -136,7 +136,7 @@ class Trial(Struct, frozen=True, dict=True):
     is_frequent: bool = False
     """Whether each contour of a program may have the same finding: fewer slips are tried then."""
     is_searched: bool = False
-    """Whether several contours fit, which a search has found: each trial takes another one."""
+    """Whether several contours fit, which a search has found, or one was given up: each trial takes another one."""
     is_open: bool = False
     """Whether words are missing."""
     is_round: bool = False

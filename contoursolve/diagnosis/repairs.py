@@ -54,6 +54,7 @@ from contoursolve.solving import (
     Topic,
     affine_facts,
     is_conflict,
+    is_given_up,
     lookup,
     refusals_about,
 )
@@ -103,6 +104,8 @@ def find_repairs(
         trial = Trial(claim, dialect, codes, answer.contour, place, blamed=blamed, reach=reach, window=window)
         several = answer.alternatives if answer.status in (Status.AMBIGUOUS, Status.UNDECIDED) else None
         is_searched = several is not None and several.reach is not None
+        # Beside what is open, each trial gives up the same search again.
+        is_searched = is_searched or (is_open and is_given_up(answer.profile))
         trial = replace(trial, is_open=is_open, told=told, is_searched=is_searched)
         trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, (), reach, around))
         repairs = choose_repairs(trial, further_drafts(answer, trial))

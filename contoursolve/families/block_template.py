@@ -37,10 +37,11 @@ def first_message(found: Answer | Result) -> str:
     return next((each.message for each in found.diagnostics), "")
 
 
-def _example(answer: Answer) -> str:
-    """A word of a contour with its line."""
-    word = next(word for block in answer.claim.blocks for word in block.words if word.address not in _NEVER)
-    return f"{word.span.line}:{word.address}"
+def _example(answers: Sequence[Answer]) -> str:
+    """How to name one of several contours: by a word of the last that has one with its line."""
+    blocks = (block for answer in reversed(answers) for block in answer.claim.blocks)
+    word = next((word for block in blocks for word in block.words if word.address not in _NEVER), None)
+    return f": name a word of it with its line, such as {word.span.line}:{word.address}" if word is not None else ""
 
 
 class RefusedError(FamilyError):
@@ -116,8 +117,8 @@ class Template(Struct, frozen=True, eq=False):
         else:
             lines_of = ", ".join(str(each.lines[0]) for each in result.answers)
             told = (
-                f"the block has {len(result.answers)} contours (program lines {lines_of}); a family is about one: "
-                f"name a word of it with its line, such as {_example(result.answers[-1])}"
+                f"the block has {len(result.answers)} contours (program lines {lines_of}); a family is about one"
+                f"{_example(result.answers)}"
             )
         raise FamilyError(told)
 

@@ -132,9 +132,8 @@ class BranchRows:
         self.verdict = _compile_verdict(self.system, frozenset(sizes.intersection(case.profile.givens)))
         self.function = Columns(self.verdict.function)
 
-    def solve(self, values: Mapping[str, Array]) -> RowSolutions:
-        """The verdict on rows with these values of the words."""
-        rows = next(iter(values.values())).size
+    def solve(self, values: Mapping[str, Array], rows: int) -> RowSolutions:
+        """The verdict on so many rows with these values of the words; where only a tool varies, there is no word."""
         settled = RowSolutions(
             numpy.zeros(rows, numpy.uint8),
             numpy.zeros(rows, numpy.uint8),

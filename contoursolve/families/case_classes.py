@@ -332,7 +332,8 @@ def has_one_function(profile: Profile) -> bool:
 def verdict_of(answer: Answer) -> Status | None:
     """The status that all rows of the class have, if the equations are not solved."""
     errors = errors_of(answer)
-    is_refused = any(each.basis is Basis.RULE for each in errors)
+    # A word that is trusted and not there refuses no block.
+    is_refused = any(each.basis is Basis.RULE and each.about is not ReadIssue.TRUSTED_ABSENT for each in errors)
     # A rule by which a word is ignored tells in numbers what the others make of it.
     is_refused = is_refused or (bool(answer.profile.ignored) and answer.status is Status.REJECTED)
     system = assemble(answer.profile)

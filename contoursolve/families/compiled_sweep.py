@@ -203,7 +203,7 @@ class _ClassRows:
     def _solve_several(self, values: Mapping[str, Array], target: Places, table: Results) -> None:
         """The rows of a class without one function for all of them."""
         self.branches = self.branches or BranchRows(self.case, None if self.case.profile.picks else self.only)
-        settled = self.branches.solve(values)
+        settled = self.branches.solve(values, target.size)
         self._note(settled.is_path, settled.status, settled.reason, target, table)
         results = results_of(self.case) | {name: (name, None) for name in asked_of(self.case.profile)}
         rows = numpy.flatnonzero(settled.is_shown)

@@ -143,11 +143,11 @@ Moves = Mapping[str, tuple[MotionBlock, ...]]
 
 def translate(answer: Answer, target: Dialect, here: Point, form: Format, *, is_rapid: bool) -> Moves | None:
     """The moves of a solved contour in the words of a target that writes lines and arcs in a row, in a program where
-    the tool is really `here`; None if the target refuses it, or has no words for any of it."""
+    the tool is really `here`; None if the target refuses it, has no words for any of it, or it has no length."""
     if language_of(target) is None or answer.contour is None:
         return None
     side, drawn = {41: "G41", 42: "G42"}.get(answer.claim.before.compensation, "G40"), draw(answer)
-    way = _Search([drawn], target, answer, HostProgram(here, form, is_rapid, side)).first()
+    way = _Search([drawn], target, answer, HostProgram(here, form, is_rapid, side)).first() if drawn.elements else None
     if way is None or way.written.is_plain:
         return None
     found = dict[str, tuple[MotionBlock, ...]]()

@@ -71,7 +71,8 @@ class _Search:
 
     def told(self) -> list[str]:
         """Sentences on the values with a contour, and on the errors at the others."""
-        trials = [self._try(value) for value in self._values()]
+        # Most values are only tried; what is wrong is asked of few.
+        trials = [self._try(value, Depth.TRIAL) for value in self._values()]
         runs = [list(group) for _, group in groupby(trials, lambda each: each.is_solved)]
         ranges, reasons = list[str](), list[str]()
         for number, run in enumerate(runs):
@@ -89,9 +90,8 @@ class _Search:
             for (_, why), value, way in ((low, begin, "below"), (high, end, "above")):
                 reasons += [f"{way} {value}: {why}"] if why else []
         if not ranges:
-            return [
-                f"no value of {self.name} that was tried makes a contour; with {trials[0].value:g}: {trials[0].message}"
-            ]
+            first = self._try(trials[0].value)
+            return [f"no value of {self.name} that was tried makes a contour; with {first.value:g}: {first.message}"]
         more = f"; and {len(ranges) - _MOST} more ranges" if len(ranges) > _MOST else ""
         found = f"{self.name} makes a contour {join(ranges[:_MOST])}{more}"
         return [found, *(f"{self.name} {each}" for each in reasons[: 2 * _MOST])]
@@ -105,14 +105,14 @@ class _Search:
         angles = range(-360, 361, _ANGLES)
         return sorted({0.0, *near, *sizes, *(-each for each in sizes), *map(float, angles)})
 
-    def _try(self, value: float) -> _Trial:
+    def _try(self, value: float, depth: Depth = Depth.VERDICT) -> _Trial:
         claim, dialect = self.answer.claim, self.dialect
         found = dialect.find(
             [self._block(number, value) for number in range(len(claim.blocks))], 0, claim.before, dialect.modes
         )
         if not isinstance(found, ParsedContour) or len(found.blocks) != len(claim.blocks):
             return _Trial(value, False, "the blocks are read as another contour")
-        answer = examine(found, dialect.rules, self.policy, lambda: None, Depth.VERDICT)
+        answer = examine(found, dialect.rules, self.policy, lambda: None, depth)
         error = next((each for each in answer.diagnostics if each.is_error), None)
         return _Trial(value, answer.contour is not None and error is None, error.message if error else "")
 
@@ -130,6 +130,7 @@ class _Search:
         """The last value with a contour on the way to one without, and what is wrong there."""
         if outside is None:
             return inside.value, ""
+        outside = self._try(outside.value)
         while abs(outside.value - inside.value) > _EXACT:
             middle = self._try((inside.value + outside.value) / 2)
             inside, outside = (middle, outside) if middle.is_solved else (inside, middle)

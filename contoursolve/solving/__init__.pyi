@@ -11,6 +11,7 @@ from .alternatives import (
 from .ambiguity import (
     before as before,
     headings_of as headings_of,
+    is_given_up as is_given_up,
     orders_of as orders_of,
     restrict as restrict,
     said_twice as said_twice,

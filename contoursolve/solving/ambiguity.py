@@ -260,6 +260,12 @@ def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:
     return settle(part).solution.refusals
 
 
+def is_given_up(profile: Profile) -> bool:
+    """Whether a search in the part of a profile that its facts determine ends without all solutions."""
+    part = _determined(profile)
+    return part is not None and not find_alternatives(part).is_complete
+
+
 def nearest_of_determined(profile: Profile) -> tuple[Profile, Alternative] | None:
     """The part of a profile that its facts determine, itself if that is all, and of the solutions of that the one with
     which most of its facts agree; None where there is none."""

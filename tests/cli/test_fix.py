@@ -11,7 +11,7 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner, Result
-from damaged import damaged
+from fuzzing import damaged
 
 from contoursolve import apply_fixes, solve
 from contoursolve.cli import main

@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner, Result
-from damaged import damaged
+from fuzzing import damaged
 
 from contoursolve import DIALECTS, OpenProgram, apply_fixes, solve
 from contoursolve.cli import main

@@ -140,6 +140,23 @@ def test_settings_of_any_text_are_answered(folder, text, own, shared):
         run("check", str(place / "part.nc"), status=status, says=name if status else "")
 
 
+@pytest.mark.parametrize("command", ["check", "plot", "sweep", "verify", "facts"])
+@pytest.mark.parametrize("name", ["x\0.svg", "-o", "\0"])
+def test_a_nul_in_any_argument_is_told(folder, command, name):
+    done = CliRunner().invoke(main, [command, "part.nc", "-o", name, "x\0.dxf"])
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert done.stderr.splitlines()[-1] == "Error: arguments with a NUL character cannot be read"
+
+
+@pytest.mark.parametrize("data", [b"G00 X40. Z0. (\xe9)\n", b"G00 X40. Z0. (\xc3\xa9)\n"])
+@pytest.mark.parametrize("fact", ["\udcff", "\u7c97 = 3"])
+def test_a_fact_with_characters_that_the_program_cannot_hold_is_told(folder, data, fact):
+    Path("fact.nc").write_bytes(data + b"G111 X100. A180. K-30. B120.\n")
+    done = run("expand", "--keep-going", "fact.nc", "--fact", fact, status=1, says="NOT EXPANDED")
+    assert data in done.stdout_bytes
+    assert "error" in done.stderr
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
 def test_a_pipe_holds_no_settings(folder):
     for name, status in (("contoursolve.toml", 2), ("pyproject.toml", 0)):
@@ -180,22 +197,6 @@ def test_a_link_to_itself_is_no_target(folder):
 @pytest.mark.parametrize("control", ["sys:x", "sys:", "builtins:x", ":x", "..:x", "os.path:join", ":", "a:b:c", ODD])
 def test_whatever_is_named_as_a_control_is_answered(control):
     run("check", "--control", control, *BLOCK, status=2)
-
-
-@pytest.mark.parametrize(
-    "digits", [pytest.param(digits, marks=[pytest.mark.slow] * (digits % 12 != 4)) for digits in range(15, 34)]
-)
-def test_words_of_any_length_are_answered(digits):
-    for number in ("1" * digits, "-" + "9" * digits, "1" * (digits - 1) + ".", "0." + "3" * (digits - 2)):
-        for block, start, control in (
-            (f"G111 X100. A180. K-30. B{number}", f"X{number} Z0.", "yasnac-lx3"),
-            (f"N{number} G111 X{number} A{number} K-30. B120. P{number} F{number}", "X40. Z0.", "yasnac-lx3"),
-            (f"G1 X50 ,A{number}\nG1 X{number} Y80 ,R{number}", f"G17 G41 X0 Y{number}", "nct-99m"),
-            (f"N{number} G{number} X{number} M{number} T{number}\nG{number}", "X40. Z0.", "nct-99m"),
-        ):
-            contoursolve.solve(block, start=start, control=control)
-        text = f"N{number} G0 X{number} Z0.\nN{number} G111 X{number} A180. K-30. B120.\nG111 X100. A180. B120. K-30.\n"
-        contoursolve.expand(text, keep_going=True, block_numbers="all")
 
 
 COMMAND = [sys.executable, "-m", "contoursolve"]
@@ -335,13 +336,3 @@ def test_marks_stand_below_what_they_mark(comment, column):
     marks = next(line for line in lines if "^" in line)
     assert marks.partition("| ")[2].index("^") == column - 1 + len("G111 X100. A180. ")
     assert marks.count("^") == len("Y5.")
-
-
-@pytest.mark.parametrize("command", [
-    ("check",), ("solve",), ("expand",), ("plot", "-o", "v.svg"), ("report", "-o", "v.html")
-])  # fmt: skip
-def test_a_rule_about_a_value_that_nobody_knows_is_answered(folder, command):
-    """The first fix turns a sign or a value round: of a variable there is none to turn."""
-    Path("v.nc").write_text("G0 X0 Z0\nG1 X#100 ,A30\n")
-    name, *rest = command
-    run(name, "v.nc", "--control", "fanuc-lathe", *rest, status=1, says="incomplete" if rest else "#100")

@@ -1,7 +1,6 @@
 """Programs with calls, loops, branches and formulas are what they run: the flat program of a small interpreter."""
 
 import json
-import random
 import re
 from collections import defaultdict
 from itertools import pairwise
@@ -10,7 +9,6 @@ from tempfile import TemporaryDirectory
 
 import pytest
 from click.testing import CliRunner
-from mutations import mutate
 from small_interpreter import CONTROLS, Typed, program
 
 from contoursolve import OpenProgram, check, expand, solve
@@ -121,19 +119,3 @@ def test_an_editor_finds_the_same_whatever_the_order_of_words_and_whenever_it_is
     assert to_json(solve(text, control=control)) == to_json(result)
     other = solve(program(control, seed, is_shuffled=True).text, control=control)
     assert [*map(result_of, other.answers)] == [*map(result_of, result.answers)]
-
-
-@drawn(2, 12)
-def test_damaged_programs_are_answered(control, seed):
-    draw, text = random.Random(f"{control} {seed}"), program(control, seed).text
-    for _ in range(draw.choice((1, 2, 4, 12))):
-        text = mutate(text, draw) or " "
-    if draw.random() < 0.3:
-        lines = text.split("\n")
-        draw.shuffle(lines)
-        text = "\n".join(lines[: draw.randrange(1, len(lines) + 1)])
-    try:
-        assert solve(text, control=control).diagnostics is not None
-        expand(text, control=control, inline=draw.random() < 0.5, keep_going=True)
-    except Exception as error:
-        raise AssertionError(f"{control}: {text!r}") from error

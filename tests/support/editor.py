@@ -6,8 +6,8 @@ import sys
 from collections.abc import Awaitable, Callable, Coroutine
 from typing import Any
 
+from fuzzing import ODD
 from lsprotocol import types
-from mutations import ODD
 from pygls.lsp.client import LanguageClient
 
 from contoursolve.gcode import split_lines

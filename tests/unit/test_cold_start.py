@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 from examples import law
+from fuzzing import mutate
 from hypothesis import strategies as st
-from mutations import mutate
 
 from contoursolve import DIALECTS, parse
 

@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 import numpy
 import pytest
 from click.testing import CliRunner
-from mutations import mutate, windows
+from fuzzing import CONTROLS, examples, mutate
 from test_rules import WRONG
 
 import contoursolve
@@ -211,7 +211,6 @@ HOSTILE = "(]]></svg><script>alert[1]</script> & \" ' \x0b \ud800 \u202e $x^2$ {
 )
 def test_random_blocks_of_every_status_are_drawn(seed, count):
     draw, statuses = random.Random(seed), set()
-    near = windows()
     for number in range(count):
         if number % 2:
             text, start = random_block(draw)
@@ -222,7 +221,8 @@ def test_random_blocks_of_every_status_are_drawn(seed, count):
                 depth=draw.choice(("full", "verdict")),
             )
         else:
-            text, control = draw.choice(near)
+            control = draw.choice(CONTROLS)
+            text = draw.choice(examples(control))
             for _ in range(draw.randrange(1, 4)):
                 text = mutate(text, draw)
             result = contoursolve.solve(text, control=control, rules=draw.choice(("enforce", "off")))
