@@ -89,7 +89,7 @@ def test_exit_status_is_0_without_errors_and_1_with_errors(status, arguments):
         ((), "Commands:"),
         (("solve",), "missing PROGRAM"),
         (("check",), "missing PROGRAM"),
-        (("solve", SHAFT, *ONE), "name a PROGRAM, or give blocks with --block, but not both"),
+        (("solve", SHAFT, *ONE), "give either a PROGRAM or --block, not both\n"),
         (("solve", SHAFT, "--control", "fanuc"), "is not one of " + ", ".join(f"'{name}'" for name in DIALECTS)),
         (("solve", SHAFT, "--units", "cubit"), "'cubit' is not one of 'mm', 'inch'"),
         (("solve", SHAFT, "--rules", "perhaps"), "'perhaps' is not one of"),
@@ -127,7 +127,7 @@ def test_a_program_that_looks_like_several_controls_is_not_guessed(command, save
     assert (status, output) == (2, "")
     assert "(yasnac-lx3 by G111 in program line 2; nct-99m by ,A171.87 and Q-1 in program line 6; " in errors
     assert errors.endswith("say which with --control yasnac-lx3|nct-99m|fanuc-lathe\n")
-    assert run(command, path, "--control", "yasnac-lx3")[0] == 1
+    assert run(command, path, "--control", "yasnac-lx3")[0] == 0
 
 
 @pytest.mark.parametrize("command", ["solve", "check"])
@@ -149,17 +149,14 @@ def test_a_program_that_looks_like_several_controls_is_not_guessed(command, save
             "haas-mill or mitsubishi: try --control with one of them",
         ),
         (
-            "G00 X40. Z0.\nX60. ,A150. ,R2.\nZ-40.\n",
+            "X60. ,A150. ,R2.\nZ-40.\n",
             ("--control", "fanuc-lathe"),
             2,
-            "no G code of a motion is in force at ,A150. and ,R2. in program line 2: write G01",
+            "no G code of a motion is in force at ,A150. and ,R2. in program line 1: write G01",
         ),
     ],
 )
 def test_a_program_without_a_contour_is_told_why(command, text, options, status, told, save):
-    if "X60." in text:
-        text = "X60. ,A150. ,R2.\nZ-40.\n"
-        told = told.replace("line 2", "line 1")
     found, output, _ = run(command, save(text), *options)
     assert found == status
     assert told in output
@@ -191,7 +188,7 @@ def test_a_shell_completes_commands_controls_and_files_whatever_stands_before(wo
     """As click's protocol for bash says it."""
     asked = {"COMP_WORDS": " ".join(("contoursolve", *words)), "COMP_CWORD": str(len(words))}
     done = CliRunner(env={"_CONTOURSOLVE_COMPLETE": "bash_complete", **asked}).invoke(main, prog_name="contoursolve")
-    assert (type(done.exception), done.output.split()) == (SystemExit, wanted)
+    assert (done.exception, done.output.split()) == (None, wanted)
 
 
 TEXT, TEXTS = {"type": "string"}, {"type": "array", "items": {"type": "string"}}
@@ -201,7 +198,7 @@ ALARM = {"type": ["object", "null"], "required": ["number", "evidence"], "maxPro
 RULE = {"source": SOURCE, "alarm": ALARM, "severity": {"enum": ["error", "warning", "info"]}}
 RULE |= {name: TEXT | {"minLength": 1} for name in ("code", "message", "advice")}
 RULE |= {"note": TEXT, "options": TEXT, "wrong": TEXTS, "right": TEXTS}
-SETTING = {name: TEXT for name in ("name", "meaning", "default", "unit")}
+SETTING = dict.fromkeys(("name", "meaning", "default", "unit"), TEXT)
 SETTING |= {"source": SOURCE, "values": {"type": "object"}, "bounds": {"type": ["array", "null"]}}
 
 
@@ -220,7 +217,7 @@ def test_the_catalogue_as_json_has_the_fields_that_the_page_lists():
 
 def test_an_alarm_is_explained_as_a_newer_control_prints_it_and_without_its_zeros():
     status, text, _ = run("explain", "055")
-    assert (status, text.count("alarm 55 ")) == (0, text.count("alarm "))
+    assert (status, re.findall(r"alarm (\d+) ", text)) == (0, ["055"] * 3)
     assert all(run("explain", each)[:2] == (0, text) for each in ("55", "PS0055", "ps055"))
     status, text, _ = run("explain", "52", "--control", "fanuc-mill")
     assert (status, "fanuc-corner-without-next" in text) == (0, True)
@@ -305,9 +302,7 @@ def test_json_of_the_worked_example_is_what_the_contract_shows():
     assert contour["end"] == contour["elements"][-1]["end"]
 
 
-@pytest.mark.parametrize(
-    ("sign", "branch", "crossing"), [("-1", "nearer", (40, 30)), ("1", "farther", (-30, 40))]
-)
+@pytest.mark.parametrize(("sign", "branch", "crossing"), [("-1", "nearer", (40, 30)), ("1", "farther", (-30, 40))])
 def test_json_of_a_circle_and_a_line_names_its_branch_and_turns_the_right_way(sign, branch, crossing):
     (contour,) = solve_json(*blocks(PAIR.replace("Q-1", f"Q{sign}")))["contours"]
     assert (contour["branch"], contour["plane"]) == (branch, ["X", "Y"])
@@ -384,13 +379,13 @@ BAD = {
         "nct-circle-missed",
     ),
     "UTF-8 byte order mark and a bad word": ("\ufeff" + START + "G111 X100. A180. K B120.", "number-missing"),
-    "1 MB of words": (START + "G111 " + "A10. " * 200_000, "block-too-long"),
-    "1 MB of one letter": ("X" * 1_000_000, "block-too-long"),
-    "1 MB of digits": (START + "G111 A" + "9" * 1_000_000, "block-too-long"),
-    "1 MB of brackets": (START + "G111 A" + "[" * 1_000_000, "block-too-long"),
-    "1 MB of commas": (START + "G111 " + "," * 1_000_000, "block-too-long"),
-    "1 MB of an open comment": (GOOD + " (" + "(" * 1_000_000, "comment-not-closed"),
-    "5,000 bad lines": ("G111 A\n" * 5_000, "number-missing position-unknown"),
+    "100 kB of words": (START + "G111 " + "A10. " * 20_000, "block-too-long"),
+    "100 kB of one letter": ("X" * 100_000, "block-too-long"),
+    "100 kB of digits": (START + "G111 A" + "9" * 100_000, "block-too-long"),
+    "100 kB of brackets": (START + "G111 A" + "[" * 100_000, "block-too-long"),
+    "100 kB of commas": (START + "G111 " + "," * 100_000, "block-too-long"),
+    "100 kB of an open comment": (GOOD + " (" + "(" * 100_000, "comment-not-closed"),
+    "500 bad lines": ("G111 A\n" * 500, "number-missing position-unknown"),
 }
 HARMLESS = {"comment-not-closed": "warning", "no-contour": "info"}
 
@@ -657,7 +652,7 @@ def test_a_start_point_in_another_unit_than_the_contour_is_pointed_out(options, 
 @pytest.mark.parametrize(
     ("rules", "status", "severities"),
     [
-        ("enforce", "rejected", {"g111-x-and-u": "error"}),
+        ("enforce", "rejected", {"g111-x-and-u": "error", "words-redundant": "warning"}),
         ("warn", "overdetermined", {"g111-x-and-u": "warning", "words-redundant": "warning"}),
         ("off", "overdetermined", {"words-redundant": "warning"}),
     ],
