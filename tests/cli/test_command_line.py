@@ -145,8 +145,7 @@ def test_a_program_that_looks_like_several_controls_is_not_guessed(command, save
             "G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40\n",
             ("--control", "yasnac-lx3"),
             2,
-            "has no contour block: ,C10 in program line 2 is for nct-99m, fanuc-lathe, fanuc-mill, haas-lathe, "
-            "haas-mill or mitsubishi: try --control with one of them",
+            "has no contour block: ,C10 in program line 2 is for nct-99m, fanuc-lathe, fanuc-mill, haas-lathe",
         ),
         (
             "X60. ,A150. ,R2.\nZ-40.\n",
