@@ -47,7 +47,7 @@ SYNTAX = Syntax(
         re.ASCII | re.IGNORECASE,
     ),
     statement=re.compile(r"[ \t/]*+(?:(?P<assignment>\#|V\d++[ \t]*+=)|(?P<flow>(?!)))", re.IGNORECASE),
-    comment=re.compile(r"\[(?>(?:[^\[\]]++|\[[^\]]*+\])*)\]?+"),
+    comment=re.compile(r"\[(?>(?:[^\[\]]++|\[[^\]]*+(?:\]|$))*)\]?+"),
     remark="[{}]",
     parts=_parts,
     plain=plain_spelling("(?!)", "["),
