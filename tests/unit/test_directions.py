@@ -4,7 +4,9 @@ the other way round is suspected where it joins its neighbours in corners."""
 import json
 import re
 from cmath import rect
+from collections.abc import Mapping
 from math import radians
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import pytest
@@ -23,7 +25,7 @@ class Case(NamedTuple):
     block: str
     right: float
     text: str
-    options: dict[str, Any] = {}
+    options: Mapping[str, Any] = MappingProxyType({})
 
     @property
     def start(self) -> str:
