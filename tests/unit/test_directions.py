@@ -1,170 +1,169 @@
-"""An angle whose direction is against the one that the other words give never agrees with them."""
+"""An angle whose direction is against the one that the other words give never agrees with them; and an arc that turns
+the other way round is suspected where it joins its neighbours in corners."""
 
 import json
 import re
-from typing import Any
+from cmath import rect
+from collections.abc import Mapping
+from math import radians
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import Diagnostic, Result, family, solve
+from contoursolve import Diagnostic, Result, check, family, solve
 from contoursolve.cli import main
 from contoursolve.comparison import Document, ReceiptVerdict, verify
-from contoursolve.diagnostics.finding import Tie
 from contoursolve.solving import StatusCode
 
+
+class Case(NamedTuple):
+    """A block with a place for an angle, the direction that the other words give, and the word or the fact for it."""
+
+    control: str
+    block: str
+    right: float
+    text: str
+    options: Mapping[str, Any] = MappingProxyType({})
+
+    @property
+    def start(self) -> str:
+        return {"yasnac-lx3": "X40. Z0.", "fanuc-lathe": "X0 Z0"}.get(self.control, "X0 Y0")
+
+    @property
+    def is_fact(self) -> bool:
+        return " " in self.text
+
+    def solved(self, angle: float) -> Result:
+        """What becomes of it with an angle."""
+        text = self.text.format(angle)
+        block = self.block.format(A="" if self.is_fact else text)
+        facts = [text] if self.is_fact else []
+        return solve(block, control=self.control, start=self.start, facts=facts, **self.options)
+
+
 G111 = "G111 {A} I12. K-12. B180. Z-40."
-CASES: dict[str, dict[str, Any]] = {
-    "A of G111": {"control": "yasnac-lx3", "block": G111, "right": 135, "word": "A{}."},
-    "A of G111 without rules": {
-        "control": "yasnac-lx3", "block": G111, "right": 135, "word": "A{}.", "rules": "off"
-    },
-    "A of G111 with a word missing": {
-        "control": "yasnac-lx3", "block": "G111 {A} I12. K-12. B180.", "right": 135, "word": "A{}.", "rules": "off"
-    },
-    "B of G111": {
-        "control": "yasnac-lx3", "block": "G111 I12. K-12. {A} X64. Z-40.", "right": 180, "word": "B{}."
-    },
-    "B of G111 beside A": {
-        "control": "yasnac-lx3", "block": "G111 A135. I12. {A} U24. W-40.", "right": 180, "word": "B{}."
-    },
-    "A of Mitsubishi": {
-        "control": "mitsubishi", "block": "G17 G90 G01 X40. Y40. {A}", "right": 45, "word": "A{}."
-    },
-    "A of Mitsubishi with a corner": {
-        "control": "mitsubishi", "block": "G17 G90 G01 X40. Y40. {A} ,R2.\nX80.", "right": 45, "word": "A{}."
-    },
-    "ANG of SINUMERIK": {
-        "control": "siemens-840d", "block": "G17 G90 G1 X40 Y40 {A} RND=2\nX80", "right": 45, "word": "ANG={}"
-    },
-    "ANG of SINUMERIK that is checked": {
-        "control": "siemens-840d", "block": "G17 G90 G1 X40 Y40 {A} RND=2\nX80", "right": 45, "word": "ANG={}",
-        "settings": {"siemens-840d.redundant-angle": "check"},
-    },
-    "#ANG of ISG": {
-        "control": "isg", "block": "G17 G90 G1 X40 Y40 {A} #RND=2\nX80", "right": 45, "word": "#ANG={}"
-    },
-    ",A of Fanuc": {
-        "control": "fanuc-lathe", "block": "G01 X80. Z40. {A} ,R2.\nX120.", "right": 45, "word": ",A{}."
-    },
-    ",A of Fanuc as a direction": {
-        "control": "fanuc-lathe", "block": "G01 X80. Z40. {A} ,R2.\nX120.", "right": 45, "word": ",A{}.",
-        "settings": {"fanuc-lathe.angle-sense": "ray"},
-    },
-    "AN of FK": {
-        "control": "heidenhain", "block": "FL X+40 Y+40 {A}\nFL X+80 AN+0", "right": 45, "word": "AN{:+g}"
-    },
-    "AN of FK beside LEN": {
-        "control": "heidenhain", "block": "FL X+40 Y+30 LEN50 {A}\nFL X+80 AN+0", "right": 36.8699, "word": "AN{:+g}"
-    },
-    "a fact about a line": {
-        "control": "yasnac-lx3", "block": "G111 I12. K-12. B180. W-40.", "right": 135,
-        "fact": "direction of line 1 = {}",
-    },
-    "a fact about a line whose angle is given": {
-        "control": "yasnac-lx3", "block": "G111 A135. K-12. B180. W-40.", "right": 135,
-        "fact": "direction of line 1 = {}",
-    },
-    "a fact about an FK line": {
-        "control": "heidenhain", "block": "FL X+40 Y+40\nFL X+80 AN+0", "right": 45, "fact": "direction of line 1 = {}"
-    },
-}  # fmt: skip
-
-STARTS = {"yasnac-lx3": "X40. Z0.", "fanuc-lathe": "X0 Z0"}
-
-
-def solved(name: str, angle: float) -> tuple[Result, str]:
-    """What becomes of a case with an angle, and its word or its fact."""
-    case = CASES[name]
-    word, fact = (case.get(each, "").format(angle) for each in ("word", "fact"))
-    options = {each: case[each] for each in ("rules", "settings") if each in case}
-    start = STARTS.get(case["control"], "X0 Y0")
-    block = case["block"].format(A=word)
-    return solve(block, control=case["control"], start=start, facts=[fact] if fact else [], **options), word or fact
+OFF: dict[str, Any] = {"rules": "off"}
+CHECKED = {"settings": {"siemens-840d.redundant-angle": "check"}}
+RAY = {"settings": {"fanuc-lathe.angle-sense": "ray"}}
+CASES = {
+    "A of G111": Case("yasnac-lx3", G111, 135, "A{}."),
+    "A of G111 without rules": Case("yasnac-lx3", G111, 135, "A{}.", OFF),
+    "A of G111 with a word missing": Case("yasnac-lx3", "G111 {A} I12. K-12. B180.", 135, "A{}.", OFF),
+    "B of G111": Case("yasnac-lx3", "G111 I12. K-12. {A} X64. Z-40.", 180, "B{}."),
+    "B of G111 beside A": Case("yasnac-lx3", "G111 A135. I12. {A} U24. W-40.", 180, "B{}."),
+    "A of Mitsubishi": Case("mitsubishi", "G17 G90 G01 X40. Y40. {A}", 45, "A{}."),
+    "A of Mitsubishi with a corner": Case("mitsubishi", "G17 G90 G01 X40. Y40. {A} ,R2.\nX80.", 45, "A{}."),
+    "ANG of SINUMERIK": Case("siemens-840d", "G17 G90 G1 X40 Y40 {A} RND=2\nX80", 45, "ANG={}"),
+    "ANG that is checked": Case("siemens-840d", "G17 G90 G1 X40 Y40 {A} RND=2\nX80", 45, "ANG={}", CHECKED),
+    "#ANG of ISG": Case("isg", "G17 G90 G1 X40 Y40 {A} #RND=2\nX80", 45, "#ANG={}"),
+    ",A of Fanuc": Case("fanuc-lathe", "G01 X80. Z40. {A} ,R2.\nX120.", 45, ",A{}."),
+    ",A of Fanuc as a direction": Case("fanuc-lathe", "G01 X80. Z40. {A} ,R2.\nX120.", 45, ",A{}.", RAY),
+    "AN of FK": Case("heidenhain", "FL X+40 Y+40 {A}\nFL X+80 AN+0", 45, "AN{:+g}"),
+    "AN of FK beside LEN": Case("heidenhain", "FL X+40 Y+30 LEN50 {A}\nFL X+80 AN+0", 36.8699, "AN{:+g}"),
+    "a fact about a line": Case("yasnac-lx3", "G111 I12. K-12. B180. W-40.", 135, "direction of line 1 = {}"),
+    "a fact beside an angle": Case("yasnac-lx3", "G111 A135. K-12. B180. W-40.", 135, "direction of line 1 = {}"),
+    "a fact about an FK line": Case("heidenhain", "FL X+40 Y+40\nFL X+80 AN+0", 45, "direction of line 1 = {}"),
+}
 
 
 def told(finding: Diagnostic) -> str:
     return " ".join([finding.message, *finding.notes, *(label.text for label in finding.labels)])
 
 
-def is_about(tie: Tie, word: str) -> bool:
-    return any(word == each or word.rstrip("0123456789.+-=") == each for each in tie.addresses)
-
-
-@pytest.mark.parametrize("turn", [180, pytest.param(-180, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("turn", [180, -180])
 @pytest.mark.parametrize("name", CASES)
 def test_the_opposite_direction_never_agrees(name, turn):
-    result, word = solved(name, CASES[name]["right"] + turn)
+    case = CASES[name]
+    result, word = case.solved(case.right + turn), case.text.format(case.right + turn)
     texts = [told(each) for each in result.diagnostics if word in each.message]
-    right = f"{CASES[name]['right']:.3f} deg"
-    assert any(right in text or f"write A{CASES[name]['right']}." in text for text in texts), texts
+    right = f"{case.right:.3f} deg"
+    assert any(right in text or f"write A{case.right}." in text for text in texts), texts
     assert not any(re.search(r"\b(agrees|repeats|the same place)\b", text) for text in texts)
     for answer in result.answers:
-        assert answer.diagnosis is not None
-        assert all(tie.is_conflict for tie in answer.diagnosis.ties if is_about(tie, word))
+        own = [tie for tie in answer.diagnosis.ties if {word, word.rstrip("0123456789.+-=")} & {*tie.addresses}]
+        assert all(tie.is_conflict for tie in own)
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_direction_itself_agrees(name):
-    result, _ = solved(name, CASES[name]["right"])
-    assert not any(
-        claim in told(each) for each in result.diagnostics for claim in ("opposite", "disagrees", "other way")
-    )
-    for answer in result.answers:
-        assert not any(tie.is_conflict for tie in (answer.diagnosis.ties if answer.diagnosis else ()))
+    result = CASES[name].solved(CASES[name].right)
+    texts = [told(each) for each in result.diagnostics]
+    assert not re.search("opposite|disagrees|other way", " ".join(texts))
+    ties = [tie for answer in result.answers if answer.diagnosis for tie in answer.diagnosis.ties]
+    assert not any(tie.is_conflict for tie in ties)
 
 
 def test_no_fix_leaves_a_direction_that_is_opposite():
-    result, _ = solved("A of G111 without rules", -45)
-    (finding,) = result.diagnostics
+    (finding,) = CASES["A of G111 without rules"].solved(-45).diagnostics
     assert [each.replacement for each in finding.fixes[:2]] == [G111.format(A="A135."), G111.replace("{A} ", "")]
 
 
 def test_an_angle_of_a_line_without_length_says_nothing_against_it():
-    block = "X2. Z-1. ,A341."
-    result = solve(f"G00 X1. Z-5.\nG01 X2. Z-1. ,R0\n{block}\nX5. Z-9.", control="fanuc-lathe")
-    codes = [each.code for each in result.diagnostics]
-    assert "line-vanishes" in codes
-    assert "angle-opposite" not in codes
+    result = solve("G00 X1. Z-5.\nG01 X2. Z-1. ,R0\nX2. Z-1. ,A341.\nX5. Z-9.", control="fanuc-lathe")
+    codes = {each.code for each in result.diagnostics}
+    assert codes & {"line-vanishes", "angle-opposite"} == {"line-vanishes"}
 
 
-def test_what_agrees_to_rounding_alone_is_told_from_what_agrees():
-    texts = {
-        angle: solve(f"G17 G90 G01 X40. Y20. A{angle}", control="mitsubishi", start="X0 Y0").diagnostics[0].message
-        for angle in ("26.565", "26.56505118")
-    }
-    assert texts["26.565"].endswith("it agrees with them to its least increment")
-    assert texts["26.56505118"].endswith("it agrees with them")
+@pytest.mark.parametrize(("angle", "end"), [("26.565", " to its least increment"), ("26.56505118", "")])
+def test_what_agrees_to_rounding_alone_is_told_from_what_agrees(angle, end):
+    (finding,) = solve(f"G17 G90 G01 X40. Y20. A{angle}", control="mitsubishi", start="X0 Y0").diagnostics
+    assert finding.message.endswith(f"it agrees with them{end}")
 
 
 @pytest.mark.parametrize("name", [",A of Fanuc as a direction", "AN of FK", "a fact about a line"])
 def test_rows_of_a_family_have_the_status_of_their_block(name):
-    case, angles = CASES[name], [-135.0, 45.0, 135.0, 44.0, -45.0]
-    word, fact = (case.get(each, "").format(45) for each in ("word", "fact"))
+    case, angles = CASES[name], [-135, 45, 135, 44, -45]
+    word = case.text.partition(" =")[0] if case.is_fact else "1:" + case.text.partition("{")[0]
     rows = family(
-        case["block"].format(A=word),
-        vary={fact.partition(" =")[0] or (("1:" if "\n" in case["block"] else "") + word.rstrip("45.+")): angles},
-        control=case["control"],
-        start=STARTS.get(case["control"], "X0 Y0"),
-        facts=[fact] if fact else [],
-        settings=case.get("settings"),
+        case.block.format(A=case.text.format(45)),
+        vary={word: [float(angle) for angle in angles]},
+        control=case.control,
+        start=case.start,
+        facts=[case.text.format(45)] if case.is_fact else [],
+        **case.options,
     )
-    alone = [solved(name, angle if angle % 1 else int(angle))[0].answers[0].status for angle in angles]
+    alone = [case.solved(angle).answers[0].status for angle in angles]
     assert [StatusCode(each).status for each in rows["status"]] == alone
 
 
 @pytest.mark.parametrize("name", [",A of Fanuc", ",A of Fanuc as a direction", "A of G111", "AN of FK"])
 def test_what_is_said_of_it_is_verified(tmp_path, name):
     case, program = CASES[name], tmp_path / "program.nc"
-    word = case["word"].format(case["right"] + 180)
-    start = STARTS.get(case["control"], "X0 Y0")
-    program.write_text(
-        ("L " if case["control"] == "heidenhain" else "G00 ") + start + "\n" + case["block"].format(A=word)
-    )
-    options = [f"--set={name}={value}" for name, value in case.get("settings", {}).items()]
-    shown = CliRunner().invoke(
-        main, ["solve", str(program), "--format", "json", "--control", case["control"], *options]
-    )
-    assert json.loads(shown.stdout)["contours"]
-    documents = Document("program", program.read_bytes()), Document("result", shown.stdout.encode())
+    first = f"{'L' if case.control == 'heidenhain' else 'G00'} {case.start}\n"
+    program.write_text(first + case.block.format(A=case.text.format(case.right + 180)))
+    options = [f"--set={name}={value}" for name, value in case.options.get("settings", {}).items()]
+    asked = ["solve", str(program), "--format", "json", "--control", case.control, *options]
+    shown = CliRunner().invoke(main, asked).stdout
+    assert len(json.loads(shown)["contours"]) == 1
+    documents = Document("program", program.read_bytes()), Document("result", shown.encode())
     assert verify(*documents).verdict is not ReceiptVerdict.FAILED
+
+
+def arc_and_line(sense: int, sweep: float, turn: float) -> tuple[complex, float, complex]:
+    """Where an arc of 50 mm about X0 Y0 from X50 ends, and the direction and end of the line that leaves it there."""
+    crossing, heading = rect(50, radians(sense * sweep)), sense * (sweep + 90 + turn)
+    return crossing, (heading + 180) % 360 - 180, crossing + rect(60, radians(heading))
+
+
+SWEEPS = [(210, 120, True), (300, 150, True), (210, 100, False), (210, 60, False), (179, 120, False)]
+
+
+@pytest.mark.boundary
+@pytest.mark.parametrize(("sweep", "turn", "is_told"), SWEEPS)
+@pytest.mark.parametrize("sense", [1, -1])
+def test_an_arc_of_more_than_half_a_turn_that_leaves_in_a_sharp_corner_is_suspected(sense, sweep, turn, is_told):
+    """The other way round the path would turn by less; a corner that is rounded is joined without one."""
+    crossing, heading, end = arc_and_line(sense, sweep, turn)
+    code, other = ("G3", "G2") if sense > 0 else ("G2", "G3")
+    line = f"G1 X{end.real:.4f} Y{end.imag:.4f}"
+    met = f"G17 G90 G{41 if sense > 0 else 42} G0 X50 Y0\n{code} I-50 J0\n{line} ,A{heading:.3f} Q-1"
+    found = check(met, control="nct-99m")
+    assert [each.code for each in found] == ["suspected"] * is_told
+    assert [each.fixes[0].description.partition(" ->")[0] for each in found] == [
+        f"write {other} for {code} (the other way round)"
+    ] * is_told
+    to = f"X{crossing.real:.4f} Y{crossing.imag:.4f}"
+    rounded = f"G17 G90 G0 X50. Y0.\n{code} {to} I-50. J0 ,R2. F100\n{line}"
+    assert check(rounded, control="fanuc-mill") == ()
