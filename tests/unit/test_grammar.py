@@ -314,19 +314,34 @@ def test_any_fact_about_a_block_is_answered_in_a_comment_as_apart(block: str, fa
 
 
 TAPER = ("A180.", "K-30.", "B120.", "X100.", "P5.", "Q3.")
-FACTS = ("length of line 1 = 30", "straight part of line 2 = 20", "X of V2 = 100", "direction of line 2 = 120")
+LENGTH_2 = 30 / 0.75**0.5
+"""Of line 2, which rises by 30 mm at 120 degrees; a rounding takes its radius times the tangent of 30 degrees."""
 
 
-@pytest.mark.parametrize("place", range(len(TAPER)))
-@pytest.mark.parametrize("fact", FACTS)
-def test_a_value_that_is_found_makes_the_same_contour_where_it_is_written(place: int, fact: str) -> None:
+@pytest.mark.parametrize(
+    ("address", "fact", "value"),
+    [
+        ("A", "length of line 1 = 30", 180),
+        ("K", "length of line 1 = 30", -30),
+        ("X", "X of V2 = 100", 100),
+        ("X", "straight part of line 2 = 20", 40 + 2 * 0.75**0.5 * (20 + 8 / 3**0.5)),
+        ("P", "straight part of line 2 = 20", (LENGTH_2 - 20) * 3**0.5 - 3),
+        ("Q", "straight part of line 2 = 20", (LENGTH_2 - 20) * 3**0.5 - 5),
+        ("B", "direction of line 2 = 120", 120),
+        ("K", "straight part of line 2 = 20", None),
+        ("B", "length of line 1 = 30", None),
+    ],
+)
+def test_a_value_that_is_found_makes_the_same_contour_where_it_is_written(address: str, fact: str, value: Any) -> None:
     """In place of the question mark, without the fact; or the block is told to be open."""
-    words = [*TAPER[:place], TAPER[place][0] + "?", *TAPER[place + 1 :]]
-    (answer,) = solve(f"G111 {' '.join(words)}", start=START, facts=[fact]).answers
-    if answer.status.value in ("solved", "overdetermined"):
-        (found,) = answer.answers
-        words[place] = f"{TAPER[place][0]}{found.value * (1 + found.question.is_diameter):.12f}"
-        again = solve(f"G111 {' '.join(words)}", start=START, depth="verdict").answers[0].contour
-        assert again.deviation(answer.contour) < 1e-9
+    words = {word[0]: word[1:] for word in TAPER}
+    solved = [
+        solve(f"G111 {' '.join(map(''.join, (words | {address: text}).items()))}", start=START, facts=facts).answers[0]
+        for text, facts in (("?", [fact]), (f"{value or 0:.12f}", []))
+    ]
+    (found,) = solved[0].answers
+    if value is None:
+        assert (found.value, solved[0].contour) == (None, None)
     else:
-        assert answer.contour is None
+        assert found.value * (1 + found.question.is_diameter) == pytest.approx(value, abs=1e-9)
+        assert solved[0].contour.deviation(solved[1].contour) < 1e-9
