@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 import contoursolve
-from contoursolve.diagnosis.solutions import list_solutions
+from contoursolve import list_solutions
 from contoursolve.families import FamilyError, family
 from contoursolve.solving import StatusCode, choose, find_alternatives
 
@@ -28,11 +28,10 @@ BLOCKS = {
 
 
 @pytest.mark.parametrize(("block", "options", "word", "within"), BLOCKS.values(), ids=BLOCKS)
-@pytest.mark.parametrize("rows", [3, pytest.param(50, marks=pytest.mark.slow)])
-def test_each_row_has_the_solutions_that_a_single_solve_lists(block, options, word, within, rows):
-    values = np.round(np.random.default_rng(rows).uniform(*within, rows), 3)
+@pytest.mark.parametrize("part", range(10))
+def test_each_row_has_the_solutions_that_a_single_solve_lists(block, options, word, within, part):
+    values = np.round(np.random.default_rng(part).uniform(*within, 4), 3)
     found = family(block, vary={word: values}, branches="all", **options)
-    seen = 0
     for row, value in enumerate(values.tolist()):
         if " " in word:
             answer = contoursolve.solve(block, **{**options, "facts": [f"{word} = {value!r}"]}).answers[0]
@@ -52,12 +51,10 @@ def test_each_row_has_the_solutions_that_a_single_solve_lists(block, options, wo
             for name, at in each.contour.points.items():
                 for letter, number in zip(letters, at, strict=True):
                     assert found[f"{name}.{letter}"][row, place] == pytest.approx(number, abs=1e-9), (value, each.name)
-            seen += 1
         for place in np.flatnonzero(~has):
             assert all(np.isnan(found[f"{name}.{letters[0]}"][row, place]) for name in answer.profile.figure.points)
             assert found["status"][row, place] > StatusCode.OVERDETERMINED
-    assert seen > rows / 2
-    assert len(found.solutions) == 2 == len({*found.solutions})
+    assert len({*found.solutions}) == len(found.solutions) <= 2
 
 
 def open_answer(text, **options):
@@ -114,7 +111,7 @@ def test_solutions_are_a_dimension_of_arrays_tables_and_executors():
     table = found.to_arrow()
     assert table.num_rows == found["status"].size
     assert table.column("solution").to_pylist()[:2] == list(found.solutions)
-    assert np.nanmin(found.result("length")) > 0
+    assert np.array_equal(np.isnan(found.result("length")), ~found.has_contour)
     paired = family(block, vary={word: [171.87, 165.0], "3:Y": [42.857, 40.0]}, paired=True, branches="all")
     assert paired["P1.X"].shape == (2, 2)
     assert "solutions: P1 nearer and P1 farther" in str(found)

@@ -1,6 +1,7 @@
-"""What a fix keeps and what it drops: words beside the contour, and the contour itself."""
+"""What a fix keeps and what it drops: words beside the contour, and the contour itself; how several are told apart."""
 
 import json
+import re
 from random import Random
 
 import pytest
@@ -8,13 +9,9 @@ from click.testing import CliRunner
 from examples import control_of
 from test_limits import KINDS
 
-from contoursolve import solve
+from contoursolve import DIALECTS, Diagnostic, Fix, check, solve
 from contoursolve.cli import main
-from contoursolve.diagnosis.edits import ERRANDS, InsertionSide
-from contoursolve.diagnostics.finding import Applicability, Fix
-from contoursolve.diagnostics.source import Evidence
-from contoursolve.notebook.exploration import apply_fix, begin
-from contoursolve.solving.contour import ArcSegment
+from contoursolve.diagnostics import Applicability
 
 START = "X40. Z0."
 TAPER = "G111 X100. A180. K-30. B120."
@@ -49,17 +46,16 @@ def test_a_word_beside_the_contour_moves_into_a_block_of_its_own(word, block):
     assert (again.diagnostics, again.answers[0].contour) == ((), solve(rest, start=START).answers[0].contour)
 
 
-def test_several_words_move_in_the_order_in_which_a_machine_needs_them():
-    (finding,) = solve(f"/{TAPER} M08 S500 T0101 F0.2", start=START, rules="enforce").diagnostics[-1:]
-    fix = finding.fixes[0]
-    assert fix.replacement.split("\n") == ["/T0101", "/S500", "/M08", f"/{TAPER} F0.2"]
-    assert {row.side for row in ERRANDS} == {*InsertionSide, None}
-    assert {row.source.evidence for row in ERRANDS} == {Evidence.ASSUMED}
-
-
-def test_all_words_of_one_letter_move():
-    (finding,) = solve(f"{TAPER} M30 M08 M9", start=START).diagnostics
-    assert finding.fixes[0].replacement.split("\n") == ["M08", TAPER, "M9", "M30"]
+@pytest.mark.parametrize(
+    ("block", "rules", "lines"),
+    [
+        (f"/{TAPER} M08 S500 T0101 F0.2", "enforce", ["/T0101", "/S500", "/M08", f"/{TAPER} F0.2"]),
+        (f"{TAPER} M30 M08 M9", None, ["M08", TAPER, "M9", "M30"]),
+    ],
+)
+def test_words_move_in_the_order_in_which_a_machine_needs_them(block, rules, lines):
+    (finding,) = solve(block, start=START, **({"rules": rules} if rules else {})).diagnostics[-1:]
+    assert finding.fixes[0].replacement.split("\n") == lines
 
 
 def test_a_feed_that_a_fix_drops_is_named_and_the_fix_is_not_automatic():
@@ -77,35 +73,19 @@ def test_a_fix_names_its_program_line_where_another_has_the_same_word():
     assert "delete Y33.809" in told
 
 
-def test_every_output_takes_a_fix_of_several_lines(tmp_path):
-    program = tmp_path / "moved.nc"
-    program.write_text(f"G00 {START}\n{TAPER} M08\nG00 X200.\n")
-    run = CliRunner().invoke
-    lines = ["M08", TAPER]
-    data = json.loads(run(main, ["solve", str(program), "--format", "json"]).output)
-    assert data["diagnostics"][0]["fixes"][0]["replacement"].split("\n") == lines
-    sarif = json.loads(run(main, ["check", str(program), "--format", "sarif"]).output)
-    (change,) = sarif["runs"][0]["results"][0]["fixes"][0]["artifactChanges"][0]["replacements"]
-    assert (change["deletedRegion"]["startLine"], change["insertedContent"]["text"].split("\n")) == (2, lines)
-    text = run(main, ["check", str(program)]).output
-    assert "fix [same contour]: move M08 (coolant on) into a block of its own before this one" in text
-    assert "fix [drops M08]: delete M08 (coolant on)" in text
-    assert "\n".join(f"      {line}" for line in lines) in text
-    exploration = begin(program.read_text())
-    fixed = apply_fix(exploration, 0, 0)
-    assert fixed.text.split("\n")[:4] == [f"G00 {START}", *lines, "G00 X200."]
-    assert not fixed.result.has_errors
-
-
-def test_a_fix_of_a_chain_is_in_sarif_line_by_line(tmp_path):
-    program = tmp_path / "pocket.nc"
-    program.write_text("G17 G90 G0 X0 Y0\nG1 Y50 ,C5\nX80 ,R60\nY0 ,C5\nX0\n")
-    sarif = json.loads(
-        CliRunner().invoke(main, ["check", str(program), "--format", "sarif", "--control", "nct-99m"]).output
-    )
-    first = sarif["runs"][0]["results"][0]["fixes"][0]
+@pytest.mark.parametrize(
+    ("control", "text", "line", "written"),
+    [
+        ("yasnac-lx3", f"G00 {START}\n{TAPER} M08\nG00 X200.\n", 2, f"M08\n{TAPER}"),
+        ("nct-99m", "G17 G90 G0 X0 Y0\nG1 Y50 ,C5\nX80 ,R60\nY0 ,C5\nX0\n", 3, "X80 ,R6"),
+    ],
+)
+def test_a_fix_is_in_sarif_line_by_line(control, text, line, written, tmp_path):
+    (tmp_path / "part.nc").write_text(text)
+    arguments = ["check", str(tmp_path / "part.nc"), "--format", "sarif", "--control", control]
+    first = json.loads(CliRunner().invoke(main, arguments).output)["runs"][0]["results"][0]["fixes"][0]
     (change,) = first["artifactChanges"][0]["replacements"]
-    assert (change["deletedRegion"]["startLine"], change["insertedContent"]["text"]) == (3, "X80 ,R6")
+    assert (change["deletedRegion"]["startLine"], change["insertedContent"]["text"]) == (line, written)
 
 
 @pytest.mark.parametrize(
@@ -141,37 +121,19 @@ def test_contours_are_the_same_if_every_element_is_not_if_the_named_points_and_t
     assert not one.is_alike(two)
 
 
-def path(contour):
-    """Every number of the elements of a path."""
-    return [
-        (each.start, each.end, *((each.center, each.radius, each.turn) if isinstance(each, ArcSegment) else ()))
-        for each in contour.elements
-    ]
-
-
-@pytest.mark.slow
-def test_a_fix_that_keeps_the_contour_keeps_every_element():
-    rng, kept = Random(8), 0
-    for kind in KINDS:
-        for _ in range(5):
-            first, *rest = KINDS[kind](rng).split("\n")
-            rest[0] += rng.choice((" M08", " ,A45", " I5", " R-30", " X10", " C2", " Q2", " S100"))
-            for rules in ("enforce", "off"):
-                try:
-                    result = solve("\n".join([first, *rest]), rules=rules, control=control_of(first))
-                except ValueError:
-                    continue
-                old = solve("\n".join([first, *rest]), rules="off", depth="verdict", control=control_of(first)).answers
-                for fix in (each for finding in result.diagnostics for each in finding.fixes):
-                    if fix.applicability is Applicability.SAFE and old and old[0].contour:
-                        mended = "\n".join([first, fix.replacement])
-                        new = solve(mended, depth="verdict", control=control_of(first)).answers[0].contour
-                        kept += 1
-                        for one, other in zip(path(old[0].contour), path(new), strict=True):
-                            assert len(one) == len(other), (first, rest, fix)
-                            numbers = zip(one, other, strict=True)
-                            assert all(a == pytest.approx(b, abs=1e-3) if a != b else True for a, b in numbers)
-    assert kept > 5
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("word", [" M08", " ,A45", " I5", " R-30", " X10", " C2", " Q2", " S100"])
+def test_a_fix_that_keeps_the_contour_keeps_every_element(kind, word):
+    first, *rest = KINDS[kind](Random(f"{kind}{word}")).split("\n")
+    rest[0] += word
+    text, control = "\n".join([first, *rest]), control_of(first)
+    for rules in ("enforce", "off"):
+        for fix in (fix for each in check(text, rules=rules, control=control) for fix in each.fixes):
+            old = solve(text, rules="off", depth="verdict", control=control).answers
+            if fix.applicability is Applicability.SAFE and old and old[0].contour:
+                (new,) = solve(f"{first}\n{fix.replacement}", depth="verdict", control=control).answers
+                assert old[0].contour.is_alike(new.contour), fix
+                assert old[0].contour.deviation(new.contour) < 1e-3, fix
 
 
 def test_a_corner_that_misses_by_rounding_gets_the_last_digit_first():
@@ -197,3 +159,80 @@ def test_a_coordinate_that_is_read_in_part_leaves_the_position_unknown(text):
     codes = [each.code for each in solve(text, control="yasnac-lx3").diagnostics]
     assert codes[-1] == "position-unknown"
     assert "start-in-increments" not in codes
+
+
+# Several fixes of one finding --------------------------------------------------------------------------------
+
+REJECTED = [
+    (name, text)
+    for name, dialect in DIALECTS.items()
+    for rule in dialect.catalogue
+    for text in dict.fromkeys(rule.rejected)
+]
+
+
+def paths(text: str, control: str) -> list[tuple[float, ...]]:
+    """The coordinates of all contours of a program, as far as a listing shows them."""
+    answers = solve(text, control=control, depth="path").answers
+    elements = (each for answer in answers if answer.contour for each in answer.contour.elements)
+    return [tuple(round(value, 3) for value in (*each.start, *each.end)) for each in elements]
+
+
+def outcomes(finding: Diagnostic) -> list[tuple[str, str]]:
+    """What is behind the arrow of each fix, and the blocks that it writes."""
+    shown = (each.description.partition(" -> ") for each in finding.fixes)
+    return [(end, fix.replacement) for (_, arrow, end), fix in zip(shown, finding.fixes, strict=True) if arrow]
+
+
+@pytest.mark.parametrize(("name", "text"), REJECTED[::4])
+def test_fixes_that_make_different_contours_do_not_look_alike(name, text):
+    for finding in check(text, control=name):
+        told = outcomes(finding)
+        for place, (end, block) in enumerate(told):
+            for other_end, other in told[:place]:
+                if end == other_end and len(block.split("\n")) == len(other.split("\n")) == 1:
+                    before = text.split("\n")[: finding.span.line - 1]
+                    made = [paths("\n".join([*before, each]), name) for each in (block, other)]
+                    assert made[0] == made[1], (text, finding.message, end)
+
+
+@pytest.mark.parametrize(
+    ("block", "ends"),
+    [
+        ("G111 X100. A180. K-30. B120. C5. P5.", ["corner 1 with radius 5.000 mm", "corner 1 7.071 mm long"]),
+        ("G111 X100. A180. K-30. B120. P60. Q5.", ["corner 1 with radius 51.961 mm", "without corner 1"]),
+        (
+            "G111 X100. A180. K-30. B120. D5. Q5.",
+            ["corner 1 7.071 mm long", "corner 1 with radius 5.000 mm", "without corner 1"],
+        ),
+    ],
+)
+def test_what_differs_is_shown(block, ends):
+    finding = next(each for each in check(block, control="yasnac-lx3", start=START) if each.fixes)
+    shown = [end for end, _ in outcomes(finding)]
+    assert [end for end in ends if not any(each.endswith(end) for each in shown)] == []
+    assert len(shown) == len({*shown})
+
+
+def test_fixes_that_make_one_contour_show_one_place():
+    finding = check("G111 X100. A180. K-30. B120. U60.", control="yasnac-lx3", start=START)[0]
+    assert len({re.sub(r".*-> ", "", each.description) for each in finding.fixes}) == 1
+
+
+@pytest.mark.parametrize(("name", "text"), REJECTED[::4])
+def test_a_line_with_a_number_is_an_element_and_a_line_of_the_program_is_called_so(name, text):
+    # Far down in its program, no line of it has the number of an element.
+    shifted = "\n" * 40 + text
+    result = solve(shifted, control=name, depth="path")
+    told = [
+        each
+        for finding in result.diagnostics
+        for each in (finding.message, finding.help, *finding.notes, *(fix.description for fix in finding.fixes))
+    ]
+    lines = {
+        int(number)
+        for each in told
+        for number in re.findall(r"(?<!program )\b[Ll]ines? (\d+)", each.replace("G-code", ""))
+    }
+    # The line 99 that a fact states is no line of any program, nor an element.
+    assert not [each for each in lines if each > 40 and each != 99], told

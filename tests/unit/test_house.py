@@ -1,11 +1,9 @@
 """The floors of the house: a room imports only from lower floors; some imports are for some rooms only."""
 
 import ast
-import io
 import re
 import subprocess
 import sys
-import tokenize
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
@@ -42,8 +40,44 @@ PATHS = {
 }
 
 
+STATEMENT = re.compile(r"^ *from (\S+) import +(\([^)]*\)|.*)$|^ *import +(.*)$", re.MULTILINE)
+NAMED = re.compile(r"""[^\\]["'](contoursolve\.\w+)""")
+"""A module that is named by a text."""
+
+
 def room_of(module: Path) -> str:
     return module.relative_to(HOUSE).with_suffix("").parts[0]
+
+
+@cache
+def text_of(module: Path) -> str:
+    return module.read_text(encoding="utf-8")
+
+
+@cache
+def code_of(module: Path) -> str:
+    """The text without docstrings and long texts."""
+    return re.sub(r'""".*?"""', '""', text_of(module), flags=re.DOTALL)
+
+
+@cache
+def parsed(module: Path) -> ast.Module:
+    return ast.parse(text_of(module))
+
+
+def saying(*words: str) -> list[Path]:
+    """The modules in which one of these words stands: no other one is parsed."""
+    return [module for module in MODULES if any(word in text_of(module) for word in words)]
+
+
+def short(module: Path) -> str:
+    return module.relative_to(HOUSE).as_posix()
+
+
+def names_in(listed: str) -> list[str]:
+    """The names of an import statement, without brackets, comments and what they are called here."""
+    plain = re.sub(r"#.*|[()\\]", "", listed)
+    return [name for each in plain.split(",") if (name := each.split(" as ")[0].strip())]
 
 
 @cache
@@ -52,17 +86,11 @@ def exported(package: str) -> dict[str, str]:
     stub = PATHS[package].with_suffix(".pyi")
     if PATHS[package].name != "__init__.py" or not stub.exists():
         return {}
-    found = {}
-    for node in ast.parse(stub.read_text(encoding="utf-8")).body:
-        if isinstance(node, ast.ImportFrom):
-            for alias in node.names:
-                found[alias.name] = f"{package}.{node.module or alias.name}"
-    return found
-
-
-@cache
-def parsed(module: Path) -> ast.Module:
-    return ast.parse(module.read_text(encoding="utf-8"))
+    return {
+        name: f"{package}.{home.lstrip('.') or name}"
+        for home, listed, _ in STATEMENT.findall(text_of(stub))
+        for name in names_in(listed)
+    }
 
 
 @cache
@@ -72,16 +100,12 @@ def imports(module: Path) -> tuple[str, ...]:
 
 
 def _imports(module: Path) -> Iterator[str]:
-    for node in ast.walk(parsed(module)):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{module}: a relative import hides the room"
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            named = re.findall(r"\Acontoursolve\.\w+", node.value)
-            # A file beside a module, or its neighbours by their names.
-            yield from (name for name in named if not name.endswith(("toml", f".{room_of(module)}")))
+    for source, listed, plain in STATEMENT.findall(code_of(module)):
+        assert not source.startswith("."), f"{module}: a relative import hides the room"
+        yield from (f"{source}.{name}" for name in names_in(listed)) if source else names_in(plain)
+    # A file beside a module, or its neighbours by their names.
+    named = NAMED.findall(code_of(module))
+    yield from (name for name in named if not name.endswith(("toml", f".{room_of(module)}")))
     if module.name == "__init__.py":
         package = next(name for name, path in PATHS.items() if path == module)
         yield from (f"{home}.{name}" for name, home in exported(package).items())
@@ -122,52 +146,42 @@ def test_the_house_is_small_enough_to_be_walked_through():
     }
 
 
-@pytest.mark.slow
 def test_no_file_stands_in_a_circle():
     """Of files, whose imports are followed through the lists of packages to where a name is defined."""
     graph = {name: needed(path) for name, path in PATHS.items()}
-    order = TopologicalSorter(graph)
-    order.prepare()  # raises CycleError, which names the files
+    TopologicalSorter(graph).prepare()  # raises CycleError, which names the files
 
 
 def test_nothing_is_imported_past_what_a_package_lists():
-    past = []
-    for module in MODULES:
-        own = room_of(module)
-        for node in ast.walk(parsed(module)):
-            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("contoursolve."):
-                _, room, *deeper = node.module.split(".")
-                past += [(str(module), node.module)] * bool(room != own and deeper)
+    past = [
+        (short(module), source)
+        for module in MODULES
+        for source, _, _ in STATEMENT.findall(code_of(module))
+        if source.startswith("contoursolve.") and source.count(".") > 1 and source.split(".")[1] != room_of(module)
+    ]
     assert past == []
 
 
 def test_a_room_imports_only_from_lower_floors():
-    owns = {module: room_of(module) for module in MODULES}
-    assert {*owns.values()} <= FLOOR_OF.keys()
+    assert {room_of(module) for module in MODULES} <= FLOOR_OF.keys()
     above = [
-        (str(module), room)
-        for module, own in owns.items()
+        (short(module), room)
+        for module in MODULES
         for room in rooms(module)
-        if room != own and FLOOR_OF[room] >= FLOOR_OF[own]
+        if room != room_of(module) and FLOOR_OF[room] >= FLOOR_OF[room_of(module)]
     ]
     assert above == []
 
 
 def test_the_language_server_knows_what_the_package_exports():
-    own = [module for module in MODULES if room_of(module) == "lsp"]
+    known = {room for module in MODULES if room_of(module) == "lsp" for room in rooms(module)}
     # contoursolve.controls is the name of a command there.
-    assert {room for module in own for room in rooms(module)} - {"controls"} == {
-        "__init__",
-        "diagnostics",
-        "lsp",
-        "notebook",
-        "pictures",
-    }
+    assert known - {"controls"} == {"__init__", "diagnostics", "lsp", "notebook", "pictures"}
 
 
 def test_only_numeric_imports_sympy_casadi_and_flint():
     outside = [
-        str(module)
+        (short(module), name)
         for module in MODULES
         for name in imports(module)
         if name.split(".")[0] in ("sympy", "casadi", "flint", "scipy") and room_of(module) != "numeric"
@@ -175,35 +189,18 @@ def test_only_numeric_imports_sympy_casadi_and_flint():
     assert outside == []
 
 
-@pytest.mark.slow
 def test_what_may_print_or_never_return_is_called_behind_one_door():
     """Of NumPy's linear algebra, what iterates: LAPACK prints on standard output or hangs at what is not finite."""
     eliminating = {"inv", "solve", "det", "norm", "LinAlgError"}
-    used = {
-        (str(module.relative_to(HOUSE).as_posix()), node.attr)
-        for module in MODULES
-        for node in ast.walk(parsed(module))
-        if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "numpy.linalg"
-    }
+    used = {(short(module), name) for module in MODULES for name in re.findall(r"\blinalg\.(\w+)", code_of(module))}
     assert {module for module, name in used if name not in eliminating} == {"numeric/linear_algebra.py"}
 
 
 G111 = "contoursolve.solve('G111 X100. A180. K-30. {}', start='X40. Z0.').answers[0]"
 PAIR = r"contoursolve.solve('G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1').answers[0]"
-
-
 MANY = r"contoursolve.solve('G0 X40. Z0.\n' + 'G111 X100. A180. K-30. B120.\nG0 X40. Z0.\n' * 60).answers[59].contour"
 HEAVY = {"anywidget", "htpy", "matplotlib", "pyarrow", "scipy", "sympy", "xarray", "contoursolve.families"}
-
-
 IN_A_BROWSER = "import sys; sys.modules |= dict.fromkeys({}); import contoursolve.notebook.conversation"
-
-
-def test_the_page_that_solves_in_the_browser_needs_neither_sympy_nor_what_a_terminal_needs():
-    lacking = ["sympy", "click", "anywidget", "matplotlib", "scipy", "packaging"]
-    subprocess.run([sys.executable, "-c", IN_A_BROWSER.format(lacking)], check=True)
-
-
 USES = {
     "importing the package": "pass",
     "solving G111": f"{G111.format('B120. P5.')}.contour.end",
@@ -213,7 +210,11 @@ USES = {
 }
 
 
-@pytest.mark.slow
+def test_the_page_that_solves_in_the_browser_needs_neither_sympy_nor_what_a_terminal_needs():
+    lacking = ["sympy", "click", "anywidget", "matplotlib", "scipy", "packaging"]
+    subprocess.run([sys.executable, "-c", IN_A_BROWSER.format(lacking)], check=True)
+
+
 def test_nothing_heavy_is_needed_for_what_is_done_most():
     """One after the other in one process."""
     told = f"print(*sorted({HEAVY} & sys.modules.keys()))"
@@ -225,32 +226,22 @@ def test_nothing_heavy_is_needed_for_what_is_done_most():
 def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
     """Importing the module would put it in the place of the name."""
     for package in PATHS:
-        of_modules = {f"{package}.{name}": f"{home}" for name, home in exported(package).items()}
+        of_modules = {f"{package}.{name}": home for name, home in exported(package).items()}
         assert {name: home for name, home in of_modules.items() if name in PATHS and home != name} == {}
 
 
-@pytest.mark.slow
 def test_no_public_class_name_has_two_meanings():
     homes: dict[str, list[str]] = {}
     for module in MODULES:
-        for node in parsed(module).body:
-            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-                homes.setdefault(node.name, []).append(module.relative_to(HOUSE).as_posix())
+        for name in re.findall(r"^class ([A-Z]\w*)", code_of(module), re.MULTILINE):
+            homes.setdefault(name, []).append(short(module))
     assert {name: files for name, files in homes.items() if len(files) > 1} == {}
 
 
-@pytest.mark.slow
 def test_no_control_stands_in_where_none_is_named():
     """Who needs one says which; where nothing tells it, what holds for all of them counts."""
-    by_name = [
-        (str(module.relative_to(HOUSE)), ast.unparse(node))
-        for module in MODULES
-        for node in ast.walk(parsed(module))
-        if isinstance(node, ast.Subscript)
-        and ast.unparse(node.value).endswith("DIALECTS")
-        and isinstance(node.slice, ast.Constant)
-    ]
-    assert by_name == []
+    by_name = re.compile(r"""DIALECTS\[["'].*""")
+    assert [(short(module), found) for module in MODULES for found in by_name.findall(code_of(module))] == []
 
 
 def described(tree: ast.Module) -> Iterator[tuple[str, bool]]:
@@ -269,21 +260,20 @@ def described(tree: ast.Module) -> Iterator[tuple[str, bool]]:
 @pytest.mark.slow
 def test_a_docstring_opens_with_the_thing_or_the_verb():
     """Not with a question about it; "whether" is right for a predicate alone."""
-    again = list[str]()
-    for module in MODULES:
+    opener, again = re.compile(r"(What|Whether|Where|Which|How|Why)\b"), list[str]()
+    for module in saying(*(f'"""{word} ' for word in ("What", "Whether", "Where", "Which", "How", "Why"))):
         for text, is_predicate in described(parsed(module)):
-            opener = re.match(r"(What|Whether|Where|Which|How|Why)\b", text)
-            if opener and not (is_predicate and opener[1] == "Whether"):
-                again.append(f"{module.relative_to(HOUSE)}: {text}")
+            found = opener.match(text)
+            if found and not (is_predicate and found[1] == "Whether"):
+                again.append(f"{short(module)}: {text}")
     assert again == []
 
 
-@pytest.mark.slow
 def test_what_a_package_and_the_page_of_the_house_say_to_begin_with_is_there():
     lost = []
     for name, path in PATHS.items():
-        text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
         if path.name == "__init__.py":
+            text = ast.get_docstring(parsed(path)) or ""
             first = re.findall(r"`(\w+)`", re.split("[Bb]egin with", text, maxsplit=1)[-1].partition(".")[0])
             lost += [f"{name}.{each}" for each in first if "egin with" in text and f"{name}.{each}" not in PATHS]
     page = (Path(__file__).parents[2] / "docs" / "architecture.md").read_text(encoding="utf-8")
@@ -294,59 +284,36 @@ def test_what_a_package_and_the_page_of_the_house_say_to_begin_with_is_there():
     assert lost == []
 
 
-@pytest.mark.slow
 def test_one_builder_makes_parsed_contours():
     """Of all controls: what their readers share is written once."""
-    made = [
-        module.relative_to(HOUSE).as_posix()
-        for module in MODULES
-        for node in ast.walk(parsed(module))
-        if isinstance(node, ast.Call) and ast.unparse(node.func) == "ParsedContour"
-    ]
+    made = [short(module) for module in MODULES for _ in re.findall(r"\bParsedContour\(", code_of(module))]
     assert made == ["reading/contour_builder.py"]
 
 
 MOST_EQUAL_LINES = 12
 
 
-_NO_CODE = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER)
-
-
 def code_lines(module: Path) -> list[str]:
-    """The lines of code of a module, as their tokens: without comments, docstrings, imports, and brackets alone."""
-    text = module.read_text(encoding="utf-8")
-    left_out = set[int]()
-    for node in ast.walk(ast.parse(text)):
-        is_text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-        if is_text or isinstance(node, ast.Import | ast.ImportFrom):
-            left_out |= {*range(node.lineno, (node.end_lineno or node.lineno) + 1)}
-    lines: dict[int, list[tokenize.TokenInfo]] = {}
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type not in _NO_CODE:
-            lines.setdefault(token.start[0], []).append(token)
-    return [
-        " ".join(token.string for token in tokens)
-        for number, tokens in lines.items()
-        if number not in left_out and any(token.type != tokenize.OP for token in tokens)
-    ]
+    """The lines of code of a module: without comments, docstrings, imports, and brackets alone."""
+    lines = (re.sub(r"(^|  )#.*", "", line).strip() for line in STATEMENT.sub("", code_of(module)).splitlines())
+    return [line for line in lines if re.search(r"\w", line)]
 
 
-@pytest.mark.slow
 def test_no_two_places_share_more_than_twelve_equal_lines():
     places: dict[tuple[str, ...], list[str]] = {}
     for module in MODULES:
         lines = code_lines(module)
         for first in range(len(lines) - MOST_EQUAL_LINES):
             run = tuple(lines[first : first + MOST_EQUAL_LINES + 1])
-            places.setdefault(run, []).append(module.relative_to(HOUSE).as_posix())
+            places.setdefault(run, []).append(short(module))
     assert {run[0]: found for run, found in places.items() if len(found) > 1} == {}
 
 
 def test_a_geometric_event_is_one_row_and_few_files_name_it():
     named: dict[str, set[str]] = {}
     for module in MODULES:
-        for name in re.findall(r"RefusalKind\.([A-Z_]+)", module.read_text(encoding="utf-8")):
-            named.setdefault(name, set()).add(str(module.relative_to(HOUSE)))
+        for name in re.findall(r"RefusalKind\.([A-Z_]+)", code_of(module)):
+            named.setdefault(name, set()).add(short(module))
     told = {kind.name for kind in RefusalKind if kind.event.message}
     many = {name: files for name in told if len(files := named.get(name, set())) > 3}
     assert not many
@@ -360,13 +327,11 @@ MOST_NAMING, MOST_ASKING = 1.95, 0.3
 which kind one is. Both fall with each question that becomes a field of the kind; the first rises with a control."""
 
 
-@pytest.mark.slow
 def test_what_others_ask_of_a_constraint_is_a_field_of_its_kind():
     """Of which kind it is, few files ask."""
-    defined = (node for path in KINDS for node in ast.parse(path.read_text(encoding="utf-8")).body)
-    kinds = {node.name for node in defined if isinstance(node, ast.ClassDef)}
+    kinds = {name for path in KINDS for name in re.findall(r"^class (\w+)", code_of(path), re.MULTILINE)}
     naming, asking = Counter[str](), Counter[str]()
-    for module in {*MODULES} - {*KINDS}:
+    for module in {*saying(*kinds)} - {*KINDS}:
         tree = parsed(module)
         own = {each.name for each in ast.walk(tree) if isinstance(each, ast.ClassDef)}
         used = {each.id for each in ast.walk(tree) if isinstance(each, ast.Name)} & kinds - own

@@ -10,15 +10,12 @@ from click.testing import CliRunner
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from msgspec.structs import replace
-from test_boundary import FACTS
-from test_family import CASES, filled, text_of
+from test_family import ALL, filled
 
 import contoursolve
+from contoursolve import list_solutions
 from contoursolve.cli import main
-from contoursolve.diagnosis.solutions import list_solutions
-from contoursolve.families import FamilyError, Way, family, feasible, find_word, inverse, tolerance_for
-from contoursolve.families.block_template import spec_of
-from contoursolve.families.goals import end_name, place_of
+from contoursolve.families import FamilyError, Way, family, feasible, find_word, inverse, spec_of, tolerance_for
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 WORDS = [
@@ -39,18 +36,33 @@ WORDS = [
 ]
 
 
-def fast(cases, *few):
-    """Cases of which all but these few are slow."""
-    return [case if case in few else pytest.param(*case, marks=pytest.mark.slow) for case in cases]
-
-
-QUICK = [WORDS[place] for place in (0, 4, 13)]
-"""Of those that take a second or less, one of each kind."""
+FREE = [
+    ("a radius asked for, from a straight part", "K", "end"),
+    ("a radius asked for, from a straight part", "straight part of line 2", "corner 1.center"),
+    ("a radius asked for, from a straight part", "B", "corner 1.begin"),
+    ("an angle asked for, from a length, with two answers", "length of line 1", "V1"),
+    ("a start point, in diameters", "start.X", "end"),
+    ("a start point, in diameters", "start.Z", "corner 1.center"),
+    ("a start point, of facts", "start.X", "corner 1.begin"),
+    ("a start point that is a block", "1:X", "P1"),
+]
 
 
 def solved(name, word, value):
-    block, options, _ = CASES[name]
-    return contoursolve.solve(text_of(block, [word], [value]), depth="verdict", **options).answers[0]
+    block, options, _ = ALL[name]
+    text, more = filled(block, options, {word: value})
+    return contoursolve.solve(text, depth="verdict", **more).answers[0]
+
+
+def place_of(point, contour):
+    """Where a point, or the begin, the end or the center of an element is; None where it is not there."""
+    if point == "end":
+        return contour.end
+    name, _, place = point.partition(".")
+    element = next((each for each in contour.elements if each.name == name), None)
+    if place:
+        return element and getattr(element, {"begin": "start"}.get(place, place))
+    return contour.points.get(point)
 
 
 def goal_of(point, answer, axes=(0, 1)):
@@ -60,9 +72,10 @@ def goal_of(point, answer, axes=(0, 1)):
     return f"{point} {' '.join(words)}"
 
 
-@pytest.mark.parametrize(("name", "word", "point"), fast(WORDS, *QUICK))
+@pytest.mark.parametrize(("name", "word", "point"), [*WORDS, *FREE])
 def test_the_value_with_which_a_point_was_computed_is_found_again(name, word, point):
-    block, options, ranges = CASES[name]
+    """Of words, facts and start points: the value of a random single solve is among those that are found."""
+    block, options, ranges = ALL[name]
     low, high = ranges.get(word, (0, 360))
     rng, compared = np.random.default_rng(len(name + word)), 0
     for value in np.round(rng.uniform(low, high, 60), 3).tolist():
@@ -81,16 +94,15 @@ def test_the_value_with_which_a_point_was_computed_is_found_again(name, word, po
             found = find_word(block, word, goal, within=(low, high), **options)
             near = [hit for hit in found.hits if abs(hit.value - value) <= 1e-6 * max(1, abs(value))]
             assert near, (goal, value, found.hits)
-            assert near[0].away <= 1e-9
-            assert near[0].rounded_away <= 1e-9
-            assert near[0].certificate is not None
+            assert max(near[0].away, near[0].rounded_away) <= 1e-9
+            assert near[0].certificate is not None or (name, word, point) in FREE
     assert compared
 
 
-@pytest.mark.parametrize(("name", "word", "point"), fast(WORDS, *QUICK))
+@pytest.mark.parametrize(("name", "word", "point"), WORDS)
 def test_no_value_is_missed_that_a_fine_grid_shows(name, word, point):
     """Between neighbours on a grid a coordinate passes its goal, or the distance has a least value."""
-    block, options, ranges = CASES[name]
+    block, options, ranges = ALL[name]
     low, high = ranges.get(word, (0, 360))
     values = np.round(np.linspace(low, high, 1501), 6)
     grid = family(block, vary={word: values}, **options)
@@ -232,58 +244,9 @@ def test_a_goal_is_read_as_the_control_reads_words():
     assert on_mill[0][0].point == pytest.approx((30, 20))
 
 
-def test_the_command_prints_the_values():
-    status, output, _ = run("--word", "A", "--bring", "end Z-50.")
-    assert status == 0
-    assert "1 value (proven to be all)" in output
-    assert "G111 X100. A179.314 K-30. B120. P5. Q5." in output
-    status, output, _ = run("--word", "A", "--bring", "end Z-50. X90.", "--format", "json")
-    data = json.loads(output)
-    assert (status, data["schema"], data["aim"], data["complete"]) == (0, "contoursolve/find/1", "nearest", True)
-    assert run("--word", "A", "--bring", "end Z900.")[0] == 1
-    status, output, errors = run("--word", "A", "--bring", "nowhere")
-    assert (status, output, "is no goal" in errors) == (2, "", True)
-
-
-FREE = [
-    ("a radius from a straight part", "K", "end"),
-    ("a radius from a straight part", "straight part of line 2", "corner 1.center"),
-    ("a radius from a straight part", "start.X", "corner 1.begin"),
-    ("an angle from a length", "length of line 1", "V1"),
-    ("a place, in inches", "start.X", "end"),
-    ("a last corner asked for, beside a shoulder", "X", "end"),
-    ("a start point", "start.X", "end"),
-    ("a start point", "start.Z", "corner 1.center"),
-    ("a start point that is a block", "1:X", "P1"),
-    ("a tangent circle", "K", "V2"),
-]
-
-
-@pytest.mark.parametrize(("name", "word", "point"), fast(FREE, FREE[6]))
-def test_facts_and_start_points_are_found_again_as_words_are(name, word, point):
-    """The value of a random single solve is among those that bring its point where it was."""
-    block, options, ranges = FACTS[name]
-    low, high = ranges[word]
-    rng, compared = np.random.default_rng(len(name + word)), 0
-    for value in np.round(rng.uniform(low, high, 60), 3).tolist():
-        text, more = filled(block, options, {word: value})
-        answer = contoursolve.solve(text, depth="verdict", **more).answers[0]
-        if answer.contour is None or place_of(point, answer.contour) is None or compared == 2:
-            continue
-        at = place_of(point, answer.contour)
-        text, more = filled(block, options, {word: round(value + 0.003, 3)})
-        aside = contoursolve.solve(text, depth="verdict", **more).answers[0].contour
-        axes = tuple(axis for axis in (0, 1) if aside and abs(at[axis] - place_of(point, aside)[axis]) > 1e-6)
-        if not axes:
-            continue
-        compared += 1
-        for goal in (goal_of(point, answer, axes[:1]), goal_of(point, answer)):
-            found = find_word(block, word, goal, within=(low, high), **options)
-            near = [hit for hit in found.hits if abs(hit.value - value) <= 1e-6 * max(1, abs(value))]
-            assert near, (goal, value, found.hits)
-            assert near[0].away <= 1e-9
-            assert near[0].rounded_away <= 1e-9
-    assert compared
+def test_the_status_of_the_command_says_whether_there_is_a_value():
+    goals = ("end Z-50.", "end Z-50. X90.", "end Z900.", "nowhere")
+    assert [run("--word", "A", "--bring", goal)[0] for goal in goals] == [0, 0, 1, 2]
 
 
 def test_what_is_written_for_a_fact_and_for_the_start_point():
@@ -431,14 +394,11 @@ def ask_back(rng, scans):
     return count
 
 
-@pytest.mark.parametrize(
-    ("seed", "questions"),
-    [(1, 4), pytest.param(2, 20, marks=pytest.mark.slow)],
-)
-def test_asked_for_the_end_that_it_has_each_word_finds_its_own_value(seed, questions):
+@pytest.mark.parametrize("seed", range(1, 13))
+def test_asked_for_the_end_that_it_has_each_word_finds_its_own_value(seed):
     """Or the list is not called complete; one that is has every value that a scan of single solves brackets."""
     rng, asked = Random(seed), 0
-    while asked < questions:
+    while asked < 2:
         asked += ask_back(rng, 0.03)
 
 
@@ -454,16 +414,16 @@ KEPT = [
 ]
 
 
-@pytest.mark.parametrize(("name", "word", "keep", "within"), fast(KEPT, *KEPT[:5]))
+@pytest.mark.parametrize(("name", "word", "keep", "within"), KEPT)
 def test_a_result_stays_near_between_the_ends_of_a_tolerance_and_not_beyond(name, word, keep, within):
     """Every value of a fine grid, solved by itself as a family: the ends are where the result has moved, or is lost."""
-    block, options, _ = CASES[name]
+    block, options, _ = ALL[name]
     found = tolerance_for(block, word, keep=keep, within=within, **options)
     assert found.is_complete
     point, _, letter = keep.rpartition(" ") if keep[-2:-1] == " " else (keep, "", "")
     answer = solved(name, word, found.stated)
     letters, in_mm = answer.plane.axes, float(answer.unit.in_mm)
-    point = end_name(answer.profile.figure) if point == "end" else point
+    point = "corner 2.end" if point == "end" else point
     width = max(found.plus, found.minus)
     edges = [
         found.low.value,
@@ -505,7 +465,6 @@ def test_a_word_of_one_of_several_contours_has_a_tolerance_of_its_own():
         tolerance_for(program, "1:X", keep="V1 Z", within=0.01)
 
 
-@pytest.mark.slow
 def test_places_of_elements_are_those_of_the_points_and_corners_that_end_them():
     block, options = "G01 Z-30. ,R5.\nX60. ,A150.\nZ-80.", {"start": START, "control": "fanuc-lathe"}
     for one, other in (
@@ -524,23 +483,31 @@ def test_places_of_elements_are_those_of_the_points_and_corners_that_end_them():
         tolerance_for(block, "A", keep="N2 Z", within=0.01, **options)
 
 
-@pytest.mark.slow
-def test_lengths_and_directions_are_kept_as_facts_name_them():
-    length = tolerance_for(BLOCK, "A", keep="length of line 2", within=0.01, start=START)
-    direction = tolerance_for(BLOCK, "B", keep="direction of line 2", within=0.1, start=START)
-    facts = ["straight part of line 2 = 20"]
-    asked = tolerance_for("G111 X100. A180. K-30. B120. P?", "X", keep="P", within=0.1, start=START, facts=facts)
-    assert (length.kept_unit, direction.kept_unit, asked.kept_unit) == ("mm", "deg", "mm")
-    assert [direction.minus, direction.plus] == pytest.approx([0.1, 0.1], abs=1e-8)
-    assert not length.is_complete
-    for found, subject, more in ((length, "length of line 2", ["length of line 2 = ?"]), (asked, "", facts)):
-        block = BLOCK if subject else "G111 X100. A180. K-30. B120. P?"
-        values = []
-        for value in (found.stated, found.low.value, found.high.value):
-            text = block.replace(f"{found.word}{found.stated:g}.", f"{found.word}{value!r}")
-            answers = contoursolve.solve(text, start=START, facts=more).answers[0].answers
-            values.append(answers[-1].value)
-        assert [abs(each - values[0]) for each in values[1:]] == pytest.approx([found.most] * 2, abs=1e-8)
+ASKED, STRAIGHT = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
+
+
+@pytest.mark.parametrize(
+    ("block", "facts", "word", "keep", "within", "unit"),
+    [
+        (BLOCK, [], "A", "length of line 2", 0.01, "mm"),
+        (BLOCK, [], "K", "length of line 1", 0.5, "mm"),
+        (BLOCK, [], "B", "direction of line 2", 0.1, "deg"),
+        (ASKED, STRAIGHT, "X", "P", 0.1, "mm"),
+        (ASKED.replace("X100.", "X?").replace("P?", "P5."), STRAIGHT, "B", "X", 0.2, "mm"),
+    ],
+)
+def test_lengths_and_directions_are_kept_as_facts_name_them(block, facts, word, keep, within, unit):
+    """At both ends the value, asked for by itself, is off by just so much, as it is written."""
+    found = tolerance_for(block, word, keep=keep, within=within, start=START, facts=facts)
+    assert found.kept_unit == unit
+    values = []
+    for value in (found.stated, found.low.value, found.high.value):
+        text = block.replace(f"{word}{found.stated:g}.", f"{word}{value!r}")
+        more = [*facts, f"{keep} = ?"] if " of " in keep else facts
+        (*_, asked) = contoursolve.solve(text, start=START, facts=more).answers[0].answers
+        values.append(asked.value * (1 + asked.question.is_diameter))
+    assert [abs(each - values[0]) for each in values[1:]] == pytest.approx([within] * 2, abs=1e-8)
+    assert found.low.value < found.stated < found.high.value
 
 
 @pytest.mark.parametrize(
@@ -556,8 +523,7 @@ def test_lengths_and_directions_are_kept_as_facts_name_them():
 def test_what_has_no_tolerance_says_why(word, keep, within, told):
     with pytest.raises(FamilyError) as caught:
         tolerance_for(BLOCK, word, keep=keep, within=within, start=START)
-    assert told in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert (told in str(caught.value), "\n" in str(caught.value)) == (True, False)
     with pytest.raises(FamilyError, match="as it stands, the block has no contour to keep: "):
         tolerance_for(BLOCK.replace("P5.", "P80."), "A", keep="end Z", within=1, start=START)
 
@@ -568,13 +534,3 @@ def test_a_range_of_a_free_contour_is_not_lost_where_roots_end():
     found = feasible(chain, "R", start="X0 Y0", control="heidenhain")
     (only,) = found.intervals
     assert (only.low.value, only.high.value) == (0.001, pytest.approx(20, abs=1e-6))
-
-
-def test_the_command_line_tells_how_far_words_may_be_off():
-    asked = ["sensitivity", "--block", BLOCK, "--start", START, "--keep", "end Z=0.01", "--word", "B"]
-    ran = CliRunner().invoke(main, asked)
-    assert ran.exit_code == 0, ran.output
-    assert "  to    120.0156 deg  +0.0156 deg  end Z moves by 0.01 mm" in ran.output
-    document = json.loads(CliRunner().invoke(main, [*asked, "--format", "json"]).output)
-    assert (document["schema"], document["words"][0]["complete"]) == ("contoursolve/tolerance/1", True)
-    assert CliRunner().invoke(main, [*asked, "--point", "V1"]).exit_code == 2
