@@ -2,8 +2,7 @@
 
 import json
 import re
-from collections import Counter
-from math import cos, isfinite, radians, sin
+from math import isfinite
 from random import Random
 
 import pytest
@@ -12,27 +11,37 @@ from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pai
 from oracle_corners import miss
 from oracle_nct import Settings, runs
 
-from contoursolve import Result, check, expand, solve
+from contoursolve import SettingError, check, expand, solve
 from contoursolve.cli import main
 from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.families import family
-from contoursolve.output.document import to_json
-from contoursolve.program.project_file import SettingError
-from contoursolve.solving import StatusCode
+from contoursolve.output import to_json
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
 TO_CIRCLE = "N10 G17 G42 G0 X100 Y20 D0 S200 M3\nN20 G1 X-30 Y-20\nN30 G3 X20 Y40 I20 J-10 R50"
 LINES = "G17 G90 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A225"
 
 
-def errors(result: Result) -> list[Diagnostic]:
+def errors(result):
     return [each for each in result.diagnostics if each.severity.value == "error"]
 
 
-def codes(text: str, **options: str) -> set[str]:
-    return {each.code for each in check(text, control="nct-99m", **options) if each.severity.value == "error"}
+def codes(text: str) -> set[str]:
+    return {each.code for each in check(text, control="nct-99m") if each.severity.value == "error"}
+
+
+def is_verified(text, result) -> bool:
+    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+    return verify(*documents).verdict is not ReceiptVerdict.FAILED
+
+
+def is_same_path(tmp_path, one: str, other: str) -> bool:
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    old.write_text(one)
+    new.write_text(other)
+    done = CliRunner().invoke(main, ["diff", str(old), str(new), "--control", "nct-99m"])
+    assert done.exit_code in (0, 1), done.output
+    return done.exit_code == 0
 
 
 # What over-defines a block (4, 8) ---------------------------------------------------------------------------
@@ -72,7 +81,7 @@ def test_a_q_that_belongs_to_nothing_is_told_with_the_word_that_is_missing(text,
 
 @pytest.mark.parametrize("text", ["G81 X10 Y10 R2 Q5\nX20", "G83 X10 Y10 Z-5 R2 Q5", "G65 P1 Q5", "M98 P1 Q5"])
 def test_a_q_with_another_meaning_is_left_alone(text):
-    assert codes("G17 G90 G0 X0 Y0 Z5\nG1 X5\n" + text) <= {"no-contour"}
+    assert codes("G17 G90 G0 X0 Y0 Z5\nG1 X5\n" + text) == set()
 
 
 CHAIN = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n{}X-40 Y60 I-40 J20 R40 Q-1"
@@ -96,20 +105,14 @@ def test_an_arc_of_a_lathe_with_centre_and_radius_does_not_show_a_mill(arc):
 @pytest.mark.parametrize(
     "text",
     [
-        TO_CIRCLE,
-        FROM_CIRCLE + "G1 X-50 Y42.857 Q-1",
         FROM_CIRCLE + "G1 X-50 ,A171.87 Q-1",
-        FROM_CIRCLE + "X-50 Y42.857 I0 J0 Q-1",
-        LINES.replace(",A150", "X90 Y10"),
         LINES.replace(",A150", ",C5"),
         LINES.replace("G41 ", "").replace("G1 X10", "G41 G1 X10"),
         "G17 G90 G41 G0 X90 Y10\nG91 G3 X-50 Y0 I0 J0 R50",
     ],
 )
 def test_what_is_refused_here_is_verified(text, rules):
-    result = solve(text, control="nct-99m", rules=rules)
-    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is not ReceiptVerdict.FAILED
+    assert is_verified(text, solve(text, control="nct-99m", rules=rules))
 
 
 # Where compensation is on (3) -------------------------------------------------------------------------------
@@ -143,11 +146,11 @@ def test_a_point_of_the_line_that_is_its_start_point_is_told_as_that(point, afte
     assert finding.span.line == 2
 
 
-@pytest.mark.parametrize(("seed", "count"), [(1501, 50), pytest.param(1502, 150, marks=pytest.mark.slow)])
-def test_no_message_over_random_broken_programs_holds_what_is_no_number(seed, count):
+@pytest.mark.parametrize("seed", range(20))
+def test_no_message_over_random_broken_programs_holds_what_is_no_number(seed):
     rng = Random(seed)
     draws = (random_pair, random_chain, random_cornered)
-    for _ in range(count):
+    for _ in range(10):
         draw = rng.choice(draws)
         arguments = {random_pair: (rng.choice(FORMS),), random_chain: (rng.randint(1, 3),), random_cornered: ()}[draw]
         drawn = draw(rng, *arguments, rng.choice((17, 18, 19)))
@@ -200,11 +203,10 @@ def draw(rng: Random) -> Drawn:
 
 
 @pytest.mark.parametrize("settings", SETTINGS)
-@pytest.mark.parametrize("count", [3, pytest.param(50, marks=pytest.mark.slow)])
-def test_programs_are_read_as_the_settings_say_and_the_check_of_results_agrees(settings, count):
-    rng = Random(f"{settings}{count}")
-    statuses: Counter[str] = Counter()
-    for _ in range(count):
+@pytest.mark.parametrize("seed", range(15))
+def test_programs_are_read_as_the_settings_say_and_the_check_of_results_agrees(settings, seed):
+    rng = Random(f"{settings}{seed}")
+    for _ in range(4):
         program = draw(rng).program
         (expected,) = runs(program, settings)
         if expected.is_near:
@@ -214,13 +216,10 @@ def test_programs_are_read_as_the_settings_say_and_the_check_of_results_agrees(s
         (contour,) = json.loads(to_json(result))["contours"]
         if (contour["status"], expected.status) != ("conflicting", "no-solution"):
             assert contour["status"] == expected.status, text
-        statuses[expected.status] += 1
         if expected.status == "solved":
             is_off = any(each.code == "nct-radius-differs" for each in result.diagnostics)
             assert miss(expected.elements, expected.points, contour) < (0.5 if is_off else 1e-8), text
-            documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-            assert verify(*documents).verdict is not ReceiptVerdict.FAILED, text
-    assert statuses["solved"] >= count / 5
+            assert is_verified(text, result), text
 
 
 def test_a_setting_is_not_that_of_the_same_blocks_before():
@@ -231,47 +230,26 @@ def test_a_setting_is_not_that_of_the_same_blocks_before():
     assert [status.value for status in statuses] == ["solved", "conflicting"] * 2
 
 
-def test_the_point_met_first_is_counted_from_where_the_arc_starts_in_a_chain_too():
-    """The sheet's third reading: from the start of the first circle's arc, which may be an intersection itself."""
-    chain = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 I-50 J0\nX-40 Y60 I-40 J20 R40 Q-1\nG2 X20 Y60 I-10 J60 R30 Q-1"
-    settings = Settings(circle_circle_q="first-met-clockwise")
-    (expected,) = runs(chain.split("\n"), settings)
-    (answer,) = solve(chain, settings=named(settings)).answers
-    assert expected.status == answer.status.value == "solved"
-    assert [side.value for side in answer.sides.values()] == ["first", "first"]
-    for name, at in expected.points.items():
-        assert answer.contour.points[name] == pytest.approx((at.real, at.imag), abs=1e-9)
-    assert {each.setting.name: each.value for each in answer.claim.conventions} == {
-        "circle-circle-q": "first-met-clockwise"
-    }
-
-
-def test_a_family_counts_with_the_settings_too():
-    text = "G17 G90 G41 G0 X50 Y0\nG3 X-49.98 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1"
-    settings = named(Settings(circle_circle_q="first-met-clockwise", radius_difference="0.03"))
-    turns = [radians(15 * step) for step in range(24)]
-    centers = [(round(-40 + 40 * cos(turn), 3), round(60 + 40 * sin(turn), 3)) for turn in turns]
-    rows = [(i, j, x) for i, j in centers for x in (-49.96, -49.98, -50.0)]
-    names = ("3:I", "3:J", "2:X")
-    table = family(text, vary=dict(zip(names, zip(*rows, strict=True), strict=True)), paired=True, settings=settings)
-    solved = 0
-    for index, (i, j, x) in enumerate(rows):
-        lines = text.replace("I-40 J20", f"I{i} J{j}").replace("X-49.98", f"X{x}")
-        (answer,) = solve(lines, settings=settings, depth="verdict").answers
-        assert (answer.contour is not None) == (table["status"][index] == StatusCode.SOLVED), lines
-        if answer.contour:
-            solved += 1
-            at = table["P1.X"][index], table["P1.Y"][index]
-            assert answer.contour.points["P1"] == pytest.approx(at, abs=1e-9)
-    assert solved > 10
-
-
 @pytest.mark.parametrize(
-    "value", ["0", "-1", "0.0009", "10.1", "1e-2", "nan", "inf", "", "x", "\u0660.\u0661", "1" * 400]
+    "value",
+    [
+        *("0", "-1", "1e-2", "nan", "inf", "", "x", "\u0660.\u0661", "1" * 400),
+        pytest.param("0.0009", marks=pytest.mark.boundary),
+        pytest.param("10.1", marks=pytest.mark.boundary),
+    ],
 )
 def test_a_difference_of_radii_that_is_no_sensible_number_is_refused(value):
     with pytest.raises(SettingError, match="it is a number from"):
         solve(LINES, settings={"nct-99m.radius-difference": value})
+
+
+@pytest.mark.boundary
+@pytest.mark.parametrize(
+    ("off", "is_solved"), [("0.0099", True), ("0.0101", False), ("-0.0099", True), ("-0.0101", False)]
+)
+def test_radii_may_differ_by_a_hundredth(off, is_solved):
+    text = f"G17 G90 G41 G0 X50 Y0\nG3 X{-50 - float(off):.4f} Y0 I-50 J0\nG1 X-50 Y42.857 ,A171.87 Q-1"
+    assert (solve(text).answers[0].contour is not None) is is_solved
 
 
 # A word outside the plane, and parallel axes (p. 120) ----------------------------------------------------------
@@ -298,20 +276,15 @@ def test_a_line_by_one_coordinate_and_its_angle_takes_one_word_of_another_axis()
         "G01 Z-10",
         "G91 G01 X1 Y0 Z-1",
     ]
-    documents = Document("program", BESIDE.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is not ReceiptVerdict.FAILED
+    assert is_verified(BESIDE, result)
 
 
-@pytest.mark.parametrize("axis", ["Z", "U", "V", "W"])
+@pytest.mark.parametrize("axis", ["Z", "W"])
 def test_an_expanded_program_with_an_axis_beside_the_plane_is_the_same_path(axis, tmp_path):
-    old, new, moved = (tmp_path / name for name in ("old.nc", "new.nc", "moved.nc"))
-    old.write_text(f"G17 G90 G0 X0 Y0 Z0 U0 V0 W0\nG1 X30 ,A45 {axis}-5 F100\nG1 X50 ,A0")
-    new.write_text(expand(old.read_text(), decimals=6).text)
-    moved.write_text(new.read_text().replace(f"{axis}-5", f"{axis}-6"))
-    compared = [
-        CliRunner().invoke(main, ["diff", str(old), str(each), "--control", "nct-99m"]) for each in (new, moved)
-    ]
-    assert [each.exit_code for each in compared] == [0, 1], [each.output for each in compared]
+    text = f"G17 G90 G0 X0 Y0 Z0 U0 V0 W0\nG1 X30 ,A45 {axis}-5 F100\nG1 X50 ,A0"
+    expanded = expand(text, decimals=6).text
+    moved = expanded.replace(f"{axis}-5", f"{axis}-6")
+    assert [is_same_path(tmp_path, text, each) for each in (expanded, moved)] == [True, False]
 
 
 @pytest.mark.parametrize(
@@ -339,47 +312,24 @@ def test_increments_of_a_contour_without_a_path_are_no_coordinates():
 
 # Grades, places, alarms, and what is assumed --------------------------------------------------------------------
 
-ROWS = {
-    # As the sheet has them: place, grade, alarm.
-    "nct-circle-missed": ("16.3: on no page seen", "derived", None),
-    "nct-circles-apart": ("16.3: on no page seen", "derived", None),
-    "nct-parallel": ("16.3: on no page seen", "derived", None),
-    "nct-point-is-start": ("16.3.1, p. 123", "printed", None),
-    "nct-q-missing": ("16.3: not described", "assumed", None),
-    "nct-q-zero": ("16.3: not described", "assumed", None),
-    "nct-reversed": ("16.3.3, p. 129: movements contrary to programmer's needs", "printed", None),
-    "nct-compensation-off": ("16.3: every format and example has it", "assumed", None),
-    "nct-radius-too-small": ("p. 25: R; no alarm is printed for it", "derived", None),
-    "nct-circle-undefined": ("p. 26 (4.3): alarm 3014", "printed", "3014"),
-    "nct-center-outside-plane": ("p. 26 (4.3): alarm 3014", "printed", "3014"),
-    "nct-radius-without-point": ("p. 26 (4.3): alarm 3012", "printed", "3012"),
-    "nct-circle-degenerate": ("p. 26 (4.3): alarm 3012, end equals start", "printed", "3012"),
-    "nct-two-corners": ("16.1; alarm 3017", "printed", "3017"),
-    "nct-corner-without-next": ("16.1; alarm 3081", "printed", "3081"),
-    "nct-corner-outside-plane": ("16.1; alarm 3081", "printed", "3081"),
-    "nct-corner-too-large": ("16.1; alarm 3084", "printed", "3084"),
-    "nct-coordinate-missing": ("16.2, p. 120", "printed", None),
-    "nct-axis-outside-plane": ("16.3: not described", "assumed", None),
+ALARMS = {
+    "nct-circle-undefined": "3014",
+    "nct-center-outside-plane": "3014",
+    "nct-radius-without-point": "3012",
+    "nct-circle-degenerate": "3012",
+    "nct-two-corners": "3017",
+    "nct-corner-without-next": "3081",
+    "nct-corner-outside-plane": "3081",
+    "nct-corner-too-large": "3084",
 }
+"""What the sheet prints of chapters 4 and 16; all else of chapter 16 has no alarm."""
 
 
-@pytest.mark.parametrize("code", ROWS)
-def test_each_row_has_the_place_the_grade_and_the_alarm_of_the_sheet(code):
-    (rule,) = (rule for rule in DIALECTS["nct-99m"].rules if rule.code == code)
-    alarm = rule.alarm.number.split()[0] if rule.alarm else None
-    assert (rule.source.place, rule.source.evidence.value, alarm) == ROWS[code]
-
-
-def test_single_block_stops_are_named_where_corners_are_explained():
-    """P. 120."""
-    text = "in single-block mode the control stops after each inserted chamfer or rounding, too (16.1, p. 120)"
-    for code in ("nct-corner-too-large", "nct-two-corners", "nct-corner-without-next"):
-        assert text in CliRunner().invoke(main, ["explain", code]).output
-    corner, plain = "G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40", LINES
-    for program, is_told in ((corner, True), (plain, False)):
-        assert (
-            text in CliRunner().invoke(main, ["solve", "-", "--explain", "--control", "nct-99m"], input=program).output
-        ) is is_told
+def test_alarms_are_those_that_the_sheet_prints():
+    rows = [rule for rule in DIALECTS["nct-99m"].rules if rule.source.place.startswith(("16", "p. 2"))]
+    found = {rule.code: rule.alarm.number.split()[0] for rule in rows if rule.alarm}
+    assert {code: found.get(code) for code in ALARMS} == ALARMS
+    assert {rule.source.evidence.value for rule in rows if rule.code in ALARMS} == {"printed"}
 
 
 @pytest.mark.parametrize(
@@ -396,21 +346,17 @@ def test_single_block_stops_are_named_where_corners_are_explained():
         ("G17 G90 G0 X0 Y0\nG1 X10 ,A45 Z-5", []),
     ],
 )
-def test_what_a_contour_rests_on_is_named_in_text_and_json(text, names):
+def test_what_a_contour_rests_on_is_named(text, names):
     (contour,) = json.loads(to_json(solve(text)))["contours"]
     assert (contour["status"], [each["name"] for each in contour["assumptions"]]) == ("solved", names)
     assert all(each["source"]["evidence"] == "assumed" for each in contour["assumptions"])
-    shown = CliRunner().invoke(main, ["solve", "-"], input=text).output
-    assert ("depends on: " in shown) is bool(names)
-    assert all(each["meaning"] in shown for each in contour["assumptions"])
 
 
 def test_compensation_is_named_only_where_it_decides():
-    free = {"nct-99m.compensation": "free"}
     for text, named_there in ((LINES, []), (LINES.replace("G41 ", ""), ["compensation"])):
-        (contour,) = json.loads(to_json(solve(text, settings=free)))["contours"]
-        assert contour["status"] == "solved"
-        assert [each["setting"] for each in contour["conventions"]] == named_there
+        (answer,) = solve(text, settings={"nct-99m.compensation": "free"}).answers
+        assert answer.status.value == "solved"
+        assert [each.setting.name for each in answer.claim.conventions] == named_there
 
 
 def test_a_parallel_axis_stands_for_that_of_the_plane_where_a_line_by_its_angle_has_no_other_coordinate(tmp_path):
@@ -421,16 +367,9 @@ def test_a_parallel_axis_stands_for_that_of_the_plane_where_a_line_by_its_angle_
     assert [answer.contour.end for answer in result.answers] == [
         pytest.approx(at) for at in ((30, 22), (11, 22), (22, 40), (22, 0))
     ]
-    contours = json.loads(to_json(result))["contours"]
-    assert [each["name"] for each in contours[0]["assumptions"]] == ["parallel-axis"]
-    expanded = expand(text).text
-    assert "G01 U30 Y22 Z-5" in expanded
-    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is not ReceiptVerdict.FAILED
-    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
-    old.write_text(text)
-    new.write_text(expanded)
-    outcome = CliRunner().invoke(main, ["diff", str(old), str(new), "--control", "nct-99m"])
-    assert outcome.exit_code == 0, outcome.output
+    assert [each.name for each in result.answers[0].claim.rests_on()] == ["parallel-axis"]
+    assert "G01 U30 Y22 Z-5" in expand(text).text
+    assert is_verified(text, result)
+    assert is_same_path(tmp_path, text, expand(text).text)
     assert codes("G17 G90 G0 X0 Y0\nG1 U30 ,A45") == {"position-unknown"}
     assert codes("G17 G90 G0 X0 Y0 U0\nG1 U30 ,A45 ,R5\nX50 Y0") == {"nct-plane-changes"}

@@ -10,15 +10,12 @@ from xml.etree import ElementTree
 
 import pandas
 import pytest
+from click.testing import CliRunner
 
 import contoursolve
-from contoursolve import Status
-from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.wording import status_text
-from contoursolve.notebook import mime_bundle, records
-from contoursolve.output import html as style
-from contoursolve.solving.contour import ArcSegment
-from contoursolve.solving.enumerate import Effort
+from contoursolve import DIALECTS, Status, families, status_text
+from contoursolve.cli import main
+from contoursolve.solving import ArcSegment
 
 LARGEST = 400_000
 """Characters of one kind of data of one block."""
@@ -33,23 +30,11 @@ HOSTILE = (
     "\U0001f600 \ud7ff \ufffe" * 40,
     "<" * 3000,
 )
-PICTURE = {
-    "style",
-    "svg",
-    "title",
-    "desc",
-    "defs",
-    "clippath",
-    "rect",
-    "path",
-    "polygon",
-    "circle",
-    "text",
-    "tspan",
-    "g",
+PICTURE = {*re.findall(r"\w+", "style svg title desc defs clippath rect g path polygon circle text tspan")}
+TAGS = {
+    *re.findall(r"\w+", "div section figure p pre code span h3 h4 details summary a img style"),
+    *re.findall(r"\w+", "table caption thead tbody tr th td"),
 }
-LAYOUT = {"div", "section", "figure", "p", "pre", "code", "span", "h3", "h4", "details", "summary", "a"}
-TAGS = LAYOUT | {"img", "style", "table", "caption", "thead", "tbody", "tr", "th", "td"}
 IMAGE = "data:image/svg+xml;base64,"
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
 BROKEN = "N310 G111 A180. K-20. P4. B90. X66. D0.5"
@@ -141,29 +126,20 @@ def random_block(random):
     return f"G17 G41 G0 X{scale:.4f} Y0\nG3 X{-scale:.4f} Y0 R{scale:.4f}\n{line}", "nct-99m"
 
 
-@pytest.mark.parametrize(
-    ("seed", "blocks"), [(0, 5), *(pytest.param(seed, 14, marks=pytest.mark.slow) for seed in range(4))]
-)
-def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they_should(seed, blocks):
+@pytest.mark.parametrize("seed", range(20))
+def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they_should(seed):
     rng = random.Random(f"rich {seed}")
-    seen = set()
-    for number in range(blocks):
+    for number in range(3):
         text, control = random_block(rng)
         rules = rng.choice(("enforce", "warn", "off"))
         result = contoursolve.solve(text, control=control, rules=rules, name=rng.choice(HOSTILE))
-        seen |= {answer.status for answer in result.answers}
-        for record in (result, *result.answers, *result.diagnostics[:2]):
-            data = record._repr_mimebundle_()
-            check(data, has_picture=record in result.answers)
-            if number % 8 == 0:
-                again = contoursolve.solve(text, control=control, rules=rules, name=result.program.name)
-                assert result is not record or again._repr_mimebundle_() == data
-        for record in (result.program, *result.program.blocks):
-            check(record._repr_mimebundle_())
-    assert len(seen) >= blocks / 5, seen
+        for record in (result, *result.answers, *result.diagnostics[:2], result.program, *result.program.blocks):
+            check(record._repr_mimebundle_(), has_picture=record in result.answers)
+        if number == 0:
+            again = contoursolve.solve(text, control=control, rules=rules, name=result.program.name)
+            assert again._repr_mimebundle_() == result._repr_mimebundle_()
 
 
-HARD = "straight part of line 2 = 5; corner 1 tangent to line [Z-70. X30. A90.]"
 UNUSUAL = {
     Status.SOLVED: (WHOLE, "enforce"),
     Status.REJECTED: ("G111 X100. A180. B120.", "enforce"),
@@ -171,16 +147,13 @@ UNUSUAL = {
     Status.CONFLICTING: ("G111 X100. A180. K-30. B120. Z-60.", "off"),
     Status.OVERDETERMINED: ("G111 A135. I10. K-10. B180. Z-40.", "off"),
     Status.NO_SOLUTION: ("G111 X100. A180. K-30. B120. P60.", "enforce"),
-    Status.UNDECIDED: (f"G111 X100. K-30. B120. P? Q5. (contoursolve: {HARD})", "enforce"),
     Status.AMBIGUOUS: ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87", "off"),
 }
 
 
 @pytest.mark.parametrize("status", UNUSUAL, ids=lambda status: status.value)
-def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status, monkeypatch):
+def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status):
     text, rules = UNUSUAL[status]
-    if status is Status.UNDECIDED:
-        monkeypatch.setattr("contoursolve.solving.enumerate.DRAWING", Effort(200, 100, is_guessing=True))
     start = None if "G17" in text else "X40. Z0."
     result = contoursolve.solve(text, start=start, rules=rules)
     (answer,) = result.answers
@@ -206,77 +179,58 @@ def test_a_record_that_is_printed_is_the_text_that_a_notebook_shows():
         assert f"{type(record).__name__}(" not in str(record)
 
 
-def test_the_text_is_what_the_terminal_prints():
-    from click.testing import CliRunner  # noqa: PLC0415
-
-    from contoursolve.cli import main  # noqa: PLC0415
-
-    printed = CliRunner().invoke(main, ["solve", "--block", BROKEN, "--start", "X60. Z-55."]).output
-    result = contoursolve.solve(BROKEN, start="X60. Z-55.", name="<block>")
-    assert result._repr_mimebundle_()[TEXT] == printed.rstrip()
-
-
-@pytest.mark.slow
-def test_families_rules_and_paths_show_themselves():
+def test_families_and_paths_show_themselves():
     family = contoursolve.family(WHOLE, start="X40. Z0.", vary={"A": range(150, 200, 5), "P": [1, 20, 60]})
     data = family._repr_mimebundle_()
     check(data, has_picture=True)
     assert "30 contours" in data[TEXT]
-    alone = contoursolve.family(WHOLE, start="X40. Z0.", vary={"A": range(150, 200, 5)})
-    assert SVG not in alone._repr_mimebundle_()
-    check(alone._repr_mimebundle_())
+    alone = contoursolve.family(WHOLE, start="X40. Z0.", vary={"A": range(150, 200, 5)})._repr_mimebundle_()
+    assert SVG not in alone
+    check(alone)
     contour = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0].contour
     words = check(contour._repr_mimebundle_()).words
     assert {"-50.2073", "X dia [mm]", "100.0000"} <= {*words}  # as the control writes X
     slopes = contoursolve.sensitivity(WHOLE, start="X40. Z0.")
     (row,) = (line.split() for line in str(slopes).split("\n") if "V2.X" in line)
     assert (row[:3], slopes.slopes["V2.X"]["X"]) == (["V2.X", "dia", "1.0000"], 0.5)
-    for dialect in DIALECTS.values():
-        for rule in dialect.rules:
-            assert rule.code in "".join(check(rule._repr_mimebundle_()).words)
-    sketch = contoursolve.Sketch()
-    for number in range(12):
-        sketch.circle(f"k{number}", center=(10 * number, 0), radius=3)
-    drawings = sketch.solve()
-    assert drawings._repr_mimebundle_()[TEXT] == str(drawings)
-    assert str(drawings) in "".join(check(drawings._repr_mimebundle_()).words)
+
+
+@pytest.mark.parametrize("control", DIALECTS)
+def test_rules_show_themselves(control):
+    for rule in DIALECTS[control].rules:
+        told = check(rule._repr_mimebundle_()).words
+        assert (rule.code in "".join(told), told.count("Wrong")) == (True, len(rule.told.rejected))
 
 
 QUESTIONS = {
-    "range": lambda block, options: contoursolve.families.feasible(block, "P", **options),
-    "region": lambda block, options: contoursolve.families.region(block, ("A", "P"), ((150, 210), (1, 60)), **options),
-    "region of two angles": lambda block, options: contoursolve.families.region(
-        block, ("A", "B"), ((90, 270), (90, 200)), **options
-    ),
-    "found": lambda block, options: contoursolve.families.find_word(block, "B", "end Z-50.", **options),
-    "nearest": lambda block, options: contoursolve.families.find_word(block, "B", "end Z-50. X90.", **options),
-    "tolerances": lambda block, options: contoursolve.families.tolerances(block, {"A": 0.1, "K": 0.02}, **options),
-    "derivatives": lambda block, options: contoursolve.families.tolerances(block, **options),
-    "sensitivity": lambda block, options: contoursolve.families.sensitivity(block, **options),
+    "range": lambda block, options: families.feasible(block, "P", **options),
+    "region": lambda block, options: families.region(block, ("A", "P"), ((150, 210), (1, 60)), **options),
+    "region of angles": lambda block, options: families.region(block, ("A", "B"), ((90, 270), (90, 200)), **options),
+    "found": lambda block, options: families.find_word(block, "B", "end Z-50.", **options),
+    "nearest": lambda block, options: families.find_word(block, "B", "end Z-50. X90.", **options),
+    "tolerances": lambda block, options: families.tolerances(block, {"A": 0.1, "K": 0.02}, **options),
+    "derivatives": lambda block, options: families.tolerances(block, **options),
+    "sensitivity": lambda block, options: families.sensitivity(block, **options),
 }
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name not in ("range", "tolerances"))) for name in QUESTIONS]
-)
+@pytest.mark.parametrize("name", QUESTIONS)
 def test_what_is_asked_about_families_shows_itself_with_every_reason_and_value(name):
     ask = QUESTIONS[name]
-    for comment in ("", f" ({re.sub('[()]', '', HOSTILE[0])})"):
-        record = ask(f"{WHOLE}{comment}", {"start": "X40. Z0."})
-        data = record._repr_mimebundle_()
-        page = check(data, has_picture=name.startswith("r"))
-        assert {"table", "caption"} <= set(page.tags)
-        assert ("figure" in page.tags) is name.startswith("r")
-        assert data == ask(f"{WHOLE}{comment}", {"start": "X40. Z0."})._repr_mimebundle_()
-        # Every cell of the text is in the HTML, too.
-        shown = " ".join(" ".join(page.words).split()).lower()
-        for line in data[TEXT].lower().splitlines():
-            for cell in re.split(r"  +", line.strip()):
-                assert re.sub(r"^\d\. b ", "", cell).partition(": z")[0] in shown, cell
+    record = ask(f"{WHOLE} ({re.sub('[()]', '', HOSTILE[0])})", {"start": "X40. Z0."})
+    data = record._repr_mimebundle_()
+    page = check(data, has_picture=name.startswith("r"))
+    assert {"table", "caption"} <= set(page.tags)
+    assert ("figure" in page.tags) is name.startswith("r")
+    # Every cell of the text is in the HTML, too.
+    shown = " ".join(" ".join(page.words).split()).lower()
+    for line in data[TEXT].lower().splitlines():
+        for cell in re.split(r"  +", line.strip()):
+            assert re.sub(r"^\d\. b ", "", cell).partition(": z")[0] in shown, cell
 
 
 def test_ranges_and_regions_without_an_end_or_a_contour_are_drawn():
-    families, options = contoursolve.families, {"start": "X40. Z0."}
+    options = {"start": "X40. Z0."}
     for record in (
         families.feasible(WHOLE, "P", within=(1, 2), **options),
         families.feasible(WHOLE, "P", within=(90, 99), **options),
@@ -290,31 +244,29 @@ def test_ranges_and_regions_without_an_end_or_a_contour_are_drawn():
         assert "figure" in Page(data[HTML]).tags
 
 
-@pytest.mark.parametrize(
-    ("name", "arguments"),
-    [
-        ("range", ("range", "--word", "P")),
-        ("region", ("range", "--word", "A", "--word", "P", "--within", "150:210", "--within", "1:60")),
-        ("found", ("find", "--word", "B", "--bring", "end Z-50.")),
-        ("tolerances", ("sensitivity", "--tolerance", "A=0.1", "--tolerance", "K=0.02")),
-    ],
-)
-def test_questions_are_told_as_the_terminal_tells_them(name, arguments):
-    from click.testing import CliRunner  # noqa: PLC0415
+ASKED = {
+    "block": ("solve",),
+    "range": ("range", "--word", "P"),
+    "region": ("range", "--word", "A", "--word", "P", "--within", "150:210", "--within", "1:60"),
+    "found": ("find", "--word", "B", "--bring", "end Z-50."),
+    "tolerances": ("sensitivity", "--tolerance", "A=0.1", "--tolerance", "K=0.02"),
+}
 
-    from contoursolve.cli import main  # noqa: PLC0415
 
-    printed = CliRunner().invoke(main, [*arguments, "--block", WHOLE, "--start", "X40. Z0."]).output
-    assert QUESTIONS[name](WHOLE, {"start": "X40. Z0."})._repr_mimebundle_()[TEXT] == printed.rstrip()
+@pytest.mark.parametrize("name", ASKED)
+def test_the_text_is_what_the_terminal_prints(name):
+    printed = CliRunner().invoke(main, [*ASKED[name], "--block", WHOLE, "--start", "X40. Z0."]).output
+    ask = QUESTIONS.get(name, lambda block, options: contoursolve.solve(block, name="<block>", **options))
+    assert ask(WHOLE, {"start": "X40. Z0."})._repr_mimebundle_()[TEXT] == printed.rstrip()
 
 
 @pytest.mark.slow
 def test_a_large_program_stays_small():
     text = "G00 X40. Z0.\n" + "G111 A180. K-3. B120. X60. P1.\nG00 X40. Z0.\n" * 400
     data = contoursolve.solve(text)._repr_mimebundle_()
-    assert all(len(each) < mime_bundle.MOST_CHARACTERS for each in data.values())
-    assert "381 more" in "".join(Page(data[HTML]).words) or "380 more" in "".join(Page(data[HTML]).words)
-    assert len(data[TEXT].splitlines()) <= records.MOST_LINES + 1
+    assert all(len(each) < 2_000_000 for each in data.values())
+    assert re.search("38[01] more", "".join(Page(data[HTML]).words))
+    assert len(data[TEXT].splitlines()) <= 401
 
 
 def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkeypatch):
@@ -333,13 +285,11 @@ def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkey
     assert answer._repr_mimebundle_() == {TEXT: repr(answer)}
 
 
-def test_without_htpy_there_are_text_and_picture():
-    program = (
-        "import sys; sys.modules['htpy'] = None; import contoursolve\n"
-        f"print(*contoursolve.solve({WHOLE!r}, start='X40. Z0.')._repr_mimebundle_())"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == [TEXT, SVG]
+def test_without_htpy_there_are_text_and_picture(monkeypatch):
+    monkeypatch.setitem(sys.modules, "htpy", None)
+    for name in [name for name in sys.modules if name.startswith("contoursolve") and name.endswith("_html")]:
+        monkeypatch.delitem(sys.modules, name)
+    assert [*contoursolve.solve(WHOLE, start="X40. Z0.")._repr_mimebundle_()] == [TEXT, SVG]
 
 
 SHELL = """
@@ -368,25 +318,19 @@ def test_only_the_wanted_kinds_are_given():
 def test_the_table_of_a_path_becomes_a_data_frame_with_units_in_its_names():
     contour = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0].contour
     frame = pandas.DataFrame(contour.table())
-    assert list(frame.columns[:6]) == [
-        "name", "kind", "start_Z_mm", "start_X_radius_mm", "end_Z_mm", "end_X_radius_mm",
-    ]  # fmt: skip
+    assert [*frame.columns] == [
+        *("name", "kind", "start_Z_mm", "start_X_radius_mm", "end_Z_mm", "end_X_radius_mm"),
+        *("center_Z_mm", "center_X_radius_mm", "radius_mm", "turn", "angle_deg", "sweep_deg", "length_mm"),
+    ]
+    start = contour.start
     for row, element in zip(frame.itertuples(), contour.elements, strict=True):
+        assert (row.start_Z_mm, row.start_X_radius_mm) == start
         assert (row.end_Z_mm, row.end_X_radius_mm) == element.end
+        start = element.end
         assert row.length_mm == element.length
         assert (row.kind == "arc") == isinstance(element, ArcSegment)
+        if row.kind == "arc":
+            found = row.center_Z_mm, row.center_X_radius_mm, row.radius_mm, row.turn
+            assert found == (*element.center, element.radius, element.turn.value)
     mill = contoursolve.solve("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1").answers[0].contour
     assert {"end_X_mm", "center_Y_mm"} <= set(pandas.DataFrame(mill.table()).columns)
-
-
-@pytest.mark.parametrize("colors", [style.LIGHT, style.DARK], ids=["light", "dark"])
-def test_every_text_can_be_read_on_its_ground(colors):
-    def luminance(color):
-        parts = [int(color[place : place + 2], 16) / 255 for place in (1, 3, 5)]
-        linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
-        return sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
-
-    for ground in ("paper", "shade"):
-        for name in ("ink", "muted", "given", "derived", "ignored", "conflicting", "free"):
-            light, dark = sorted((luminance(colors[name]), luminance(colors[ground])), reverse=True)
-            assert (light + 0.05) / (dark + 0.05) >= 4.5, (name, ground)

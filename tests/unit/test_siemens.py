@@ -11,9 +11,9 @@ from examples_fanuc import drawn
 from hypothesis import strategies as st
 from oracle import Element
 from oracle_corners import gap
-from vectors import VECTORS, program_of
+from vectors import program_of
 
-from contoursolve import check, expand, solve
+from contoursolve import expand, solve
 from contoursolve.cli import main
 
 CONTROLS = ("siemens-840d", "siemens-808d")
@@ -68,17 +68,6 @@ def refused(text: str, code: str, alarm: str | None = None, **settings: str) -> 
     assert not [each for each in result.answers if each.contour and each.lines[0] <= line <= each.lines[-1]]
 
 
-def test_an_angle_beside_both_coordinates_tells_the_real_one():
-    (finding,) = siemens(MILL + "G1 X60 Y20 ANG=45").diagnostics
-    assert "18.435 deg" in finding.message
-    assert [each.replacement for each in finding.fixes] == ["G1 X60 Y20", "G1 Y20 ANG=45", "G1 X60 ANG=45"]
-
-
-def test_an_arc_whose_radii_differ_is_refused_beside_a_corner():
-    result = siemens(MILL + "G1 X30 RND=2\nG2 X60 Y31 I30 J0\nG1 X90")
-    assert [each.code for each in result.diagnostics if each.severity.value == "error"] == ["siemens-radius-difference"]
-
-
 @law(st.floats(0.01, 9), st.sampled_from(["", " CHF"]), few=2, many=3)
 def test_the_face_of_a_chamfer_beside_an_arc_has_its_length_between_ends_as_far_from_the_corner(face, behind):
     text = MILL + f"G1 X40 CHF={face:.6f}\nG2 X60 Y20 I20 J0{behind and behind + f'={face / 2:.6f}'}\nG1 X100 Y30"
@@ -90,22 +79,41 @@ def test_the_face_of_a_chamfer_beside_an_arc_has_its_length_between_ends_as_far_
         assert dist(corner.start, at) == pytest.approx(dist(corner.end, at), abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("text", "code", "fixes"),
+    [
+        ("G1 X60 Y20 ANG=45", "siemens-angle-redundant", ["G1 X60 Y20", "G1 Y20 ANG=45", "G1 X60 ANG=45"]),
+        ("G1 X30 CHR=2 RND=3\nY40", "siemens-chr-ignored", ["G1 X30 RND=3\nY40"]),
+        ("G1 X30 CHF=3 RND=3\nY40", "siemens-chf-ignored", ["G1 X30 RND=3\nY40"]),
+        ("G1 ANG=30 RND=6\nX60 Y20", "siemens-closing-incomplete", ["G1 ANG=30 RND=6\nX60 Y20 ANG=?"]),
+        ("G1 ANG=30\nX60 ANG=-45", "siemens-closing-incomplete", ["G1 ANG=30\nX60 ANG=-45 Y?"]),
+        ("G1 ANG=30\nX60 Y20 ANG=45", "angle-opposite", ["G1 ANG=30\nX60 Y20 ANG=-45"]),
+        ("G1 X40 Y20 ANG=62", "siemens-angle-redundant", ["G1 X40 Y20"]),
+        ("G1 X=IC(5) Y=IC(5) ANG=40", "siemens-angle-redundant", ["G1 X=IC(5) Y=IC(5)"]),
+        ("G1 X30 RND=300\nY40", "siemens-corner-too-large", ["G1 X30 RND=30\nY40"]),
+        ("G1 X=IC(30) CHR=35\nY=IC(40)", "siemens-corner-too-large", ["G1 X=IC(30) CHR=30\nY=IC(40)"]),
+        ("G1 X30 RND=-3\nY40", "siemens-corner-negative", ["G1 X30 RND=3\nY40"]),
+        ("G1 X=IC(30) RND=3\nX=IC(20)", "siemens-corner-straight", ["G1 X=IC(30)\nX=IC(20)"]),
+        ("G1 X30 RND=2\nG2 X40 Y10", "siemens-circle-undefined", ["G1 X30 RND=2\nG2 X40 Y10 CR=?"]),
+        ("G1 X30 RND=2\nG2 X60 Y31 I30 J0\nG1 X90", "siemens-radius-difference", ["G1 X30 RND=2\nG2 X60 Y30 I30 J0"]),
+        ("G1 X30\nCT X40 Y10 CR=5", "siemens-shape-on-tangent", ["G1 X30\nCT X40 Y10"]),
+        ("G1 X30 RND=2\nG2 X40 Y10 CR=10 ANG=45", "siemens-angle-on-arc", ["G1 X30 RND=2\nG2 X40 Y10 CR=10"]),
+        ("G1 ANG=30\nX60 Y20 ANG=-45 RND=5\nM30", "siemens-corner-without-next", ["G1 ANG=30\nX60 Y20 ANG=-45"]),
+        ("G1 X40 AGN=5\nY40", "word-mistyped", ["G1 X40 ANG=5"]),
+    ],
+)
+def test_the_first_fixes_are_what_a_colleague_would_name(text, code, fixes):
+    found = siemens(MILL + text).diagnostics
+    (first, *_) = [each for each in found if each.code == code]
+    assert [each.replacement for each in first.fixes][: max(len(fixes), 1)] == fixes
+    assert not fixes or next(each for each in found if each.fixes) is first
+
+
 @pytest.mark.parametrize("word", ["CHR=2", "CHF=3"])
-def test_a_rounding_beside_a_chamfer_wins_with_a_warning(word):
+def test_a_rounding_beside_a_chamfer_wins(word):
     text = MILL + f"G1 X30 {word} RND=3\nY40"
     assert path(text) == path(text.replace(f" {word}", ""))
-    (finding,) = siemens(text).diagnostics
-    assert (finding.code, finding.severity.value) == (f"siemens-{word[:3].lower()}-ignored", "warning")
-    assert finding.fixes[0].replacement == "G1 X30 RND=3\nY40"
-
-
-def test_a_chamfer_is_measured_as_its_word_says():
-    assert ends(MILL + "G1 X30 CHR=3\nX60 Y40") == near((27, 0), (31.8, 2.4), (60, 40))
-    width = 2 / (2 * (0.8) ** 0.5)  # the path turns by the angle of 3 4 5: the half of it has the cosine 2 / sqrt(5)
-    assert ends(MILL + "G1 X30 CHF=2\nX60 Y40")[0] == pytest.approx((30 - width, 0), abs=1e-9)
-    on_arc = path(MILL + "G1 X30 CHR=2\nG2 X50 Y20 CR=20")
-    assert abs(on_arc[1].end - 30) == pytest.approx(2, abs=1e-9)
-    assert abs(on_arc[1].end - 50) == pytest.approx(20, abs=1e-9)
+    assert {each.severity.value for each in siemens(text).diagnostics} == {"warning"}
 
 
 # How it is spelled ------------------------------------------------------------------------------------------------
@@ -134,11 +142,6 @@ def test_the_same_corner_is_read_however_it_is_written(text):
         assert gap(drawn("0 0; 75 0 > ccw 80 5 75 5; 80 40", 1), path(name + MILL + text)) < 1e-9
 
 
-def test_inches_and_millimetres_are_those_of_g70_and_g71():
-    metric = ends(MILL + "G71 G1 X25.4 RND=2.54\nY50.8")
-    assert ends("G17 G700 G0 X0 Y0\nG1 X1 RND=0.1\nY2") == ends("G17 G70 G0 X0 Y0\nG1 X1 RND=0.1\nY2") == near(*metric)
-
-
 def test_a_start_that_is_read_before_the_diameters_are_switched_is_told():
     block = "G18 DIAMON G1 X60 ANG=120 RND=2\nZ-50"
     told = {
@@ -157,13 +160,6 @@ def test_a_corner_that_does_not_fit_is_refused_and_what_the_control_does_is_told
     (answer,) = solve(MILL + "G1 X30 RND=50\nY40", control=control, settings=settings).answers
     assert answer.contour is None
     assert ("makes it smaller by itself" in answer.diagnostics[0].message) is is_reduced
-
-
-def test_a_word_that_is_almost_one_is_told():
-    (finding,) = (each for each in siemens(MILL + "G1 X40 AGN=5\nY40").diagnostics if each.code == "word-mistyped")
-    assert "ANG=5" in finding.help
-    (error,) = siemens(MILL + "G1 X40 RND=5\nY40 CRH=2\nX90").diagnostics
-    assert error.fixes[0].description.startswith("write CHR=2 for CRH=2")
 
 
 def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
@@ -208,25 +204,6 @@ def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
     assert [each.contour is not None for each in again.answers] == [True]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "G1 ANG=-_ANG RND=5\nX40 Y40 ANG=90",
-        "G1 X30 RND=_RND+12.5\nX40 Y40",
-        "G1 Y40 ANG=R5",
-        "RNDM=_R\nG1 X30\nX40 Y40",
-    ],
-)
-def test_a_variable_has_no_value(text):
-    refused(MILL + text, "value-variable")
-
-
-@pytest.mark.parametrize("text", [SI_G1, SI_G4, SI_G5, MILL + "G1 X30 CHR=2\nY40"])
-def test_words_with_an_equals_sign_show_the_maker_and_the_smaller_control_is_named(text):
-    assert solve(text).control == "siemens-840d"
-    assert solve(text, control="siemens-808d").control == "siemens-808d"
-
-
 # Planes and diameters -----------------------------------------------------------------------------------------------
 
 
@@ -262,10 +239,7 @@ def test_x_is_what_its_command_says():
     assert siemens("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50", machine="mill").answers[0].contour is None
 
 
-def test_a_switch_of_diameters_between_two_blocks_of_a_corner_is_not_passed_over():
-    text = "G18 DIAMOF G0 X0 Z0\nG1 X30 RND=5\n{}X40 Z40"
-    refused(text.format("DIAMON\n"), "siemens-corner-without-next")
-    refused(text.format("DIAMON "), "siemens-diameter-changes")
+def test_a_switch_of_diameters_before_a_corner_counts():
     before = MILL.replace("G17", "G18 DIAMOF").replace("Y0", "Z0")
     assert ends(before + "DIAMON\n" + "G1 X60 RND=5\nX80 Z40") == near(*ends(before + "G1 X30 RND=5\nX40 Z40"))
 
@@ -273,52 +247,60 @@ def test_a_switch_of_diameters_between_two_blocks_of_a_corner_is_not_passed_over
 # Settings -----------------------------------------------------------------------------------------------------------
 
 
-def test_each_setting_has_an_effect():
-    against = MILL + "G1 X40 ANG=210"
-    assert ends(against) == near((40, 23.0940))
-    assert "angle-opposite" in codes(against)
-    refused(against, "line-reversed", angle_sense="ray")
-    redundant = MILL + "G1 X40 Y40 ANG=45"
-    refused(redundant, "siemens-angle-redundant", "10795")
-    assert ends(redundant, redundant_angle="check") == near((40, 40))
-    refused(redundant.replace("ANG=45", "ANG=44"), "words-conflict", redundant_angle="check")
-    steps = MILL + "G1 X10 Y5\nANG=30 RND=6\nX=IC(60) Y=IC(20) ANG=-45"
-    assert ends(steps) == near(*ends(MILL + "G1 X10 Y5\nANG=30 RND=6\nX70 Y25 ANG=-45"))
-    assert ends(steps.replace("X=IC(60) Y=IC(20)", "G91 X60 Y20")) == ends(steps)
-    refused(steps, "siemens-closing-increment", closing_incremental="error")
-    for text in (MILL + "G1 X30 CHR=2\nG2 X50 Y20 CR=20", MILL + "G2 X20 Y20 CR=20 CHR=2\nG1 Y0"):
-        assert path(text)
-        refused(text, "siemens-chamfer-along-arc", chamfer_on_arc="arc_length")
-    lines = MILL + "G1 X30 CHR=2\nY40"
-    assert ends(lines, chamfer_on_arc="arc_length") == ends(lines)
-
-
-# Slips --------------------------------------------------------------------------------------------------------------
+MEETING = MILL + "G1 X10 Y5\nANG=30 RND=6\n{} ANG=-45"
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "fix"),
+    ("text", "settings", "code", "alarm"),
     [
-        ("G1 ANG=30 RND=6\nX60 Y20", "siemens-closing-incomplete", "G1 ANG=30 RND=6\nX60 Y20 ANG=?"),
-        ("G1 ANG=30\nX60 ANG=-45", "siemens-closing-incomplete", "G1 ANG=30\nX60 ANG=-45 Y?"),
-        ("G1 ANG=30\nX60 Y20 ANG=45", "angle-opposite", "G1 ANG=30\nX60 Y20 ANG=-45"),
-        ("G1 X40 Y20 ANG=62", "siemens-angle-redundant", "G1 X40 Y20"),
-        ("G1 X=IC(5) Y=IC(5) ANG=40", "siemens-angle-redundant", "G1 X=IC(5) Y=IC(5)"),
-        ("G1 X30 RND=300\nY40", "siemens-corner-too-large", "G1 X30 RND=30\nY40"),
-        ("G1 X=IC(30) CHR=35\nY=IC(40)", "siemens-corner-too-large", "G1 X=IC(30) CHR=30\nY=IC(40)"),
-        ("G1 X30 CHR=2 RND=3\nY40", "siemens-chr-ignored", "G1 X30 RND=3\nY40"),
-        ("G1 X30 RND=-3\nY40", "siemens-corner-negative", "G1 X30 RND=3\nY40"),
-        ("G1 X=IC(30) RND=3\nX=IC(20)", "siemens-corner-straight", "G1 X=IC(30)\nX=IC(20)"),
-        ("G1 X30 RND=2\nG2 X40 Y10", "siemens-circle-undefined", "G1 X30 RND=2\nG2 X40 Y10 CR=?"),
-        ("G1 X30\nCT X40 Y10 CR=5", "siemens-shape-on-tangent", "G1 X30\nCT X40 Y10"),
-        ("G1 X30 RND=2\nG2 X40 Y10 CR=10 ANG=45", "siemens-angle-on-arc", "G1 X30 RND=2\nG2 X40 Y10 CR=10"),
-        ("G1 ANG=30\nX60 Y20 ANG=-45 RND=5\nM30", "siemens-corner-without-next", "G1 ANG=30\nX60 Y20 ANG=-45"),
+        (MILL + "G1 X40 ANG=210", {"angle_sense": "ray"}, "line-reversed", None),
+        (MILL + "G1 X40 Y40 ANG=45", {}, "siemens-angle-redundant", "10795"),
+        (MILL + "G1 X40 Y40 ANG=44", {"redundant_angle": "check"}, "words-conflict", None),
+        (MEETING.format("X=IC(60) Y=IC(20)"), {"closing_incremental": "error"}, "siemens-closing-increment", None),
+        (MILL + "G1 X30 CHR=2\nG2 X50 Y20 CR=20", {"chamfer_on_arc": "arc_length"}, "siemens-chamfer-along-arc", None),
+        (MILL + "G2 X20 Y20 CR=20 CHR=2\nG1 Y0", {"chamfer_on_arc": "arc_length"}, "siemens-chamfer-along-arc", None),
+        (MILL + "RNDM=20\nG1 X30\nY10\nX50", {}, "siemens-corner-too-large", None),
+        (MILL + "G1 X10 RND=2\nCT X20 Y10", {}, "siemens-corner-straight", None),
+        (MILL + "CT X20 Y10\nG1 X30 RND=2\nY40", {}, "siemens-no-tangent", None),
+        (MILL + "M8\n" * 4 + "CT X20 Y10\nG1 X30 RND=2\nY40", {}, "siemens-no-tangent", None),
+        (MILL + "G4 F1\nCT X20 Y10\nG1 X30 RND=2\nY40", {}, "siemens-no-tangent", None),
+        ("G18 DIAMOF G0 X0 Z0\nG1 X30 RND=5\nDIAMON\nX40 Z40", {}, "siemens-corner-without-next", None),
+        ("G18 DIAMOF G0 X0 Z0\nG1 X30 RND=5\nDIAMON X40 Z40", {}, "siemens-diameter-changes", None),
+        (MILL + "G1 ANG=-_ANG RND=5\nX40 Y40 ANG=90", {}, "value-variable", None),
+        (MILL + "G1 X30 RND=_RND+12.5\nX40 Y40", {}, "value-variable", None),
+        (MILL + "G1 Y40 ANG=R5", {}, "value-variable", None),
+        (MILL + "RNDM=_R\nG1 X30\nX40 Y40", {}, "value-variable", None),
     ],
 )
-def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
-    found = [each for each in check(MILL + text, control=CONTROLS[0]) if each.fixes]
-    assert found[0].code == code
-    assert found[0].fixes[0].replacement == fix
+def test_what_the_control_refuses_has_its_code_and_its_alarm(text, settings, code, alarm):
+    refused(text, code, alarm, **settings)
+
+
+@pytest.mark.parametrize(
+    ("text", "settings", "places"),
+    [
+        (MILL + "G1 X40 ANG=210", {}, [(40, 23.0940)]),
+        (MILL + "G1 X40 Y40 ANG=45", {"redundant_angle": "check"}, [(40, 40)]),
+        (MEETING.format("X70 Y25"), {}, [(56.7308, 31.9801), (63.9735, 31.0265), (70, 25)]),
+        (MILL + "G1 X30 CHR=2\nY40", {"chamfer_on_arc": "arc_length"}, [(28, 0), (30, 2), (30, 40)]),
+        (MILL + "G1 X30 CHR=3\nX60 Y40", {}, [(27, 0), (31.8, 2.4), (60, 40)]),
+        # The path turns by the angle of 3 4 5: the half of it has the cosine 2 / sqrt(5).
+        (MILL + "G1 X30 CHF=2\nX60 Y40", {}, [(30 - 1.25**0.5, 0), (30 + 0.6 * 1.25**0.5, 0.8 * 1.25**0.5), (60, 40)]),
+        ("G17 G70 G0 X0 Y0\nG1 X1 RND=0.1\nY2", {}, [(22.86, 0), (25.4, 2.54), (25.4, 50.8)]),
+        ("G17 G700 G0 X0 Y0\nG1 X1 RND=0.1\nY2", {}, [(22.86, 0), (25.4, 2.54), (25.4, 50.8)]),
+        (MILL + "G71 G1 X25.4 RND=2.54\nY50.8", {}, [(22.86, 0), (25.4, 2.54), (25.4, 50.8)]),
+    ],
+)
+def test_words_mean_what_the_settings_say(text, settings, places):
+    assert ends(text, **settings) == near(*places)
+
+
+def test_an_angle_the_other_way_is_told_and_increments_close_a_pair():
+    assert "angle-opposite" in codes(MILL + "G1 X40 ANG=210")
+    for closing in ("X=IC(60) Y=IC(20)", "G91 X60 Y20"):
+        assert ends(MEETING.format(closing)) == ends(MEETING.format("X70 Y25"))
+    on_arc = path(MILL + "G1 X30 CHR=2\nG2 X50 Y20 CR=20")
+    assert (abs(on_arc[1].end - 30), abs(on_arc[1].end - 50)) == pytest.approx((2, 20), abs=1e-9)
 
 
 def test_a_polar_move_is_no_part_of_a_contour():
@@ -365,14 +347,6 @@ def test_rndm_makes_no_corner_at_a_rapid():
     assert path_of(second)[0].start == 40j
 
 
-def test_a_rounding_in_force_that_does_not_fit_is_named():
-    result = siemens(MILL + "RNDM=20\nG1 X30\nY10\nX50")
-    assert all("RNDM=20" in each.message for each in result.diagnostics)
-    assert result.answers[0].contour is None
-    refused(MILL + "RNDM=20\nG1 X30\nY10\nX50", "siemens-corner-too-large")
-
-
-@pytest.mark.slow
 def test_a_tangent_arc_follows_lines_arcs_and_tangent_arcs():
     expected = drawn("0 0; 10 0; ccw 20 10 10 10; cw 30 0 30 10; cw 40 10 30 10", 1)
     assert gap(expected, path(MILL + "G1 X10\nCT X20 Y10\nX30 Y0\nX40 Y10")) < 1e-9
@@ -403,17 +377,12 @@ def test_a_tangent_arc_has_corners():
     inside = path(MILL + "G1 X10\nCT X20 Y10 RND=2\nG1 X40 CHR=1\nY0")
     assert [each.kind for each in inside] == ["line", "arc", "arc", "line", "line", "line"]
     assert abs(inside[1].end - (10 + 10j)) == pytest.approx(10)
-    refused(MILL + "G1 X10 RND=2\nCT X20 Y10", "siemens-corner-straight")
     between = path(MILL + "G1 X10 RND=1\nY10\nCT X20 Y20")
     assert [each.kind for each in between] == ["line", "arc", "line", "arc"]
 
 
-def test_a_tangent_arc_without_a_move_before_it_is_refused():
-    for before in ("", "M8\n" * 4, "G4 F1\n"):
-        text = MILL + before + "CT X20 Y10\nG1 X30 RND=2\nY40"
-        assert codes(text)["siemens-no-tangent"] is None
-        refused(text, "siemens-no-tangent")
-    assert path(MILL + "G1 X10\n" + "M8\n" * 3 + "CT X20 Y10")
+def test_three_blocks_may_stand_before_a_tangent_arc():
+    assert path(MILL + "G1 X10\n" + "M8\n" * 3 + "CT X20 Y10") == path(MILL + "G1 X10\nCT X20 Y10")
 
 
 @pytest.mark.parametrize("text", ["RND=6", "ANG=30"])
@@ -425,32 +394,16 @@ def test_three_blocks_may_stand_between_and_not_four(text):
     assert all(each.contour is None for each in result.answers)
 
 
-def test_an_arc_by_radius_is_the_longer_one_if_that_is_negative():
-    short, long = (path(MILL + f"G1 X30 RND=1\nG2 X60 Y0 CR={radius}")[-1] for radius in ("20", "-20"))
-    assert short.center.imag < 0 < long.center.imag
-    assert short.turn == long.turn == "cw"
-
-
-def test_corners_in_rapid_are_refused_and_lines_are_met():
-    assert path(MILL + "G0 ANG=30\nX60 Y20 ANG=-45") == path(MILL + "G1 ANG=30\nX60 Y20 ANG=-45")
-    assert path(MILL + "G0 X40 ANG=30") == path(MILL + "G1 X40 ANG=30")
-
-
-def test_what_is_missing_is_asked_for_by_its_plain_word():
-    told = [each.message for each in check(MILL + "G1 ANG=30\nM30", control=CONTROLS[0])]
-    assert any("add one of X, X=IC, Y, Y=IC" in each for each in told)
-
-
 def test_a_long_stream_keeps_a_rounding_in_force():
     text = MILL + "RNDM=2\nG1 X10\nX10 Y10\nX20 Y10\nX20 Y0\nX30\nG0 X0 Y0\nM30\n"
-    assert (
-        expand(text, control=CONTROLS[0]).text.count("CR=2") + expand(text, control=CONTROLS[0]).text.count(" I") >= 3
-    )
+    moves = re.findall(r"^G0[123].*$", expand(text, control=CONTROLS[0]).text, re.MULTILINE)
+    turns = [each.split()[0] for each in moves if each.startswith(("G02", "G03"))]
+    assert turns == ["G03", "G02", "G02", "G03"], "left at 10 0, right at 10 10 and 20 10, left at 20 0"
 
 
 # Expansion ----------------------------------------------------------------------------------------------------------
 
-WRITTEN = {name: program_of(CONTROLS[0], name) for name in VECTORS[CONTROLS[0]] if name.startswith("SI-")} | {
+WRITTEN = {
     "CT": MILL + "G1 X10\nCT X20 Y10\nX30 Y20\nX50 Y0 RND=2\nG1 X80",
     "RNDM": MILL + "RNDM=2\nG1 X30\nX40 Y40\nX80 CHR=3\nY80\nX90\nG0 X0\nG1 Y20\nX5",
     "IC": MILL + "G1 X=IC(30) RND=3 FRC=0.1\nG91 Y30 CHR=2\nX=AC(0)",
@@ -460,19 +413,19 @@ WRITTEN = {name: program_of(CONTROLS[0], name) for name in VECTORS[CONTROLS[0]] 
 }
 
 
-@pytest.mark.parametrize("name", [*WRITTEN])
+@pytest.mark.parametrize("name", WRITTEN)
 @pytest.mark.parametrize("arcs", ["center", "radius"])
 def test_what_is_written_out_goes_the_same_way(name, arcs, tmp_path):
-    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
-    old.write_text(WRITTEN[name] + "\n")
-    new.write_text(expand(WRITTEN[name] + "\n", control=CONTROLS[0], arcs=arcs).text)
-    outcome = CliRunner().invoke(main, ["diff", str(old), str(new), "--control", CONTROLS[0]])
-    assert outcome.exit_code == 0, outcome.output
-    code = "\n".join(line for line in new.read_text().splitlines() if line[0] not in "(;")
+    text = expand(WRITTEN[name] + "\n", control=CONTROLS[0], arcs=arcs).text
+    code = "\n".join(line for line in text.splitlines() if line[0] not in "(;")
     assert not re.search(r"ANG|RND=|CHR|CT|IC", code)
     place = list(re.finditer(r"[XYZ](-?[1-9]\d*\.?\d*)(?= |$)", code, re.MULTILINE))[-1]
-    new.write_text(f"{code[: place.start(1)]}{float(place[1]) + 0.01}{code[place.end(1) :]}")
-    assert CliRunner().invoke(main, ["diff", str(old), str(new), "--control", CONTROLS[0]]).exit_code == 1
+    moved = f"{code[: place.start(1)]}{float(place[1]) + 0.01}{code[place.end(1) :]}"
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    old.write_text(WRITTEN[name])
+    for text, status in ((code, 0), (moved, 1)):
+        new.write_text(text)
+        assert CliRunner().invoke(main, ["diff", str(old), str(new), "--control", CONTROLS[0]]).exit_code == status
 
 
 # Laws ---------------------------------------------------------------------------------------------------------------
@@ -496,10 +449,10 @@ def heading(element: Element, at: complex) -> complex:
     return (at - element.center) / element.radius * (1j if element.turn == "ccw" else -1j)
 
 
-@pytest.mark.parametrize("count", [5, 50])
-def test_random_tangent_arcs_begin_in_the_direction_before_them_and_end_at_their_words(count):
-    rng = Random(count)
-    for _ in range(count):
+@pytest.mark.parametrize("seed", range(10))
+def test_random_tangent_arcs_begin_in_the_direction_before_them_and_end_at_their_words(seed):
+    rng = Random(seed)
+    for _ in range(5):
         places = drawn_points(rng, rng.randint(1, 5))
         motions = [rng.choice(("CT", "CT", "G1")) for _ in places[1:-1]] + ["CT"]
         lines = ["G1 X20"]
@@ -522,10 +475,10 @@ def test_random_tangent_arcs_begin_in_the_direction_before_them_and_end_at_their
             before = own or line
 
 
-@pytest.mark.parametrize("count", [5, 50])
-def test_a_rounding_in_force_is_the_same_as_one_at_each_corner(count):
-    rng = Random(count)
-    for _ in range(count):
+@pytest.mark.parametrize("seed", range(10))
+def test_a_rounding_in_force_is_the_same_as_one_at_each_corner(seed):
+    rng = Random(seed)
+    for _ in range(5):
         places, size = drawn_points(rng, rng.randint(2, 5)), round(rng.uniform(0.1, 3), 3)
         ends = [f"X{place.real:.3f} Y{place.imag:.3f}" for place in places]
         own = rng.randrange(len(ends) - 1)
