@@ -14,12 +14,6 @@ from contoursolve.__main__ import commands
 from contoursolve.controls import DIALECTS
 
 UNRECORDED = {
-    "check --format gitlab": "is being removed",
-    "check --format junit": "is being removed",
-    "check --watch": "is being removed",
-    "solve --watch": "never ends",
-    "serve --lan": "is being removed",
-    "serve --ask-password": "goes with --lan",
     "sweep --dask": "needs a cluster",
 }
 """What no record has, each with the reason."""
