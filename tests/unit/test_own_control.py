@@ -9,13 +9,11 @@ import pytest
 from click.testing import CliRunner
 
 import contoursolve
+from contoursolve import DIALECTS, SettingError
 from contoursolve.__main__ import commands
-from contoursolve.controls import DIALECTS, NCT_99M
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES
-from contoursolve.output.contours import contour_lines
-from contoursolve.postprocess.post_processors import LINUXCNC
-from contoursolve.program.project_file import SettingError
-from contoursolve.program.request import FollowKeywords, SolveOptions
+from contoursolve.controls import GEOMETRY_RULES, NCT_99M
+from contoursolve.postprocess import POSTS
+from contoursolve.program import FollowKeywords, SolveOptions
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import NoteKind, RefusalKind
 
@@ -50,17 +48,16 @@ def test_with_the_general_rows_every_event_of_geometry_has_a_row():
     assert (set(RefusalKind) | set(NoteKind)) - NUMBERED <= {rule.about for rule in MINE.rules}
 
 
-def test_the_rows_of_the_control_itself_come_first():
+PARALLEL = "G17 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A150"
+
+
+def test_the_rows_of_the_control_itself_come_first_and_a_missing_one_is_named():
     own = replace(GEOMETRY_RULES[0], code="own-parallel")
-    control = replace(MINE, rules=(own, *MINE.rules))
-    (found,) = contoursolve.check("G17 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A150", control=control)
+    (found,) = contoursolve.check(PARALLEL, control=replace(MINE, rules=(own, *MINE.rules)))
     assert found.code == "own-parallel"
-
-
-def test_a_missing_row_is_named():
-    bare = replace(MINE, rules=tuple(rule for rule in MINE.rules if rule.about is not RefusalKind.LINES_PARALLEL))
+    rules = tuple(rule for rule in MINE.rules if rule.about is not RefusalKind.LINES_PARALLEL)
     with pytest.raises(LookupError, match=r"no row about RefusalKind.LINES_PARALLEL; .*GEOMETRY_RULES"):
-        contoursolve.check("G17 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A150", control=bare)
+        contoursolve.check(PARALLEL, control=replace(MINE, rules=rules))
 
 
 def test_every_public_function_with_a_control_says_that_it_takes_tables():
@@ -86,7 +83,6 @@ def test_every_door_takes_a_control_as_its_tables():
     answer = result.answers[0]
     assert result.control == "mine"
     assert answer.contour == contoursolve.solve(PAIR).answers[0].contour
-    assert contour_lines(answer, result) == contour_lines(answer, contoursolve.solve(PAIR))
     assert contoursolve.check(PAIR, control=MINE) == ()
     other = contoursolve.what_if(PAIR, change={"Q": "Q1"}, control=MINE)
     assert other.answers[0].contour.points["P1"] == pytest.approx((-30, 40), abs=1e-3)
@@ -111,7 +107,6 @@ def test_its_contours_show_themselves_with_a_lexicon_of_their_own():
         assert "circular-linear intersection" in bundle["text/plain"]
 
 
-@pytest.mark.slow
 def test_an_executor_takes_a_control_whose_functions_can_be_sent():
     line, values = "G1 X30 ,A45", {",A": [0.0, 45.0]}
     with ThreadPoolExecutor(1) as executor:
@@ -123,7 +118,7 @@ def test_an_executor_takes_a_control_whose_functions_can_be_sent():
 
 
 def test_expand_takes_a_control_and_a_target_as_their_tables():
-    theirs = contoursolve.expand(PAIR, control=MINE, post=replace(LINUXCNC, name="theirs"))
+    theirs = contoursolve.expand(PAIR, control=MINE, post=replace(POSTS["linuxcnc"], name="theirs"))
     assert theirs.control == "mine"
     assert theirs.text == contoursolve.expand(PAIR, post="linuxcnc").text
 
@@ -212,23 +207,14 @@ def test_the_other_commands_take_them_too(run):
     assert "<dd>mine</dd>" in Path("p.html").read_text(encoding="utf-8")
     assert run("rules", *mine)[1].startswith("mine: the machine in hall 2")
     assert run("rules", "--table", *mine)[0] == 0
-    status, output = run("rules", "--table", "--control", "tables_of_mine:BARE")
-    assert (status, output) == (
-        0,
-        "bare: this control has no table of word sets, because none of its forms has a sample\n",
-    )
-    _, result = run("solve", "p.nc", "--format", "json", *mine)
-    Path("r.json").write_text(result, encoding="utf-8")
+    told = "bare: this control has no table of word sets, because none of its forms has a sample\n"
+    assert run("rules", "--table", "--control", "tables_of_mine:BARE") == (0, told)
+    Path("r.json").write_text(run("solve", "p.nc", "--format", "json", *mine)[1], encoding="utf-8")
     assert run("verify", "p.nc", "r.json", *mine)[0] == 0
     told = run("verify", "p.nc", "r.json")[1]
     assert f"unknown control 'mine'; choose from {', '.join(DIALECTS)}, or name the tables" in told
-    assert "--control MODULE:NAME" in told
-    assert run("check", "p.nc", "--format", "sarif", *mine)[0] == 0
     broken = run("check", "--block", PAIR.replace("Q-1", ",R2 ,C2"), "--format", "sarif", *mine)
     assert '"ruleId": "nct-two-corners"' in broken[1]
-    assert run("diff", "p.nc", "p.nc", "--new-control", "tables_of_mine:MINE")[0] == 0
-    _, chosen = run("solve", "p.nc", *mine, "--set", "mine.circle-circle-q=right-is-negative", "--format", "json")
-    assert '"circle-circle-q": "right-is-negative"' in chosen or "mine.circle-circle-q" in chosen
 
 
 @pytest.mark.parametrize(("block", "status"), [(PAIR, "solved"), (PAIR.replace("Q-1", ",R2 ,C2"), "rejected")])
@@ -266,17 +252,14 @@ def test_diff_reads_new_as_the_control_named_for_old_unless_new_has_words_of_ano
     ("control", "said"),
     [
         ("tables_of_mine:OTHER", "tables_of_mine.py) has no contoursolve.Dialect of the name 'OTHER'"),
-        ("tables_of_mine:ABSENT", "no contoursolve.Dialect of the name 'ABSENT'"),
+        ("tables_of_mine:", "of the name ''"),
         ("absent_tables:MINE", "absent_tables cannot be imported: ModuleNotFoundError"),
-        ("absent_tables:MINE", "a module is looked for among those of Python, then in this folder, "),
         ("tables_of_mine.py:MINE", "; write the module without .py, tables_of_mine:NAME"),
         ("tables_that_fail:MINE", "tables_that_fail cannot be imported: ZeroDivisionError: division by zero"),
         (":MINE", "cannot be imported: ValueError"),
-        ("tables_of_mine:", "of the name ''"),
         ("mine", "'mine' is not one of 'yasnac-lx3', 'nct-99m'"),
     ],
 )
 def test_tables_that_are_none_are_told_in_a_line(run, control, said):
     status, output = run("solve", "p.nc", "--control", control)
-    assert (status, said in output) == (2, True), output
-    assert "Traceback" not in output
+    assert (status, said in output, "Traceback" in output) == (2, True, False), output
