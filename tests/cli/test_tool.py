@@ -248,10 +248,8 @@ G00 X60. Z50.
 """The face, the chamfer and the cylinder of a stud, X21. Z0., X24. Z-1.5, for nose R0.8 (sheet: TR-P1)."""
 
 
-@pytest.mark.parametrize(
-    ("radius", "codes_"), [("R0.8", ["tool-by-hand"]), ("R0.4", ["tool-by-hand", "tool-other-radius"])]
-)
-def test_a_path_that_is_made_by_hand_names_its_radius_and_its_part(radius, codes_):
+@pytest.mark.parametrize(("radius", "is_other"), [("R0.8", False), ("R0.4", True)])
+def test_a_path_that_is_made_by_hand_names_its_radius_and_its_part(radius, is_other):
     found = findings(*LATHE, "--tool", radius, "--tip", "3", "--side", "right", "-", stdin=HAND)
     told = [code for _, code, _ in found]
     assert (told.count("tool-by-hand"), told.count("tool-other-radius")) == (1, is_other)
