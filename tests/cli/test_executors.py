@@ -1,6 +1,5 @@
 """A family is the same, byte for byte, wherever its rows are solved; and a sweep that was killed goes on."""
 
-import gc
 import json
 import multiprocessing
 import os
@@ -35,17 +34,6 @@ def processes():
 
 
 @contextmanager
-def loky():
-    from loky import ProcessPoolExecutor  # noqa: PLC0415 - skipped without it
-
-    pool = ProcessPoolExecutor(2)
-    try:
-        yield pool
-    finally:
-        pool.shutdown()
-
-
-@contextmanager
 def dask():
     import distributed  # noqa: PLC0415 - skipped without it
 
@@ -65,7 +53,6 @@ def here():
     [
         pytest.param(lambda: ThreadPoolExecutor(2), id="threads"),
         pytest.param(processes, id="processes", marks=pytest.mark.slow),
-        pytest.param(loky, id="loky", marks=[pytest.mark.slow, pytest.mark.needs("loky")]),
         pytest.param(dask, id="dask", marks=[pytest.mark.slow, pytest.mark.needs("distributed")]),
     ],
 )
@@ -103,19 +90,7 @@ def start(*arguments, cwd):
 
 
 @pytest.mark.slow
-def test_a_part_that_is_cut_off_is_solved_again_and_leaves_no_file_open(tmp_path):
-    ready = sweep(BLOCK, vary={"P": np.linspace(0, 60, 100)}, start="X40. Z0.")
-    parts = parts_of(tmp_path / "rows.csv", ready)
-    (first,) = parts.tables()
-    (kept,) = parts.folder.glob("*.npz")
-    kept.write_bytes(kept.read_bytes()[:-1000])
-    (again,) = parts.tables()
-    gc.collect()  # would warn of a file that is open
-    assert all(np.array_equal(first[name], again[name], equal_nan=True) for name in first)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "step", "most"), [("family.parquet", "0.15", 4), ("family.csv", "0.1", 6)])
+@pytest.mark.parametrize(("name", "step", "most"), [("family.csv", "0.1", 6)])
 def test_a_sweep_that_was_killed_goes_on_and_ends_with_the_same_bytes(name, step, most, tmp_path, monkeypatch):
     asked = [*SWEEP[:-1], f"P=0:60:{step}", "-o", name]
     unbroken, broken = tmp_path / "unbroken", tmp_path / "broken"
@@ -143,9 +118,7 @@ def test_a_sweep_that_was_killed_goes_on_and_ends_with_the_same_bytes(name, step
     assert [path.name for path in broken.iterdir()] == [name]
 
 
-@pytest.mark.parametrize(
-    ("told", "workers"), [(signal.SIGINT, "1"), pytest.param(signal.SIGTERM, "2", marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize(("told", "workers"), [(signal.SIGINT, "1"), (signal.SIGTERM, "2")])
 @pytest.mark.slow
 def test_a_sweep_that_was_told_to_stop_says_what_is_kept(told, workers, tmp_path):
     longer = [*SWEEP[:-1], "P=0:60:0.01", "--workers", workers, "-o", "family.csv"]
@@ -163,42 +136,6 @@ def test_a_sweep_that_was_told_to_stop_says_what_is_kept(told, workers, tmp_path
     )
     assert "the same command goes on there" in errors
     assert not list(folder.glob("*.tmp"))
-
-
-@pytest.mark.slow
-def test_whoever_stops_a_sweep_does_not_wait_for_what_its_threads_have_under_way(tmp_path):
-    """Without a closed form a stretch of rows takes minutes."""
-    block = ["--block", "G112 X50. K-30. I-10. R? Q2.", "--start", START, "--fact", "length of arc = 20"]
-    slow = ["sweep", *block, "--vary", "X=45:60:0.01", "--vary", "K=-35:-25:0.01", "--workers", "2", "-o", "family.csv"]
-    with start(*slow, cwd=tmp_path) as child:
-        deadline = time.monotonic() + 60
-        while not list(tmp_path.glob(".*.parts/whole.*.tmp")) and time.monotonic() < deadline:
-            time.sleep(0.005)
-        time.sleep(0.5)
-        child.send_signal(signal.SIGINT)
-        _, errors = child.communicate(timeout=30)
-    assert (child.returncode, errors) == (130, "stopped; there are no finished contours to go on from\n")
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "step"), [("a.csv", "5"), ("a.parquet", "0.5")])
-def test_two_sweeps_into_one_file_at_once_leave_it_whole(name, step, tmp_path):
-    """Each has files of its own; whichever is whole first removes what both have finished."""
-    alone, both = tmp_path / "alone", tmp_path / "both"
-    for folder in (alone, both):
-        folder.mkdir()
-    wide = [*SWEEP[:-1], f"P=0:60:{step}", "-o", name, "--quiet"]
-    with start(*wide, cwd=alone) as whole:
-        whole.communicate()
-    children = [start(*wide, cwd=both) for _ in range(2)]
-    told = [child.communicate() for child in children]
-    # Without --force, the one that ends later may be told that the file exists by then.
-    late = [f"{name} exists; give --force to replace it" in errors for _, errors in told]
-    assert [child.returncode for child in children] == [2 * each for each in late], told
-    assert not all(late)
-    assert (both / name).read_bytes() == (alone / name).read_bytes()
-    assert any(late) or [path.name for path in both.iterdir()] == [name]
 
 
 def test_a_file_that_somebody_else_has_written_meanwhile_is_not_replaced(tmp_path):
@@ -293,26 +230,6 @@ def test_a_sweep_runs_on_the_cluster_of_a_scheduler(tmp_path):
                 _, errors = child.communicate()
             assert child.returncode == 0, errors
     assert (tmp_path / "one.parquet").read_bytes() == (tmp_path / "two.parquet").read_bytes()
-
-
-@pytest.mark.slow
-@pytest.mark.needs("distributed")
-def test_a_scheduler_that_goes_away_ends_the_sweep(tmp_path):
-    file = tmp_path / "scheduler.json"
-    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
-    options = {"cwd": tmp_path, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen([*command, "--no-dashboard", "--scheduler-file", str(file)], **options) as scheduler:
-        deadline = time.monotonic() + 60
-        while not is_written(file) and time.monotonic() < deadline:
-            time.sleep(0.05)
-        address = json.loads(file.read_text())["address"]
-        with start(*SWEEP, "--dask", address, cwd=tmp_path) as child:
-            first = child.stderr.readline()
-            scheduler.kill()
-            _, errors = child.communicate(timeout=120)
-    assert "has no workers; waiting for one" in first
-    assert (child.returncode, errors.count("\n")) == (2, 1), errors
-    assert f"the Dask scheduler at {address} does not answer any more" in errors
 
 
 @pytest.mark.slow

@@ -10,11 +10,11 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from click.testing import CliRunner, Result
+from calling import call
+from click.testing import Result
 from fuzzing import damaged
 
 from contoursolve import apply_fixes, solve
-from contoursolve.cli import main
 from contoursolve.gcode import decode, split_lines
 
 START = "G00 X40. Z0.\n"
@@ -34,8 +34,7 @@ def save(data: bytes | str, name: str = "part.nc") -> str:
 
 
 def check(*arguments: str, status: int | None = None, stdin: bytes | None = None) -> Result:
-    done = CliRunner().invoke(main, ["check", *arguments], input=stdin)
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exc_info
+    done = call("check", *arguments, stdin=stdin)
     assert status is None or done.exit_code == status, done.output
     return done
 
@@ -121,19 +120,6 @@ def test_a_diff_shows_what_fix_writes_and_writes_nothing():
     assert "goes without --format json" in check(name, "--diff", "--format", "json", status=2).stderr
 
 
-def test_other_formats_are_about_the_program_as_it_is_afterwards():
-    text = START + IGNORED + "\n" + START + TOO_LARGE
-    found = {}
-    for format_ in ("json", "sarif", "github"):
-        done = check(save(text), "--fix", "--format", format_, status=1)
-        found[format_] = done.stdout
-        assert "fixed: delete A135." in done.stderr
-    assert [each["code"] for each in json.loads(found["json"])["diagnostics"]] == ["g111-corner-too-large"]
-    (run,) = json.loads(found["sarif"])["runs"]
-    assert [each["ruleId"] for each in run["results"]] == ["g111-corner-too-large"]
-    assert found["github"].count("::error ") == 1 == len(found["github"].splitlines())
-
-
 # Fixes that change the contour ----------------------------------------------------------------------------
 
 
@@ -173,18 +159,14 @@ def test_each_question_shows_the_line_before_and_after(answers, fitting, status)
 # Laws -----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seeds", [range(15, 30)])
-def test_fixing_damaged_programs_leaves_no_safe_fix_and_every_other_byte(seeds):
-    applied = 0
-    for seed in seeds:
-        data, control = damaged(seed)
-        applied += fixes_applied(save(data), control, Random(seed))
-    assert applied
+@pytest.mark.parametrize("seed", range(15, 45))
+def test_fixing_a_damaged_program_leaves_no_safe_fix_and_every_other_byte(seed):
+    data, control = damaged(seed)
+    fixes_applied(save(data), control, Random(seed))
 
 
-def fixes_applied(name: str, control: str, draw: Random) -> int:
-    """The number of fixes that the command applies to a program, when all that it promises holds."""
+def fixes_applied(name: str, control: str, draw: Random) -> None:
+    """Applies them, and holds what the command promises."""
     old = decode(Path(name).read_bytes(), name)
     mended = apply_fixes(old, control=control)
     done = check(name, "--control", control, "--fix")
@@ -206,7 +188,6 @@ def fixes_applied(name: str, control: str, draw: Random) -> int:
     while not mended.left and (fixes := safe_fixes_by_line(now, control)):
         now = by_hand(now, draw.choice(fixes))
     assert mended.left or now == text
-    return len(mended.applied)
 
 
 def safe_fixes_by_line(text: str, control: str) -> list[dict[int, str]]:
@@ -243,7 +224,6 @@ def test_a_fix_that_brings_another_error_is_not_applied_and_said():
 # Baselines ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 def test_a_baseline_hides_what_was_there_by_the_text_of_the_block():
     name = save(START + IGNORED + "\n" + START + TOO_LARGE)
     done = check(name, "--write-baseline", "known.json", status=0)
@@ -258,12 +238,8 @@ def test_a_baseline_hides_what_was_there_by_the_text_of_the_block():
     assert done.stdout.count("error[g111-corner-too-large]") == 1
     assert "part.nc:8:18" in done.stdout
     assert done.stdout.splitlines()[-1].endswith("1 error; 2 hidden by the baseline")
-    told = {}
-    for format_ in ("json", "sarif", "github"):
-        told[format_] = check(name, "--baseline", "known.json", "--format", format_, status=1).stdout
-    assert [each["line"] for each in json.loads(told["json"])["diagnostics"]] == [8]
-    assert json.loads(told["json"])["programs"][0]["hidden"] == 2
-    assert len(json.loads(told["sarif"])["runs"][0]["results"]) == len(told["github"].splitlines()) == 1
+    told = json.loads(check(name, "--baseline", "known.json", "--format", "json", status=1).stdout)
+    assert ([each["line"] for each in told["diagnostics"]], told["programs"][0]["hidden"]) == ([8], 2)
 
 
 def test_fix_leaves_what_a_baseline_hides():

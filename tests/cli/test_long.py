@@ -9,12 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 import contoursolve
-from contoursolve import diagnosis
 from contoursolve.cli import main
-from contoursolve.controls.chain import find
-from contoursolve.execution import machine, term_reader
 from contoursolve.gcode import lexer
-from contoursolve.output import listing
 
 PROGRAMS = sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))
 MOST = 300_000
@@ -33,18 +29,13 @@ def long_program(lines: int) -> str:
     return "\n".join(rows) + "\n"
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("arguments", [
-    ("check",),
-    pytest.param(("solve", "--format", "json"), marks=pytest.mark.slow),
-    *(pytest.param(each, marks=pytest.mark.slow) for each in (("check", "--format", "json"), ("solve",))),
-    pytest.param(("check", "--format", "github"), marks=pytest.mark.slow),
-])  # fmt: skip
+@pytest.mark.parametrize("arguments", ["check", "solve --format json", "check --format json", "check --format github"])
 def test_blocks_that_are_not_kept_give_the_same_output(arguments, monkeypatch, tmp_path):
     odd = tmp_path / "odd.nc"
     odd.write_text(
         "X1\n%\nG0 X40. Z0.\nG111 X100. A180. B120.\nG111 A180. K--3.\r\nX1 X2 \u00e9\rG0 X40. Z0.\n%\nX5 Y1e9\n"
     )
+    arguments = arguments.split()
     paths = [*map(str, PROGRAMS), str(odd)]
     expected = [CliRunner().invoke(main, [*arguments, path]) for path in paths]
     monkeypatch.setattr(lexer, "MANY_LINES", 1)
@@ -97,45 +88,6 @@ def test_plain_lines_are_not_read_into_words(move, contour, control, monkeypatch
         counts.append(len(read))
     assert counts[1] - counts[0] < 10
     assert counts[1] < 1_100
-
-
-@pytest.mark.slow
-def test_a_line_with_variables_is_read_once_and_again_with_numbers(monkeypatch, tmp_path):
-    program, counts = tmp_path / "long.nc", list[int]()
-    read = list[int]()
-    for module in (lexer, machine):
-        monkeypatch.setattr(module, "parse_block", lambda *asked, act=module.parse_block: read.append(0) or act(*asked))
-    monkeypatch.setattr(term_reader, "_parser", lambda *_: pytest.fail("usual expressions need no grammar"))
-    looked, member = list[int](), find.ChainFinder._member
-    monkeypatch.setattr(find.ChainFinder, "_member", lambda *of, **how: looked.append(0) or member(*of, **how))
-    for number in (500, 1_000):
-        rows = [
-            f"#1={place}.5\n#2=#1+{place}.\nG1 X#1 Y{place}. F100\nX{place}. Y-#2\nX1. Y2." for place in range(number)
-        ]
-        program.write_text("\n".join(["%", "O1", "G90 G21 G17", "G00 X40. Z0. Y0.", *rows, "M30", "%"]) + "\n")
-        read.clear()
-        CliRunner().invoke(main, ["check", "--control", "fanuc-mill", str(program)])
-        counts.append(len(read))
-    # Five lines, of which two have variables beside words; the first and the last alone may belong to a contour.
-    assert counts[1] - counts[0] <= 7 * 500
-    assert len(looked) <= 2 * 2
-
-
-def test_expand_tries_no_repair_of_what_it_writes(monkeypatch, tmp_path):
-    program, tried = tmp_path / "old.nc", list[str]()
-    for name in ("mend_behind", "diagnose"):
-        monkeypatch.setattr(diagnosis, name, lambda *_, name=name: tried.append(name))
-    program.write_text("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nX30.\n")
-    done = CliRunner().invoke(main, ["expand", str(program)])
-    assert "g111-rapid-behind" in done.output
-    assert not tried
-
-
-def test_a_late_finding_about_an_early_line_comes_first_as_long_as_it_may(monkeypatch):
-    keys = [3, 1, 2, 9, 4]
-    assert list(listing._in_order((key, key) for key in keys)) == sorted(keys)
-    monkeypatch.setattr(listing, "_HELD", 2)
-    assert list(listing._in_order((key, key) for key in keys)) == [1, 2, 3, 4, 9]
 
 
 MEASURE = """

@@ -4,6 +4,7 @@ import json
 import random
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from editor import Editor, Served, applied, edits_of, in_editor, random_edit, types
@@ -55,6 +56,13 @@ def about(editor: Editor, uri: str, position: types.Position) -> dict[str, objec
     return {"text_document": types.TextDocumentIdentifier(uri), "position": position}
 
 
+async def hovered(editor: Editor, uri: str, line: int, character: int) -> str:
+    """What is shown beside a place."""
+    wanted = types.HoverParams(**about(editor, uri, at(line, character)))
+    found = await editor.ask(editor.client.text_document_hover_async(wanted))
+    return found.contents.value if found else ""
+
+
 async def run(editor: Editor, command: str, *arguments: object):
     wanted = types.ExecuteCommandParams(f"contoursolve.{command}", arguments=[*arguments])
     return await editor.ask(editor.client.workspace_execute_command_async(wanted))
@@ -63,14 +71,12 @@ async def run(editor: Editor, command: str, *arguments: object):
 # Findings and fixes ------------------------------------------------------------------------------------------
 
 
-def examples(kind: str) -> list[pytest.ParameterSet]:
-    """A control, and the examples of some of its rules."""
+def examples() -> list[pytest.ParameterSet]:
+    """A control, and the examples of a few of its rules."""
     return [
-        pytest.param(name, tuple(example for rule in rules for example in getattr(rule, kind)), id=f"{name}-{number}")
+        pytest.param(name, [rule.rejected[0] for rule in rules if rule.rejected], id=f"{name}-{rules[0].code}")
         for name, dialect in DIALECTS.items()
-        for number, rules in enumerate(
-            [dialect.catalogue[first : first + 12] for first in range(0, len(dialect.catalogue), 12)]
-        )
+        for rules in (dialect.catalogue[first : first + 4] for first in range(0, len(dialect.catalogue), 4))
     ]
 
 
@@ -89,60 +95,39 @@ def served_for():
         each.stop()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("control", "programs"), examples("rejected"))
+@pytest.mark.parametrize(("control", "programs"), examples())
 def test_findings_of_the_rules_examples_stand_where_solve_finds_them(served_for, control, programs):
-    """And each fix, applied as the editor does it, gives the contour that its title promises."""
+    """And each fix, applied as the editor does it, writes the lines that solve offers."""
 
     async def use(editor: Editor) -> None:
         for number, text in enumerate(programs):
             uri = f"file:///programs/{number}.nc"
             editor.open(uri, text)
             found, wanted = await editor.findings(uri), solve(text, control=control)
-            assert [(each.code, each.range.start.line + 1) for each in found] == [
-                (each.code, max(each.span.line, 1)) for each in wanted.diagnostics
-            ]
-            lines = text.split("\n")
+            lines, mended = text.split("\n"), set[str]()
             for each, finding in zip(found, wanted.diagnostics, strict=True):
-                own = "\n".join(lines[line - 1] for line in wanted.lines_of(finding) if line <= len(lines))
-                assert all(fix.replaced == own for fix in finding.fixes), finding
+                assert (each.code, each.range.start.line + 1) == (finding.code, max(finding.span.line, 1))
+                assert each.severity.name == SEVERITIES[finding.severity]
                 if finding.span.line > 0:
                     marked = lines[finding.span.line - 1][finding.span.column - 1 : finding.span.end_column - 1]
                     assert stretch(text, each.range) == marked
-                    assert each.code_description.href.startswith("file://")
+                for fix in finding.fixes:
+                    new = {**dict(enumerate(lines, 1)), **fix.by_line(wanted.lines_of(finding))}
+                    kept = [line for number, line in new.items() if line or not lines[number - 1]]
+                    mended.add("\n".join(kept).rstrip("\n"))
             for action in await actions(editor, uri, whole(text)):
-                check_fix(text, action, control)
+                if action.edit is None:
+                    assert action.command.command == "contoursolve.explain"
+                elif "Fix all" not in action.title:
+                    after = text
+                    for edit in reversed(edits_of(action)):
+                        after = applied(after, edit)
+                    assert after.rstrip("\n") in mended, action.title
 
     served_for(control)(use)
 
 
-def check_fix(text: str, action: types.CodeAction, control: str) -> None:
-    """That a fix does what its title says."""
-    if action.edit is None:
-        assert action.command.command == "contoursolve.explain"
-        return
-    for edit in reversed(edits_of(action)):
-        text = applied(text, edit)
-    result = solve(text, control=control)
-    promised = re.search(r"ends at (.*?)(?: mm| in)? ", f"{action.title} ")
-    if promised is not None and not action.title.endswith("..."):
-        # What tells it apart from other fixes follows the end.
-        told = re.findall(r"([XYZ])(-?\d+\.\d+)", action.title.rpartition("ends at ")[2].partition(", ")[0])
-        ends = [re.findall(r"([XYZ])(-?\d+\.\d+)", end_text(each)) for each in result.answers]
-        # Without its corner, a contour may be plain motions, which end where their words say.
-        words = re.findall(r"([XYZ])=?(-?\d*\.?\d+)", text)
-        is_stated = all(any(is_near([each], [word]) for word in words) for each in told)
-        assert any(is_near(told, end) for end in ends) or is_stated, (action.title, ends, text)
-
-
-def is_near(ends: list[tuple[str, str]], others: list[tuple[str, str]]) -> bool:
-    """Whether two places are one, as far as a title shows it; a word without a point may count micrometres."""
-    pairs = [
-        (axis == axis_, float(one), float(other)) for (axis, one), (axis_, other) in zip(ends, others, strict=False)
-    ]
-    return len(ends) == len(others) and all(
-        is_same and min(abs(one - other), abs(one - other / 1000)) < 0.0006 for is_same, one, other in pairs
-    )
+SEVERITIES = {Severity.ERROR: "Error", Severity.WARNING: "Warning", Severity.INFO: "Information"}
 
 
 def test_places_count_as_the_protocol_does(served):
@@ -180,7 +165,7 @@ def test_the_broken_shaft_is_mended_fix_by_fix(served):
     async def use(editor: Editor) -> None:
         editor.open(SHAFT, BROKEN)
         found = await editor.findings(SHAFT)
-        assert {each.code for each in found} == {each.code for each in solve(BROKEN).diagnostics}
+        assert [each.code for each in found] == [each.code for each in solve(BROKEN).diagnostics]
         large = next(each for each in found if each.code == "g111-corner-too-large")
         assert large.severity is types.DiagnosticSeverity.Error
         assert "alarm 146 (assumed)" in large.message
@@ -225,7 +210,6 @@ IGNORED, COOLANT, TOO_LARGE = (
 )
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("later", [True, False])
 def test_fix_all_keeps_contours_and_line_ends(later):
     """Of all findings, or of all of one kind; the edit comes when the action is chosen, if the client can wait."""
@@ -274,10 +258,7 @@ def test_what_is_closed_has_no_findings(served):
         editor.open(SHAFT, BROKEN)
         assert await editor.findings(SHAFT)
         editor.client.text_document_did_close(types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(SHAFT)))
-        hover = await editor.ask(
-            editor.client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(13, 8))))
-        )
-        assert hover is None
+        assert await hovered(editor, SHAFT, 13, 8) == ""
         assert editor.found[SHAFT].diagnostics == ()
 
     served(use)
@@ -294,21 +275,15 @@ def test_hovers_hints_symbols_folds(served):
         editor.open(SHAFT, TURNED)
         await editor.findings(SHAFT)
 
-        async def hover(line: int, character: int) -> str:
-            found = await editor.ask(
-                client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(line, character))))
-            )
-            return found.contents.value if found else ""
-
-        word = await hover(5, 20)
+        word = await hovered(editor, SHAFT, 5, 20)
         assert word.startswith("**K-30.** Z distance from start to virtual intersection")
         assert "-30 mm" in word
         assert "fixes V1: Z-30.0000 X40.0000" in word
-        contour = await hover(5, 2)
+        contour = await hovered(editor, SHAFT, 5, 2)
         assert "![the contour](data:image/svg+xml;base64," in contour
         assert "| corner 2 | G03 | -50.2073 | 100.0000 |" in contour
-        assert await hover(4, 6) == "**X40.** absolute X of the end point (diameter)"
-        assert await hover(2, 2) == ""
+        assert await hovered(editor, SHAFT, 4, 6) == "**X40.** absolute X of the end point (diameter)"
+        assert await hovered(editor, SHAFT, 2, 2) == ""
         (hint,) = await editor.ask(
             client.text_document_inlay_hint_async(types.InlayHintParams(document, whole(TURNED)))
         )
@@ -325,7 +300,7 @@ def test_hovers_hints_symbols_folds(served):
         assert draw.startswith("<svg")
         source = json.loads(explore)["cells"][0]["source"]
         assert "'G00 Z0 X40.\\nG111 X100. A180. K-30. B120. P5. Q5.', control='yasnac-lx3'" in source
-        assert "G03 X100. Z-50.207 I-5. K" in expand or "G03" in expand
+        assert "G03 X100. Z-50.207 I-2.5 K-4.33\n" in expand
 
     served(use)
 
@@ -336,18 +311,15 @@ def test_a_hover_does_not_wait_for_the_end_of_a_long_program(served):
 
     async def use(editor: Editor) -> None:
         editor.open(SHAFT, one * 10_000)
-        wanted = types.HoverParams(**about(editor, SHAFT, at(29_999, 20)))
-        late = await editor.ask(editor.client.text_document_hover_async(wanted))
-        assert late.contents.value.startswith("**K-30.** Z distance from start to virtual intersection")
-        assert re.search(r"not known yet: \d+ of 30001 lines are examined\.$", late.contents.value)
+        late = await hovered(editor, SHAFT, 29_999, 20)
+        assert late.startswith("**K-30.** Z distance from start to virtual intersection")
+        assert re.search(r"not known yet: \d+ of 30001 lines are examined\.$", late)
         # What is in sight is examined before all others.
         near = types.InlayHintParams(types.TextDocumentIdentifier(SHAFT), types.Range(at(3_001, 1), at(3_002, 1)))
         (hint,) = await editor.ask(editor.client.text_document_inlay_hint_async(near))
         assert hint.label == "ends at Z-50.2073 X100.0000"
         assert SHAFT not in editor.statuses
-        wanted = types.HoverParams(**about(editor, SHAFT, at(3_002, 20)))
-        seen = await editor.ask(editor.client.text_document_hover_async(wanted))
-        assert "fixes V1: Z-30.0000 X40.0000" in seen.contents.value
+        assert "fixes V1: Z-30.0000 X40.0000" in await hovered(editor, SHAFT, 3_002, 20)
         assert SHAFT not in editor.statuses
 
     served(use)
@@ -355,18 +327,19 @@ def test_a_hover_does_not_wait_for_the_end_of_a_long_program(served):
 
 def test_a_hover_does_not_wait_for_a_program_that_runs(served):
     async def use(editor: Editor) -> None:
-        editor.open(
-            SHAFT,
-            "".join(
-                f"#1={40 + n % 7}.\nG00 X#1 Z0.\nG111 X100. A180. K-3{n % 10}. B120. P5. Q5.\n" for n in range(2_000)
-            ),
-        )
-        wanted = types.HoverParams(**about(editor, SHAFT, at(5_997, 20)))
-        late = await editor.ask(editor.client.text_document_hover_async(wanted))
-        assert late.contents.value.endswith("not known yet: 0 of 6001 lines are examined.")
+        one = "#1={}.\nG00 X#1 Z0.\nG111 X100. A180. K-3{}. B120. P5. Q5.\n"
+        editor.open(SHAFT, "".join(one.format(40 + n % 7, n % 10) for n in range(2_000)))
+        assert (await hovered(editor, SHAFT, 5_997, 20)).endswith("not known yet: 0 of 6001 lines are examined.")
         assert SHAFT not in editor.statuses
 
     served(use)
+
+
+def explored(notebook: str) -> tuple[str, dict[str, Any]]:
+    """The program and the options that a notebook asks for."""
+    code = json.loads(notebook)["cells"][0]["source"]
+    text, told = re.search(r"explore\(('.*?'), (.*)\)", code, re.DOTALL).groups()
+    return eval(text), eval(f"dict({told})")
 
 
 INCREMENTAL = "G20 G17 G90 G0 X1. Y1.\nG91\nG01 X4. ,R.5\nG01 Y5.\n"
@@ -376,10 +349,8 @@ def test_a_notebook_explores_the_contour_with_the_modal_codes_before_it(served):
     async def use(editor: Editor) -> None:
         editor.open(SHAFT, f"(contoursolve control: fanuc-mill)\n{INCREMENTAL}")
         found = await run(editor, "explore", SHAFT, 3)
-        code = json.loads(found["notebook"])["cells"][0]["source"]
-        text, told = re.search(r"explore\(('.*?'), (.*)\)", code, re.DOTALL).groups()
-        options = eval(f"dict({told})")
-        (answer,) = solve(eval(text), **options).answers
+        text, options = explored(found["notebook"])
+        (answer,) = solve(text, **options).answers
         (wanted,) = solve(INCREMENTAL, control="fanuc-mill").answers
         assert end_text(answer) == end_text(wanted) == "X5.00000 Y6.00000"
 
@@ -393,9 +364,8 @@ def test_a_notebook_has_all_of_the_program_where_a_contour_cannot_stand_alone(se
     async def use(editor: Editor) -> None:
         editor.open(SHAFT, WITH_A_POLE)
         found = await run(editor, "explore", SHAFT, 5)
-        code = json.loads(found["notebook"])["cells"][0]["source"]
-        text, told = re.search(r"explore\(('.*?'), (.*)\)", code, re.DOTALL).groups()
-        explorer = contoursolve.explore(eval(text), **eval(f"dict({told})"))
+        text, options = explored(found["notebook"])
+        explorer = contoursolve.explore(text, **options)
         assert (explorer.answer.lines, explorer.view["status"]["text"]) == (tuple(range(4, 10)), "solved")
         assert explorer.text == WITH_A_POLE
 
@@ -434,14 +404,7 @@ def test_a_hover_says_which_tool_fits_and_the_picture_shows_it(served, tmp_path,
     async def use(editor: Editor) -> None:
         editor.open(uri, f"{first}\nG00 G42 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nG00 G40 X120.\n")
         await editor.findings(uri)
-        word, contour = [
-            (
-                await editor.ask(
-                    editor.client.text_document_hover_async(types.HoverParams(**about(editor, uri, at(3, column))))
-                )
-            ).contents.value
-            for column in (20, 2)
-        ]
+        word, contour = [await hovered(editor, uri, 3, column) for column in (20, 2)]
         assert (f"Tool: {told}" in word) is (f"Tool: {told}" in contour) is bool(told)
         assert ("Tool: " in word) is bool(told)
         params = {"textDocument": {"uri": uri}, "position": {"line": 2, "character": 1}}
@@ -476,8 +439,9 @@ def test_hints_lenses_and_pictures_can_be_switched_off():
         )
         assert not await editor.ask(client.text_document_code_lens_async(types.CodeLensParams(document)))
         await editor.findings(SHAFT)
-        hover = await editor.ask(client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(5, 2)))))
-        assert "data:image" not in hover.contents.value
+        hover = await hovered(editor, SHAFT, 5, 2)
+        assert "| corner 2 | G03 | -50.2073 | 100.0000 |" in hover
+        assert "data:image" not in hover
 
     in_editor(use, {"inlayHints": False, "codeLenses": False, "pictures": False})
 
@@ -573,7 +537,7 @@ def test_the_control_comes_from_a_comment_the_project_the_editor_or_the_program(
         change = types.FileEvent(uris[1], types.FileChangeType.Changed)
         editor.client.workspace_did_change_watched_files(types.DidChangeWatchedFilesParams([change]))
         await run(editor, "controls")
-        await editor.ask(editor.client.text_document_hover_async(types.HoverParams(**about(editor, uris[1], at(1, 1)))))
+        await hovered(editor, uris[1], 1, 1)
         assert "there is no control 'nothing'" in editor.statuses[uris[1]].message
 
     in_editor(use, {"control": "fanuc-lathe"})
@@ -615,38 +579,25 @@ def test_commands_of_a_client(served):
 # Endurance ---------------------------------------------------------------------------------------------------
 
 
-def resident(process: int) -> int:
-    """Bytes of memory that a process holds; 0 where that cannot be read."""
-    status = Path(f"/proc/{process}/status")
-    found = re.search(r"VmRSS:\s+(\d+) kB", status.read_text()) if status.exists() else None
-    return int(found[1]) * 1024 if found else 0
-
-
-@pytest.mark.parametrize("edits", [60, pytest.param(600, marks=pytest.mark.slow)])
-def test_random_edits_leave_no_stale_findings(served, edits):
-    """And the server's memory does not grow with them."""
+def test_random_edits_leave_no_stale_findings(served):
     draw = random.Random(7)
 
     async def use(editor: Editor) -> None:
         editor.open(SHAFT, BROKEN)
-        held = []
-        for number in range(edits):
+        for number in range(60):
             begin, end, new = random_edit(split_lines(editor.texts[SHAFT]) or [""], draw)
             if begin > end:
                 continue
             if len(editor.texts[SHAFT]) > 2 * len(BROKEN):
                 editor.edit(SHAFT, types.TextEdit(whole(editor.texts[SHAFT]), BROKEN))
             editor.edit(SHAFT, types.TextEdit(types.Range(at(*begin), at(*end)), new))
-            if number % 50 == 49:
+            if number % 20 == 19:
                 found, text = await editor.findings(SHAFT), editor.texts[SHAFT]
-                held.append(resident(editor.client._server.pid))
                 try:
                     wanted = [each.code for each in solve(text).diagnostics]
                 except (contoursolve.UnknownControlError, contoursolve.SettingError):
                     wanted = ["control-unknown"]
                 assert [each.code for each in found] == wanted
-        later = held[len(held) // 2 :]
-        assert max(later) - held[len(held) // 2] < 64e6
 
     served(use)
 
@@ -692,14 +643,3 @@ def test_a_program_with_findings_everywhere_does_not_flood_the_editor(served_for
         assert found[-1].message.startswith("10 more findings")
 
     served_for("yasnac-lx3")(use)
-
-
-def test_severities_are_those_of_check(served):
-    async def use(editor: Editor) -> None:
-        editor.open(SHAFT, BROKEN)
-        names = {Severity.ERROR: "Error", Severity.WARNING: "Warning", Severity.INFO: "Information"}
-        found = await editor.findings(SHAFT)
-        wanted = contoursolve.check(BROKEN)
-        assert [each.severity.name for each in found] == [names[each.severity] for each in wanted]
-
-    served(use)

@@ -4,11 +4,11 @@ import json
 from random import Random
 
 import pytest
-from click.testing import CliRunner, Result
+from calling import call
+from click.testing import Result
 from fuzzing import damaged
 
 from contoursolve import DIALECTS, OpenProgram, apply_fixes, solve
-from contoursolve.cli import main
 from contoursolve.gcode import decode, parse
 
 TAPER = "G111 A180. K-30. B120. X100. "
@@ -16,8 +16,7 @@ START = "G00 X40. Z0.\n"
 
 
 def check(*arguments: str, status: int | None = None) -> Result:
-    done = CliRunner().invoke(main, ["check", *arguments])
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exc_info
+    done = call("check", *arguments)
     assert status is None or done.exit_code == status, done.output
     return done
 
@@ -103,23 +102,21 @@ def test_what_is_trusted_is_there_or_it_is_said_what_may_be_meant(words, reason,
     assert reason.replace("the program", "the contour").split(";")[0] in check(str(part), status=1).output
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("count", [4, 60])
-def test_a_trusted_word_of_a_damaged_program_is_in_every_fix(count):
-    for seed in range(count):
-        data, control = damaged(seed)
-        text, draw = decode(data, "part"), Random(seed)
-        result = solve(text, control=control)
-        words = [word for each in result.answers if each.diagnostics for word in each.claim.words.values()]
-        # A word with a variable is trusted as it is typed.
-        words = [each for each in words if times(each, text, result.program.syntax)]
-        if not words:
-            continue
-        word = draw.choice(words)
-        for finding in solve(text, control=control, trust=word.text).diagnostics:
-            for fix in finding.fixes:
-                old, new = (times(word, each, result.program.syntax) for each in (fix.replaced, fix.replacement))
-                assert old <= new, (seed, word.text, fix)
+@pytest.mark.parametrize("seed", range(40))
+def test_a_trusted_word_of_a_damaged_program_is_in_every_fix(seed):
+    data, control = damaged(seed)
+    text, draw = decode(data, "part"), Random(seed)
+    result = solve(text, control=control)
+    words = [word for each in result.answers if each.diagnostics for word in each.claim.words.values()]
+    # A word with a variable is trusted as it is typed.
+    words = [each for each in words if times(each, text, result.program.syntax)]
+    if not words:
+        pytest.skip("no contour with findings has a word to trust")
+    word = draw.choice(words)
+    for finding in solve(text, control=control, trust=word.text).diagnostics:
+        for fix in finding.fixes:
+            old, new = (times(word, each, result.program.syntax) for each in (fix.replaced, fix.replacement))
+            assert old <= new, (seed, word.text, fix)
 
 
 def times(word, text, syntax) -> int:
