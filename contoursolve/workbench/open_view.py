@@ -68,7 +68,7 @@ class ProgramView:
         self.settings: Mapping[str, str] = {}
         self._project = ""
         """The trouble with the project file, if there is any."""
-        self._text = file.text
+        self._text, self._line_end = file.text, "\n"
         self._program: OpenProgram | None = None
         self.explored: Explored | None = None
         """The contour that is in the explorer."""
@@ -119,6 +119,13 @@ class ProgramView:
 
     # Text --------------------------------------------------------------------------------------------------------
 
+    @property
+    def line_end(self) -> str:
+        """The end of its lines; where it has only one line, that of the lines which it had before."""
+        if len(self.program.blocks) > 1:
+            self._line_end = self.program.line_end
+        return self._line_end
+
     def lines(self) -> list[str]:
         """The lines as a page has them, without ends."""
         program = self.program
@@ -135,7 +142,7 @@ class ProgramView:
                 raise OldEditError("these edits are of another text; nothing was changed")
             behind = each.begin
         for each in several:
-            new = self.program.line_end.join(_page_lines(each.text))
+            new = self.line_end.join(_page_lines(each.text))
             self.program.edit(_place(lines, starts, each.begin), _place(lines, starts, each.end), new)
         self.seq += 1
 
@@ -213,7 +220,7 @@ class ProgramView:
             "base": self.file.mark,
             "encoding": self.file.encoding,
             "has_order_mark": bool(self.file.order_mark),
-            "line_end": program.line_end,
+            "line_end": self.line_end,
             "has_changes": self.has_changes,
             "control": _control(dialect) if dialect is not None else None,
             "control_from": self._source(),
@@ -334,4 +341,4 @@ def _place(lines: Sequence[str], starts: Sequence[int], offset: int) -> tuple[in
     text, units = lines[index], offset - starts[index]
     if text.isascii():
         return index + 1, units + 1
-    return index + 1, 1 + len(text.encode("utf-16-le", "surrogatepass")[: 2 * units].decode("utf-16-le", "ignore"))
+    return index + 1, 1 + len(text.encode("utf-16-le", "surrogatepass")[: 2 * units].decode("utf-16-le", "surrogatepass"))

@@ -1,4 +1,4 @@
-"""Files of the workbench: names, encodings, and that nothing is ever lost."""
+"""Files of the workbench: what names are of its folder, what is opened, and that nothing is ever lost."""
 
 import errno
 import os
@@ -10,28 +10,48 @@ from workbench_page import Page
 
 from contoursolve.workbench import Desk
 
-TEXT = "G00 X40. Z0.\r\nG111 X100. A180. K-30. B120. P5.\r\n"
+TEXT = b"G00 X40. Z0.\r\nG111 X100. A180. K-30. B120. P5.\r\n"
+MENDED = TEXT.replace(b"P5.", b"P6.")
+KEPT = "a.nc was not saved: it cannot be written: {}; your text is still here"
+EMPTY, ENDS, DEVICE, UNSEEN = (
+    "it is empty, too long, or has only points",
+    "it begins or ends with a blank, or ends with a point",
+    "Windows takes it for a device",
+    "it has characters that cannot be shown",
+)
 TRICKS = (
-    *("", ".", "..", "../out.nc", "..\\out.nc", "/etc/passwd", "C:\\out.nc", "C:out.nc", "out.nc:stream", "a/b.nc"),
-    *("con", "CON.nc", "nul.txt", "com1", "LPT9.nc", "aux .nc", "COM¹", "a\0.nc", "a\n.nc", "a\x7f.nc", " a.nc"),
-    *("a.nc ", "a.nc.", "...", "a?.nc", "a*.nc", "a|b.nc", '"a".nc', "<a>.nc", "x" * 300, "a\u202ecn.nc", "\ud800.nc"),
+    *(("", EMPTY, "program.nc"), (".", EMPTY, "program.nc"), ("..", EMPTY, "program.nc"), ("...", EMPTY, "program.nc")),
+    ("../out.nc", "it has '/'", ".._out.nc"),
+    ("..\\out.nc", "it has '\\\\'", ".._out.nc"),
+    *(("/etc/passwd", "it has '/'", "_etc_passwd"), ("C:\\out.nc", "it has ':'", "C__out.nc")),
+    *(("out.nc:stream", "it has ':'", "out.nc_stream"), ("a\0.nc", "it has '\\x00'", "a_.nc")),
+    *(("a\n.nc", "it has '\\n'", "a_.nc"), ("a\x7f.nc", "it has '\\x7f'", "a_.nc"), ("a?.nc", "it has '?'", "a_.nc")),
+    *(("a*.nc", "it has '*'", "a_.nc"), ("a|b.nc", "it has '|'", "a_b.nc"), ("<a>.nc", "it has '<'", "_a_.nc")),
+    ('"a".nc', "it has '\"'", "_a_.nc"),
+    *((name, DEVICE, "program.nc") for name in ("con", "CON.nc", "nul.txt", "com1", "LPT9.nc", "aux .nc", "COM¹")),
+    *((" a.nc", ENDS, "a.nc"), ("a.nc ", ENDS, "a.nc"), ("a.nc.", ENDS, "a.nc")),
+    *(("a\u202ecn.nc", UNSEEN, "program.nc"), ("\ud800.nc", UNSEEN, "program.nc")),
+    pytest.param("y" + 197 * "x" + ".nc", EMPTY, 197 * "x" + ".nc", marks=pytest.mark.boundary),
+    pytest.param("x" * 197 + ".nc", "", 197 * "x" + ".nc", marks=pytest.mark.boundary),
 )
 
 
-@pytest.mark.parametrize("name", TRICKS, ids=ascii)
-def test_no_name_leads_out_of_the_folder_or_to_a_device(name, tmp_path):
+@pytest.mark.parametrize(("name", "fault", "safe"), TRICKS, ids=ascii)
+def test_no_name_leads_out_of_the_folder_or_to_a_device(name, fault, safe, tmp_path):
     (tmp_path / "out.nc").write_bytes(b"OUTSIDE")
     folder = tmp_path / "programs"
     folder.mkdir()
     page = Page(Desk(folder))
-    assert [*page.ask("open", name=name)] == ["trouble"]
-    page.ask("open", name="new.nc", text=TEXT)
-    assert page.ask("save", name=name)["trouble"]
-    assert [*folder.iterdir()] == []
+    told = f"{name[:200]!r} is no name of a file in this folder: {fault}" if fault else f"{name}: no such file in the"
+    assert page.ask("open", name=name)["trouble"] == (told if fault else f"{told} folder programs")
+    page.ask("open", name="new.nc", text=TEXT.decode())
+    if fault:
+        assert page.ask("save", name=name) == {"trouble": told}
+        assert [*folder.iterdir()] == []
     # A file that is dropped may be called so elsewhere.
-    page.ask("open", name=name, text=TEXT)
-    assert page.ask("save")["saved"] == page.view["name"]
-    assert [each.name for each in folder.iterdir()] == [page.view["name"]]
+    assert page.ask("open", name=name, text=TEXT.decode())["name"] == safe
+    assert page.ask("save")["saved"] == safe
+    assert [each.name for each in folder.iterdir()] == [safe]
     assert (tmp_path / "out.nc").read_bytes() == b"OUTSIDE"
     assert sorted(each.name for each in tmp_path.iterdir()) == ["out.nc", "programs"]
 
@@ -41,59 +61,42 @@ def test_a_link_out_of_the_folder_is_not_followed(tmp_path):
     (tmp_path / "out.nc").write_bytes(b"OUTSIDE")
     folder = tmp_path / "programs"
     folder.mkdir()
-    (folder / "link.nc").symlink_to(tmp_path / "out.nc")
-    (folder / "loop.nc").symlink_to(folder / "loop.nc")
-    (folder / "own.nc").write_bytes(TEXT.encode())
-    (folder / "inside.nc").symlink_to(folder / "own.nc")
+    (folder / "own.nc").write_bytes(TEXT)
+    for name, target in (
+        ("link.nc", tmp_path / "out.nc"),
+        ("loop.nc", folder / "loop.nc"),
+        ("in.nc", folder / "own.nc"),
+    ):
+        (folder / name).symlink_to(target)
     page = Page(Desk(folder))
-    assert [each["name"] for each in page.ask("files")["files"]] == ["inside.nc", "own.nc"]
+    assert page.ask("files") == {"files": [{"name": each, "size": 48} for each in ("in.nc", "own.nc")], "left_out": 0}
     for name in ("link.nc", "loop.nc"):
-        assert "leads out of the folder" in page.ask("open", name=name)["trouble"]
-        page.ask("open", name="new.nc", text=TEXT)
-        assert "leads out of the folder" in page.ask("save", name=name, over="")["trouble"]
+        refused = {"trouble": f"'{name}' leads out of the folder; copy the file into it"}
+        assert page.ask("open", name=name) == refused
+        page.ask("open", name="new.nc", text="M30")
+        assert page.ask("save", name=name, over="") == refused
     assert (tmp_path / "out.nc").read_bytes() == b"OUTSIDE"
-    page.ask("open", name="inside.nc")
+    page.ask("open", name="in.nc")
     page.type("P5.", "P6.")
-    assert page.ask("save")["saved"]
-    assert (folder / "own.nc").read_bytes() == TEXT.replace("P5.", "P6.").encode()
+    assert page.ask("save")["saved"] == "in.nc"
+    assert (folder / "own.nc").read_bytes() == MENDED
 
 
-@pytest.mark.parametrize(
-    "data",
-    [
-        TEXT.encode(),
-        b"\xef\xbb\xbf" + TEXT.encode(),
-        b"(\xd8 20)\r" + TEXT.encode(),
-        b"%\nO1\r\n\r\r(\xc3\x98)\n\n",
-        b"\x12" + TEXT.encode() + b"\x14\0\0\0",
-        b"",
-        b"\r\n",
-    ],
-    ids=ascii,
-)
-def test_a_file_keeps_its_encoding_and_every_byte_that_nobody_changed(data, tmp_path):
-    (tmp_path / "a.nc").write_bytes(data)
+def test_the_list_has_the_programs_sketches_and_drawings_by_name_and_counts_those_left_out(tmp_path):
+    shown = ["B.toml", "a.NC", "C.dxf", "d.json", "e.mpf", "f.h", "plain"]
+    for name in (*shown, ".hidden.nc", "a.png"):
+        (tmp_path / name).write_bytes(b"%%")
+    (tmp_path / "folder.nc").mkdir()
     page = Page(Desk(tmp_path))
-    opened = page.ask("open", name="a.nc")
-    assert not opened["has_changes"]
-    assert "\r" not in page.text
-    assert page.ask("edit", edits=[{"from": 0, "to": 0, "text": "(NEW)\n"}])["has_changes"]
-    assert not page.ask("edit", edits=[{"from": 0, "to": 6, "text": ""}])["has_changes"]
-    page.ask("edit", text=f"{page.text}M30")
-    assert page.ask("save")["saved"] == "a.nc"
-    assert (tmp_path / "a.nc").read_bytes() == data + b"M30"
-
-
-def test_a_character_that_the_file_cannot_hold_is_named_and_nothing_is_written(tmp_path):
-    data = b"(\xd8 20)\n" + TEXT.encode()
-    (tmp_path / "a.nc").write_bytes(data)
-    page = Page(Desk(tmp_path))
-    page.ask("open", name="a.nc")
-    page.type("P5.", "P5. (≥)")
-    assert "line 3 has the character ≥" in page.ask("save")["trouble"]
-    assert (tmp_path / "a.nc").read_bytes() == data
-    page.ask("edit", text="\ud800")
-    assert "\\ud800" in page.ask("save")["trouble"]
+    assert [each["name"] for each in page.ask("files")["files"]] == sorted(shown, key=str.lower)
+    for number in range(1_993):
+        (tmp_path / f"n{number:04}.nc").touch()
+    listed = page.ask("files")
+    assert (len(listed["files"]), listed["left_out"]) == (2_000, 0)
+    for number in range(3):
+        (tmp_path / f"0{number}.nc").touch()
+    listed = page.ask("files")
+    assert (len(listed["files"]), listed["left_out"], listed["files"][-1]["name"]) == (2_000, 3, "n1990.nc")
 
 
 class DamagedFile:
@@ -110,79 +113,89 @@ class DamagedFile:
 @pytest.mark.parametrize("step", ["open", "fsync", "replace"])
 @pytest.mark.parametrize("error", [errno.ENOSPC, errno.EACCES, errno.EROFS, errno.EIO, errno.ENOENT])
 def test_where_a_file_cannot_be_written_the_old_one_and_the_text_stay(step, error, tmp_path, monkeypatch):
-    (tmp_path / "a.nc").write_bytes(TEXT.encode())
+    (tmp_path / "a.nc").write_bytes(TEXT)
     page = Page(Desk(tmp_path))
     page.ask("open", name="a.nc")
     page.type("P5.", "P6.")
     with monkeypatch.context() as patched:
         DamagedFile(patched, step, error)
         trouble = page.ask("save")["trouble"]
-    assert trouble.startswith("a.nc was not saved: it cannot be written: ")
-    assert "your text is still here" in trouble
-    assert (tmp_path / "a.nc").read_bytes() == TEXT.encode()
+    assert trouble == KEPT.format(os.strerror(error))
+    assert (tmp_path / "a.nc").read_bytes() == TEXT
     assert [each.name for each in tmp_path.iterdir()] == ["a.nc"]
     assert page.ask("view")["text"] == page.text
-    assert page.ask("save")["saved"]
-    assert (tmp_path / "a.nc").read_bytes() == TEXT.replace("P5.", "P6.").encode()
+    assert page.ask("save")["saved"] == "a.nc"
+    assert (tmp_path / "a.nc").read_bytes() == MENDED
 
 
-def test_a_full_disk_a_folder_that_is_gone_and_a_protected_file(tmp_path):
+def test_a_protected_file_one_that_is_gone_and_a_folder_that_is_gone_are_told(tmp_path):
     folder = tmp_path / "programs"
     folder.mkdir()
-    (folder / "a.nc").write_bytes(TEXT.encode())
+    (folder / "a.nc").write_bytes(TEXT)
     page = Page(Desk(folder))
     page.ask("open", name="a.nc")
     page.type("P5.", "P6.")
     (folder / "a.nc").chmod(0o444)
-    assert "it is write-protected" in page.ask("save")["trouble"]
+    protected = "a.nc was not saved: it is write-protected; make it writable, or write to another file; "
+    assert page.ask("save")["trouble"] == f"{protected}your text is still here"
     (folder / "a.nc").chmod(0o644)
     (folder / "a.nc").unlink()
-    told = page.ask("save")
-    assert "somebody deleted or renamed the file" in told["trouble"]
-    assert page.ask("save", over=told["conflict"])["saved"] == "a.nc"
+    gone = "a.nc was not saved: somebody deleted or renamed the file; save it again to write it anew"
+    assert page.ask("save") == {"trouble": gone, "conflict": ""}
+    assert page.ask("save", over="")["saved"] == "a.nc"
     (folder / "a.nc").unlink()
     folder.rmdir()
-    assert "is the folder still there" in page.ask("files")["trouble"]
-    assert "a.nc was not saved" in page.ask("save", over="")["trouble"]
+    lost = f"{folder} cannot be read: No such file or directory; is the folder still there?"
+    assert page.ask("files") == {"trouble": lost}
+    assert page.ask("save", over="")["trouble"] == KEPT.format("No such file or directory")
     assert page.ask("view")["text"] == page.text
 
 
 def test_what_is_no_program_is_not_opened(tmp_path):
     (tmp_path / "a.nc").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
-    (tmp_path / "big.nc").write_bytes(b"G01 X1.\n" * 2_000_000)
+    (tmp_path / "big.nc").write_bytes(bytes(10_000_001))
     (tmp_path / "folder.nc").mkdir()
     page = Page(Desk(tmp_path))
-    assert "a picture, no CNC program" in page.ask("open", name="a.nc")["trouble"]
-    assert "16,000,000" not in page.ask("open", name="a.nc")["trouble"]
-    assert "can be opened here" in page.ask("open", name="big.nc")["trouble"]
-    assert "no such file" in page.ask("open", name="folder.nc")["trouble"]
-    assert "no such file" in page.ask("open", name="lost.nc")["trouble"]
+    assert page.ask("open", name="a.nc")["trouble"] == "a.nc is a picture, no CNC program"
+    assert page.ask("open", name="big.nc")["trouble"] == (
+        "big.nc has 10,000,001 bytes, and 10,000,000 can be opened here; use contoursolve check on the command line"
+    )
+    for name in ("folder.nc", "lost.nc"):
+        assert page.ask("open", name=name)["trouble"] == f"{name}: no such file in the folder {tmp_path.name}"
     assert [each["name"] for each in page.ask("files")["files"]] == ["a.nc", "big.nc"]
+    assert Page(Desk()).ask("files")["trouble"] == Page(Desk()).ask("open", name="a.nc")["trouble"] == NO_FOLDER
 
 
-def test_what_the_desk_has_forgotten_a_page_opens_again_and_saves(tmp_path):
-    (tmp_path / "a.nc").write_bytes(b"\xef\xbb\xbf" + TEXT.encode())
-    page = Page(Desk(tmp_path))
-    opened = page.ask("open", name="a.nc")
-    page.type("P5.", "P6.")
-    again = Page(Desk(tmp_path))  # the server was started anew
-    again.program = page.program
-    assert again.ask("edit", text="x")["is_gone"]
-    kept = {name: opened[name] for name in ("name", "base", "encoding", "has_order_mark", "line_end")}
-    assert again.ask("open", text=page.text, **kept)["has_changes"]
-    assert again.ask("save")["saved"] == "a.nc"
-    assert (tmp_path / "a.nc").read_bytes() == b"\xef\xbb\xbf" + TEXT.replace("P5.", "P6.").encode()
+NO_FOLDER = "there is no folder here: open a file by dropping it, and save it by your browser"
 
 
-def test_what_a_page_has_kept_is_not_written_over_what_somebody_else_wrote_meanwhile(tmp_path):
-    (tmp_path / "a.nc").write_bytes(TEXT.encode())
-    page = Page(Desk(tmp_path))
-    opened = page.ask("open", name="a.nc")
-    page.type("P5.", "P6.")
-    (tmp_path / "a.nc").write_bytes(TEXT.replace("P5.", "P7.").encode())
-    again = Page(Desk(tmp_path))
-    assert again.ask("open", text=page.text, name="a.nc", base=opened["base"])["has_changes"]
-    told = again.ask("save")
-    assert "another window or program changed the file" in told["trouble"]
-    assert again.ask("save", over=told["conflict"])["saved"]
-    assert (tmp_path / "a.nc").read_bytes() == TEXT.replace("P5.", "P6.").encode()
+@pytest.mark.boundary
+@pytest.mark.slow
+def test_the_largest_file_is_opened(tmp_path):
+    (tmp_path / "a.nc").write_bytes(b"(" + b"x" * 9_999_998 + b")")
+    assert Desk(tmp_path).answer({"do": "open", "name": "a.nc"})["lines"] == 1
+
+
+def test_of_two_windows_that_save_one_file_the_second_is_asked(tmp_path):
+    (tmp_path / "a.nc").write_bytes(TEXT)
+    desk = Desk(tmp_path)
+    first, second = Page(desk, "first"), Page(desk, "second")
+    for page, word in ((first, "P6."), (second, "P7.")):
+        page.ask("open", name="a.nc")
+        page.type("P5.", word)
+    assert first.ask("save")["saved"] == "a.nc"
+    changed = (
+        "a.nc was not saved: another window or program changed the file since it was opened; "
+        "save under another name, or replace it"
+    )
+    told = second.ask("save")
+    assert told == {"trouble": changed, "conflict": first.view["base"]}
+    there = "a.nc was not saved: there is a file of this name already; choose another name, or replace it"
+    assert second.ask("save", name="b.nc")["saved"] == "b.nc"
+    assert second.ask("save", name="a.nc") == {"trouble": there, "conflict": told["conflict"]}
+    assert (tmp_path / "a.nc").read_bytes() == MENDED
+    assert second.ask("save", name="a.nc", over=told["conflict"])["saved"] == "a.nc"
+    assert [(tmp_path / each).read_bytes() for each in ("a.nc", "b.nc")] == [TEXT.replace(b"P5.", b"P7.")] * 2
+    # What is there already is no conflict.
+    first.type("P6.", "P7.")
+    assert first.ask("save")["saved"] == "a.nc"
