@@ -289,6 +289,9 @@ class ProgramView:
 
     def finding(self, number: int) -> tuple[Diagnostic, tuple[int, ...]]:
         """A finding of those that were shown last, and the lines that its fixes replace. Raises OldEditError."""
+        if self._program is None:  # it rests, and the page still shows what was found
+            self.program.check()
+            self.view()
         shown = [*self._shown.values()]
         if not 0 <= number < len(shown):
             raise OldEditError(f"there is no finding {number + 1} here; nothing was changed")
