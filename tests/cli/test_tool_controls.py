@@ -5,10 +5,8 @@ from pathlib import Path
 
 import numpy
 import pytest
-from click.testing import CliRunner
+from calling import call
 from oracle_tool import TIPS, clearance, parts_of, run
-
-from contoursolve.cli import main
 
 KLARTEXT = """\
 0 BEGIN PGM K MM
@@ -74,7 +72,7 @@ def test_a_whole_program_of_each_control(control: str, tmp_path: Path):
     contours = run("solve", "--format", "json", "--tool", f"R{radius}", *words, str(tmp_path / "a.nc"))["contours"]
     new = tmp_path / "new.nc"
     made = ["expand", *words, "--tool", f"R{radius}", "--no-comments", str(tmp_path / "a.nc"), "-o", str(new)]
-    done = CliRunner().invoke(main, made)
+    done = call(*made)
     assert (done.exit_code, len(contours)) == (0, count), done.output
     assert not re.search(r"\b(?:G4[012]|R[LR]|RND|CHF|CHR|FL)\b|,[RC]", new.read_text())
     assert ("D1" in new.read_text()) == (control in ("siemens-840d", "siemens-808d", "isg"))
@@ -121,8 +119,8 @@ CALLED = """\
 def test_klartext_with_labels_and_a_helix_stays_klartext(tmp_path: Path):
     (tmp_path / "a.h").write_text(CALLED.format(""))
     new, words = tmp_path / "new.h", ("--control", "heidenhain", "--tool", "R4")
-    made = ["expand", *words, "--inline", "--no-comments", str(tmp_path / "a.h"), "-o", str(new)]
-    done = CliRunner().invoke(main, made)
+    made = ["expand", *words, "--inline", "--no-comments", tmp_path / "a.h", "-o", str(new)]
+    done = call(*made)
     assert (done.exit_code, "3 contours expanded" in done.stderr) == (0, True), done.output
     lines = new.read_text().splitlines()
     at = lines.index("9 L X+226 Y+20 F300")
@@ -130,15 +128,15 @@ def test_klartext_with_labels_and_a_helix_stays_klartext(tmp_path: Path):
     assert lines[at + 8] == "C X+226 Y+20 Z-8 DR+"
     # The arc behind turns about the pole of the program.
     assert lines[lines.index("12 L X+220 Y+20") + 1] == "CC X+220 Y+20"
-    same = CliRunner().invoke(main, ["diff", *words, str(tmp_path / "a.h"), str(new)])
+    same = call("diff", *words, tmp_path / "a.h", str(new))
     assert same.exit_code == 0, same.output
-    done = CliRunner().invoke(main, [*made[:-2], "--post", "fanuc"])
+    done = call(*made[:-2], "--post", "fanuc")
     assert (done.exit_code, "then expand it for fanuc" in done.stderr) == (2, True)
 
 
 def test_an_approach_that_is_not_followed_is_no_entry(tmp_path: Path):
     (tmp_path / "a.h").write_text(CALLED.format("APPR LT X+0 Y+10 LEN10 RL F300 ;"))
-    done = CliRunner().invoke(main, ["check", "--control", "heidenhain", "--tool", "R4", str(tmp_path / "a.h")])
+    done = call("check", "--control", "heidenhain", "--tool", "R4", tmp_path / "a.h")
     assert (done.exit_code, "error[tool-not-followed]: APPR LT in program line 18 leads to" in done.stdout) == (1, True)
 
 
@@ -147,7 +145,7 @@ def test_a_finding_in_another_file_names_the_call_and_the_file(tmp_path: Path):
     (tmp_path / "a.mpf").write_text("\n".join(lines) + "\n")
     (tmp_path / "KONTUR.SPF").write_text("G42 G1 X0 Y-10 F500\nY40 RND=2\nX60\nY-10\nG40 G1 X90 Y-30\nM17\n")
     for words in (["check"], ["expand", "--inline"]):
-        done = CliRunner().invoke(main, [*words, "--control", "siemens-840d", "--tool", "R4", str(tmp_path / "a.mpf")])
+        done = call(*words, "--control", "siemens-840d", "--tool", "R4", tmp_path / "a.mpf")
         assert done.exit_code == 1
         assert "2.0000 mm too small for the cutter R4 (KONTUR.SPF, line 2)\n" in done.output
         assert "a.mpf:5:1\n" in done.output
@@ -182,11 +180,11 @@ def test_facing_and_boring_with_a_tool_of_their_own(tmp_path: Path):
         "[tools]\nT0101 = {radius = 0.8, tip = 3}\nT0202 = {radius = 0.8, tip = 3}\nT0303 = {radius = 0.4, tip = 2}\n"
     )
     words, new = ["--control", "fanuc-lathe", "--tool", "program"], tmp_path / "new.nc"
-    done = CliRunner().invoke(main, ["expand", *words, "--no-comments", str(tmp_path / "a.nc"), "-o", str(new)])
+    done = call("expand", *words, "--no-comments", str(tmp_path / "a.nc"), "-o", str(new))
     assert done.exit_code == 0, done.output
     text = new.read_text()
     # An inside arc of 3 becomes one of 2.2.
     assert "G01 X44.4 Z-20.\nG03 X40. Z-17.8 I0. K2.2\n" in text
     assert "G01 X20. Z-0.8\nG00 X62. Z2.\n" in text
     assert "G03 X22.8 Z-20. I-1.6 K0.\nG01 X18.8 Z-20.\nG01 X17. Z-20.\nG00 Z2. X18.\n" in text
-    assert CliRunner().invoke(main, ["diff", *words, str(tmp_path / "a.nc"), str(new)]).exit_code == 0
+    assert call("diff", *words, str(tmp_path / "a.nc"), str(new)).exit_code == 0

@@ -1,14 +1,12 @@
 """Settings about the tool: what each changes, against numbers of the sheet and by hand."""
 
-import json
 import re
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from calling import call, data
 
-from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
 
 LATHE, MILL = "fanuc-lathe", "fanuc-mill"
@@ -20,12 +18,6 @@ TAPER = "X20. Z0. / G01 X20. Z-10. / X30. Z-20. / X30. Z-30."
 POCKET = "X0 Y0 / G01 X40. Y0 / X40. Y30. / X10. Y30."
 
 
-def call(*words: str | Path) -> Result:
-    done = CliRunner().invoke(main, [str(word) for word in words])
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exc_info
-    return done
-
-
 def asked(tool: str, blocks: str, side: str, control: str, *settings: str) -> list[str]:
     start, *others = blocks.split(" / ")
     words = ["--control", control, "--tool", tool, "--side", side, "--start", start]
@@ -35,7 +27,7 @@ def asked(tool: str, blocks: str, side: str, control: str, *settings: str) -> li
 
 def tool_of(*about: str) -> dict[str, Any]:
     """The tool beside the only contour."""
-    (contour,) = json.loads(call("solve", "--format", "json", *asked(*about)).stdout)["contours"]
+    (contour,) = data("solve", *asked(*about))["contours"]
     return dict(contour["tool"])
 
 
@@ -116,6 +108,7 @@ SETTINGS: list[tuple[str, tuple[str, ...], Any, Any]] = [
     ("end=tip", ("R0.8, tip 3", EDGE, "right", LATHE), (-10.8, 10.0), (-10.0, 10.0)),
     # The tip that is 3 on Fanuc is 2 on LinuxCNC.
     ("numbers=linuxcnc", ("R0.8, tip 2", TAPER, "right", LATHE), (-30.8, 16.6), (-30.8, 15.0)),
+    ("numbers=linuxcnc", ("R0.8, tip 3", TAPER, "right", LATHE), (-30.8, 15.0), (-30.8, 16.6)),
     ("radius=diameter", ("R10", POCKET, "left", MILL), (10.0, 20.0), (10.0, 25.0)),
 ]
 
@@ -149,7 +142,7 @@ def test_the_move_to_the_contour_may_be_an_element_itself(entry: str, blocks: st
     lines = ["G17 G90", f"{start} X0", "G41 D1", *blocks.split("/"), "G40 X40."]
     (tmp_path / "a.nc").write_text("\n".join(lines) + "\n")
     about = ("--control", MILL, "--tool", "R4", "--set", f"{MILL}.tool-entry={entry}", tmp_path / "a.nc")
-    (contour,) = json.loads(call("solve", "--format", "json", *about).stdout)["contours"]
+    (contour,) = data("solve", *about)["contours"]
     begin = {"G00 Y-20.": (-4.0, 0.0), "G00 Y20.": (4.0, 4.0)}.get(start, ())
     begin = (0.0, 4.0) if entry == "square-next" else begin
     assert ends(contour["tool"])[:1] == ([begin] if begin else [])
@@ -194,3 +187,20 @@ def test_all_controls_have_the_settings():
     }
     done = call("check", *asked("R0.8, tip 3", TAPER, "right", LATHE, "intersect-limit=180"))
     assert (done.exit_code, "it is a number from 0 to 179 deg" in done.stderr) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("comment", "setting", "stated"),
+    [
+        ("", "radius", None),
+        ("", "diameter", None),
+        ("(contoursolve tool: R8)\n", "radius", 8.0),
+        ("(contoursolve tool: R8)\n", "diameter", 4.0),
+    ],
+)
+def test_a_radius_that_is_asked_for_is_none_of_a_diameter(comment, setting, stated):
+    """The largest radius is one whatever the setting; what the program states is a radius or a diameter."""
+    text = f"{comment}G17 G90 G00 X-10. Y0\nG01 X0 F300\nX40.\nY30. ,R5.\nX10.\nG00 Y60.\n"
+    about = ("--control", MILL, "--side", "left", "--set", f"{MILL}.tool-radius={setting}")
+    found = data("find", "-", "--word", "tool", *about, stdin=text)
+    assert (found["largest"], found["contours"][0]["stated"]) == (5.0, stated)

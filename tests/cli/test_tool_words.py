@@ -4,9 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
-
-from contoursolve.cli import main
+from calling import call as invoke
 
 MILL = """\
 G21 G17 G90
@@ -44,11 +42,12 @@ PROGRAMS = {"fanuc-mill": MILL, "haas-mill": MILL, "mitsubishi": MILL, "nct-99m"
 R5, NOSE = ("--tool", "R5"), ("--tool", "R0.8", "--tip", "3")
 
 
-def call(command: str, text: str, control: str, *words: str) -> Result:
-    tool = NOSE if control.endswith(("lathe", "lx3")) else R5
-    done = CliRunner().invoke(main, [command, "--control", control, *(words or tool), "-"], input=text)
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exc_info
-    return done
+def call(command, text, control, *words):
+    return invoke(command, "--control", control, *(words or _tool(control)), "-", stdin=text)
+
+
+def _tool(control):
+    return NOSE if control.endswith(("lathe", "lx3")) else R5
 
 
 def program(control: str, *lines: str) -> str:
@@ -91,19 +90,13 @@ REFUSED = [
 @pytest.mark.parametrize(("control", "lines", "told"), REFUSED)
 def test_a_word_that_is_not_followed_leaves_no_path(control: str, lines: tuple[str, ...], told: str):
     text = program(control, *lines)
-    log = json.loads(
-        call("check", text, control).stdout and call("check", text, control, *_tool(control), "--format", "json").stdout
-    )
+    log = json.loads(call("check", text, control, *_tool(control), "--format", "json").stdout)
     (found,) = [each for each in log["diagnostics"] if each["code"] == "tool-not-followed"]
     assert found["message"].startswith(told)
     assert found["severity"] == "error"
     done = call("expand", text, control, *_tool(control), "--inline")
     assert (done.exit_code, done.stdout) == (1, "")
     assert told in done.stderr
-
-
-def _tool(control: str) -> tuple[str, ...]:
-    return NOSE if control.endswith(("lathe", "lx3")) else R5
 
 
 @pytest.mark.parametrize(
@@ -145,7 +138,7 @@ def test_what_is_off_again_and_what_changes_no_offset_is_harmless(control: str, 
 def test_what_adds_to_the_radius_is_followed(control: str, lines: tuple[str, ...], radius: float):
     text = program(control, *lines)
     assert wall(text, control) == pytest.approx(30 + radius)
-    found = CliRunner().invoke(main, ["find", "--word", "tool", "--control", control, "-"], input=text)
+    found = invoke("find", "--word", "tool", "--control", control, "-", stdin=text)
     assert ("adds to the radius, so that no radius is that of the tool alone" in found.stderr) == (radius != 5.0)
     assert ("tool-radius-added" in call("check", text, control).stdout) == (radius != 5.0)
 
@@ -165,7 +158,7 @@ def test_a_radius_in_the_program_against_the_one_that_is_asked_for():
 def test_scaling_is_refused_when_paths_are_compared(tmp_path: Path):
     (tmp_path / "a.nc").write_text(program("fanuc-mill", "G51 X0. Y0. P2000"))
     name = str(tmp_path / "a.nc")
-    done = CliRunner().invoke(main, ["diff", "--control", "fanuc-mill", "--tool", "R5", name, name])
+    done = invoke("diff", "--control", "fanuc-mill", "--tool", "R5", name, name)
     assert done.exit_code == 2
     assert "G51 in program line 3 scales the contour" in done.stderr
 
@@ -211,12 +204,12 @@ def test_a_centre_may_be_absolute(center: str, tmp_path: Path):
     one, other = tmp_path / "one.mpf", tmp_path / "other.mpf"
     one.write_text(text)
     other.write_text(ARC.format("CR=20"))
-    done = CliRunner().invoke(main, ["diff", "--control", "siemens-840d", str(one), str(other)])
+    done = invoke("diff", "--control", "siemens-840d", str(one), str(other))
     assert done.exit_code == 0, done.output
     wrong = ARC.format("I=AC(1)")
     assert (
         "the radius of the arc is"
-        in CliRunner().invoke(main, ["check", "--control", "siemens-840d", "--tool", "R5", "-"], input=wrong).output
+        in invoke("check", "--control", "siemens-840d", "--tool", "R5", "-", stdin=wrong).output
     )
 
 
