@@ -1,5 +1,5 @@
-"""Reading and judging a line or a program takes time by its length: eight times as long, and it takes eight times as
-long, or less.
+"""Reading and judging a line, a program or a chain takes work by its length: eight times as long, and it takes eight
+times the work, or less; and a slip in a long chain is told as in a short one.
 
 What Python does is counted in calls; what a regular expression does within one call shows in processor time alone, of
 which the shortest of several runs counts.
@@ -9,15 +9,13 @@ import random
 import re
 import time
 from collections.abc import Callable
+from functools import partial
 
-import numpy
 import pytest
 from counted import calls
+from long_chains import angles, corners, klartext
 
-from contoursolve import check, expand, parse
-from contoursolve.controls import DIALECTS
-from contoursolve.numeric import modular_rank
-from contoursolve.solving import compile as compile_module
+from contoursolve import DIALECTS, check, expand, parse, solve
 
 TIMES = 8
 """How much longer the long line is than the short one."""
@@ -65,26 +63,10 @@ COMMENTS = {
 }
 """They do not count for the longest block; the long one has 16,000 characters."""
 
-ATOMS = (
-    *("X.", "X1", "X100000", " ", "\t", "(", ")", "(a)", "[", "]", "#1", ";", "?", "(contoursolve:", ",", "..", "--"),
-    *(
-        "N1",
-        "G0",
-        "G111",
-        "G1l",
-        "lO1",
-        "%",
-        "/",
-        "e5",
-        "\u00e9",
-        "=",
-        "K--3.",
-        "(contoursolve: a=",
-        "_ ",
-        "A..",
-        "IF ",
-    ),
+ATOMS = re.findall(
+    r"\S+", "X. X1 X100000 ( ) (a) [ ] #1 ; ? (contoursolve: , .. -- N1 G0 G111 G1l lO1 % / e5 \u00e9 = K--3. _ A.. IF"
 )
+ATOMS += [" ", "\t", "(contoursolve: a="]
 
 
 def line(shape: tuple[str, str, str], length: int) -> str:
@@ -117,14 +99,6 @@ EVERY = [
     *(pytest.param(shape, SHORT, id=name) for name, shape in SHAPES.items()),
     *(pytest.param(shape, 10 * SHORT, id=name) for name, shape in COMMENTS.items()),
 ]
-LONG_JUDGED = (
-    "integers before a comment",
-    "words given many times",
-    "a word given many times",
-    "letters for digits in a contour",
-    "facts",
-)
-"""They have much to tell."""
 
 
 def hold_against_length(shape: tuple[str, str, str], short: int, control: str) -> None:
@@ -136,29 +110,17 @@ def hold_against_length(shape: tuple[str, str, str], short: int, control: str) -
     assert much <= 3 * TIMES * little + 0.005, texts[0]
 
 
-@pytest.mark.parametrize(
-    ("shape", "short"),
-    [pytest.param(*each.values, id=each.id, marks=[pytest.mark.slow] * (each.id in LONG_JUDGED)) for each in EVERY],
-)
-def test_time_goes_by_the_length_of_a_line(shape, short):
-    hold_against_length(shape, short, "yasnac-lx3")
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(("shape", "short"), EVERY)
-def test_time_goes_by_the_length_of_a_line_of_chains(shape, short):
-    hold_against_length(shape, short, "nct-99m")
-    texts = line(shape, short), line(shape, TIMES * short)
-    little, much = (seconds(lambda text=text: analyse(text, "nct-99m")) for text in texts)
-    assert much <= 3 * TIMES * little + 0.005
+@pytest.mark.parametrize("control", ["yasnac-lx3", "nct-99m"])
+def test_work_goes_by_the_length_of_a_line(shape, short, control):
+    hold_against_length(shape, short, control)
 
 
-@pytest.mark.slow
-def test_time_goes_by_the_length_of_a_line_of_any_atoms():
-    draw = random.Random(15)
-    for _ in range(40):
-        head, unit, tail = ("".join(draw.choices(ATOMS, k=draw.choice((0, 1, 1, 2, 3)))) for _ in range(3))
-        hold_against_length((head, unit or " ", tail), SHORT, draw.choice(("yasnac-lx3", "nct-99m")))
+@pytest.mark.parametrize("seed", range(20))
+def test_work_goes_by_the_length_of_a_line_of_any_atoms(seed):
+    draw = random.Random(seed)
+    head, unit, tail = ("".join(draw.choices(ATOMS, k=draw.choice((0, 1, 1, 2, 3)))) for _ in range(3))
+    hold_against_length((head, unit or " ", tail), SHORT, draw.choice(("yasnac-lx3", "nct-99m")))
 
 
 # Programs ------------------------------------------------------------------------------------------------------------
@@ -181,15 +143,15 @@ CORNER = {
 
 @pytest.mark.parametrize(("control", "line"), QUIET.values(), ids=QUIET)
 @pytest.mark.parametrize("place", [0, 1, 2, 3])
-def test_time_goes_by_the_number_of_lines_that_say_nothing(control, line, place):
+def test_work_goes_by_the_number_of_lines_that_say_nothing(control, line, place):
     """A program that is read as a stream. It waited for the next line that says something once for each of them."""
 
-    def solve(count: int) -> None:
+    def act(count: int) -> None:
         lines = [f"{each}\n" for each in CORNER[control]]
         expand("".join((*lines[:place], line * count, *lines[place:])), control=control)
 
-    solve(1)
-    few, many = (calls(lambda count=count: solve(count)) for count in (SHORT // 2, TIMES * SHORT // 2))
+    act(1)
+    few, many = (calls(lambda count=count: act(count)) for count in (SHORT // 2, TIMES * SHORT // 2))
     assert many <= 1.2 * TIMES * few
 
 
@@ -209,32 +171,6 @@ def pairs(count: int, code: str) -> str:
     return head + "".join(texts) + f"{'Z' if code == 'fanuc-lathe' else 'X'}{17.3205 * count + 30:.4f}\n"
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("control", ["nct-99m", "siemens-840d", "fanuc-lathe"])
-def test_time_goes_by_the_number_of_angle_pairs(control, monkeypatch):
-    """What Python does goes by their number, and no matrix that is decomposed grows with it. Each spare fact was held
-    against all facts before it."""
-    sizes = []
-    for name in ("svd", "lstsq", "pinv"):
-        act = getattr(numpy.linalg, name)
-
-        def sized(matrix, *rest, act=act, **settings):
-            sizes.append(max(matrix.shape))
-            return act(matrix, *rest, **settings)
-
-        monkeypatch.setattr(numpy.linalg, name, sized)
-
-    def steps(count: int) -> tuple[int, int]:
-        sizes.clear()
-        made = calls(lambda: check(pairs(count, control), control=control))
-        return made, max(sizes, default=0)
-
-    steps(2)
-    (few, small), (many, large) = steps(4), steps(16)
-    assert many <= 1.2 * 4 * few
-    assert large <= small
-
-
 ROWS = {
     "fanuc-mill": ("G17 G90 G00 X0. Y0.\nG01 F500.\n", "X{at}. ,R0.001\n"),
     "fanuc-lathe": ("G00 X40. Z0.\nG01 F500.\n", "Z-{at}. ,R0.001\n"),
@@ -245,34 +181,10 @@ ROWS = {
 """Lines that go on straight ahead, each with a corner behind it that is none."""
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("control", ROWS)
-def test_time_goes_by_the_number_of_corners_that_are_none(control, monkeypatch):
-    """Every repair of one corner was solved as a whole, although all others were there still."""
+def straight(count: int, control: str) -> str:
     head, line = ROWS[control]
-    compiled = []
-    real = compile_module._compile
-
-    def counted(builder):
-        compiled.append(len(builder.system.figure.path))
-        return real(builder)
-
-    monkeypatch.setattr(compile_module, "_compile", counted)
-
-    def steps(count: int) -> int:
-        lines = [line.format(at=at) for at in range(1, count + 2)]
-        text = head + "".join(lines)[: -len(lines[-1])] + re.split(r" ,R| RND|\nRND", lines[-1])[0] + "\n"
-        told = []
-        compiled.clear()
-        made = calls(lambda: told.extend(check(text, control=control)))
-        assert len(told) == count
-        assert {each.about.value for each in told} <= {"corner-dropped", "corner-straight"}
-        assert len([size for size in compiled if size > count / 2]) <= (2 if count > 12 else 12)
-        return made
-
-    steps(12)
-    few, many = steps(20), steps(80)
-    assert many <= 1.2 * 4 * few
+    lines = [line.format(at=at) for at in range(1, count + 2)]
+    return head + "".join(lines)[: -len(lines[-1])] + re.split(r" ,R| RND|\nRND", lines[-1])[0] + "\n"
 
 
 def increments(count: int, code: str) -> str:
@@ -285,40 +197,94 @@ def increments(count: int, code: str) -> str:
     return head + "".join(pair.format(size=20 if each == count // 2 else 1) for each in range(count))
 
 
+def lacking(count: int) -> str:
+    """Every second line lacks its length: each word that could be added was held against all."""
+    return "L X+0 Y+0 R0 F500\n" + "".join(f"FL AN{30 * (-1) ** at:+d}{' LEN20' * (at % 2)}\n" for at in range(count))
+
+
+CHAINS = {
+    "FK, a word twice": ("heidenhain", lambda size: klartext(size, "twice"), "heidenhain-repeated", 24),
+    "FK, a word that disagrees": ("heidenhain", lambda size: klartext(size, "disagrees"), "words-conflict", 24),
+    "FK, a word missing": ("heidenhain", lambda size: klartext(size, "missing"), "words-missing", 24),
+    "FK, many words missing": ("heidenhain", lacking, "words-missing", 10),
+    "NCT, an angle reversed": ("nct-99m", lambda size: angles(size, "reversed"), "nct-reversed", 24),
+    "NCT, a corner too large": ("nct-99m", lambda size: angles(size, "large"), "nct-corner-too-large", 24),
+    "NCT, an angle twice": ("nct-99m", lambda size: angles(size, "twice"), "address-repeated", 24),
+    "no corner on a line": ("siemens-840d", lambda size: corners(size, "siemens-840d", 0.0), "siemens-corner", 96),
+    "corners": ("nct-99m", lambda size: corners(size, "nct-99m"), "", 24),
+    **{
+        f"{control}, pairs": (
+            control,
+            lambda size, control=control: pairs(size, control),
+            f"{name}-corner-too-large",
+            4,
+        )
+        for control, name in (("nct-99m", "nct"), ("siemens-840d", "siemens"), ("fanuc-lathe", "fanuc"))
+    },
+    **{
+        f"{control}, increments": (control, lambda size, control=control: increments(size, control), "", 12)
+        for control in ("nct-99m", "fanuc-lathe")
+    },
+    **{
+        f"{control}, straight": (control, lambda size, control=control: straight(size, control), "", 20)
+        for control in ROWS
+    },
+}
+"""Controls, chains of so many elements, what is told first, and how many elements the short one has."""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("control", ["nct-99m", "fanuc-lathe"])
-def test_time_goes_by_the_number_of_pairs_that_are_refused(control):
-    def steps(count: int) -> int:
-        told = []
-        made = calls(lambda: told.extend(check(increments(count, control), control=control)))
-        assert len([each for each in told if each.is_error]) >= count
-        return made
-
-    steps(2)
-    few, many = steps(12), steps(48)
-    assert many <= 1.5 * 4 * few
+@pytest.mark.parametrize("name", CHAINS)
+def test_a_chain_four_times_as_long_takes_about_four_times_the_work(name):
+    control, chain, code, size = CHAINS[name]
+    found = check(chain(8), control=control)
+    assert not code or found[0].code.startswith(code)
+    short, long = (calls(partial(check, chain(each), control=control)) for each in (size, 4 * size))
+    assert long <= (1.5 if "increments" in name else 1.3) * 4 * short
 
 
-def test_what_lacks_many_words_is_not_asked_word_by_word(monkeypatch):
-    """Of a chain in which every second line lacks its length, each word that could be added was held against all."""
-    ranks = []
-    real = modular_rank.exact_rank
-    monkeypatch.setattr(modular_rank, "exact_rank", lambda *given: ranks.append(given) or real(*given))
+def led(steps: int) -> str:
+    """A program that goes to 0, 0 in so many steps, far from what follows."""
+    lines = [f"X{-10 * at}. Y{-10 * at}.\nX{-10 * at - 10}.\n" for at in range(steps, 0, -1)]
+    return f"G17 G90 G00 X{-10 * steps - 20}. Y{-10 * steps - 10}.\nG01 F500.\n{''.join(lines)}X0. Y0.\n"
 
-    def asked(count: int) -> int:
-        lines = [f"FL AN{30 * (-1) ** at:+d}{' LEN20' if at % 2 else ''}\n" for at in range(count)]
-        ranks.clear()
-        (finding,) = [
-            each for each in check("L X+0 Y+0 R0 F500\n" + "".join(lines), control="heidenhain") if each.is_error
+
+SLIPS = [
+    "X40. ,R{}.\nX60. Y30. ,C2.\nX90. Y40.",
+    "X40. ,C3.\nY30. ,R{}.\nX60. ,R2.\nY90.",
+    "X40. ,R3.\nX60. Y30. ,C{}.\nX90. Y40. ,R1.\nY80.",
+    "X40. Y5. ,R{0}.\nY45. ,R{0}.\nX90.",
+    "X30. ,R5.\nG03 X40. Y10. R10. ,R{}.\nG01 X10.",
+]
+
+
+@pytest.mark.parametrize("slip", SLIPS)
+@pytest.mark.parametrize("size", [2, 8, 19, 21, 30, 60])
+@pytest.mark.parametrize("control", ["fanuc-mill", "nct-99m", "mitsubishi"])
+def test_a_slip_in_a_long_chain_is_told_as_in_a_short_one(slip, size, control):
+    """With the same words marked, and the same fixes; only what lies near is solved anew for each of them."""
+
+    end = re.findall(r"[XY]-?\d+", slip)[-1][0]
+    other = "XY"[end == "X"]
+
+    def told(steps: int) -> list[object]:
+        head, behind = led(steps), "".join(f"\n{other}{200 + at}.\n{end}{200 + at}." for at in range(0, 10 * steps, 10))
+        found = solve(head + slip.format(size) + behind, control=control)
+        findings = [
+            (
+                each.code,
+                each.span.line - head.count("\n"),
+                each.span.column,
+                [fix.replacement for fix in each.fixes[:3]],
+            )
+            for each in found.diagnostics
         ]
-        assert finding.code == "words-missing"
-        return len(ranks)
+        return [findings, found.answers[0].status]
 
-    asked(4)
-    assert asked(40) <= asked(20) <= 8
+    assert told(30) == told(1)
 
 
-@pytest.mark.parametrize("is_ahead", [True, pytest.param(False, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("is_ahead", [True, False])
 def test_a_slip_costs_as_much_beside_many_contours_as_beside_few(is_ahead):
     """What an edit cannot change is not examined again, and blocks far away are not looked at."""
     start, taper = "G00 X40. Z0.\n", "G111 X100. A180. K-30. B120.{more}\n"
