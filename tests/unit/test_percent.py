@@ -38,7 +38,7 @@ def outside(kinds):
 
 @pytest.mark.parametrize("control", ["yasnac-lx3", "nct-99m", None])
 def test_the_first_line_outside_is_named_on_either_side(control):
-    for kinds, text in programs(200):
+    for kinds, text in programs(60):
         every = contoursolve.check(text, control=control, strict=True)
         found = [each for each in every if each.code == "text-outside"]
         told = {each.message.split()[3]: each.span.line for each in found}

@@ -2,8 +2,7 @@
 
 import pytest
 
-from contoursolve import UnknownControlError, check, expand, solve
-from contoursolve.program.open_program import OpenProgram
+from contoursolve import OpenProgram, UnknownControlError, check, expand, solve
 
 TURNED_PLAIN = "G0 X20. Z-1.\nG1 X9. F0.2\nG1 Z9. F0.03\nG1 X14. K0.3\nG1 Z16. R0.4\nG1 X20.\nG0 X30.\nM30"
 FIRST = "O0101\nG99 G21\nT0101\nG96 S180 M03\nG00 X32. Z2.\nG01 Z0. F0.2\nX20. ,C1.\nZ-20. ,R2.\nX30.\nM30"
@@ -44,21 +43,27 @@ def test_a_program_that_all_its_controls_read_alike_is_solved_and_the_first_is_n
     assert findings_of(OpenProgram(program)) == found.diagnostics
 
 
-def test_what_each_control_makes_of_a_program_that_they_read_differently_is_told():
-    # Haas mills make corners between lines alone; in the others the radius is too small.
+@pytest.mark.parametrize(
+    ("program", "told"),
+    [
+        # Haas mills make corners between lines alone; in the others the radius is too small.
+        ("G00 X50. Y0\nG02 X80. Y30. R10. F200 ,R3.\nG01 Y60.\nX0\nM30",
+         ["the controls read program lines 2 to 3 differently", "  nct-99m, fanuc-mill and mitsubishi: R10.: ",
+          "  haas-mill: X80., Y30., R10. and ,R3.: this control makes corners between lines alone"]),
+        # Where readers end at the same place, a point in which they differ is named.
+        ("G99 G18\nT0101\nG0 X40. Z0.\nG1 Z-40. ,R5. F.2\nX80. ,C1.\nZ-60.\nM30",
+         ["the controls read program lines 4 to 6 differently",
+          "  nct-99m, fanuc-mill, haas-mill and mitsubishi: passes Z-40.0000 X45.0000",
+          "  fanuc-lathe and haas-lathe: passes Z-40.0000 X50.0000"]),
+        # An axis that another control reads as an angle.
+        ("G17 G90 G00 X0 Y0\nG01 X50. A30.\nX80. ,R2.\nY60.\nM30", ["the controls read program line 2 differently"]),
+    ],
+)  # fmt: skip
+def test_what_each_control_makes_of_a_program_that_they_read_differently_is_told(program, told):
     with pytest.raises(UnknownControlError) as caught:
-        check("G00 X50. Y0\nG02 X80. Y30. R10. F200 ,R3.\nG01 Y60.\nX0\nM30")
-    told = str(caught.value)
-    first, others, haas = told.splitlines()
-    assert first == "the controls read program lines 2 to 3 differently"
-    assert others.startswith("  nct-99m, fanuc-mill and mitsubishi: R10.: the radius")
-    assert haas.startswith("  haas-mill: X80., Y30., R10. and ,R3.: this control makes corners between lines alone")
-    assert caught.value.choices == ("nct-99m", "fanuc-mill", "haas-mill", "mitsubishi")
-
-
-def test_an_axis_that_another_control_reads_as_an_angle_is_asked_about():
-    with pytest.raises(UnknownControlError, match=r"the controls read program lines? .* differently"):
-        check("G17 G90 G00 X0 Y0\nG01 X50. A30.\nX80. ,R2.\nY60.\nM30")
+        check(program)
+    lines = str(caught.value).splitlines()
+    assert [line[: len(start)] for line, start in zip(lines, told, strict=False)] == told
 
 
 def test_all_lathes_refuse_two_corners_in_one_block():
@@ -138,11 +143,3 @@ def test_an_edit_may_make_a_lathe_a_mill():
     assert [each.code for each in findings_of(opened)] == ["machine-taken"]
     opened.replace(GROOVE.replace("N30 Z-20", "N30 Y-20"))
     assert "machine-taken" not in {each.code for each in findings_of(opened)}
-
-
-def test_where_readers_end_at_the_same_place_the_message_names_a_point_in_which_they_differ():
-    with pytest.raises(UnknownControlError) as told:
-        solve("G99 G18\nT0101\nG0 X40. Z0.\nG1 Z-40. ,R5. F.2\nX80. ,C1.\nZ-60.\nM30")
-    _, mills, lathes = str(told.value).splitlines()
-    assert mills.endswith("mitsubishi: passes Z-40.0000 X45.0000")
-    assert lathes.endswith("fanuc-lathe and haas-lathe: passes Z-40.0000 X50.0000")

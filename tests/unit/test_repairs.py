@@ -286,3 +286,26 @@ def test_a_corner_far_from_the_mistake_is_not_touched():
             if len({each.partition(",")[2] for each in lines}) > 1
         ]
         assert all(abs(number - line) <= 1 for number in changed)
+
+
+MILL = "G17 G90 G0 X0 Y0\n"
+
+
+@pytest.mark.parametrize(
+    ("control", "program", "told"),
+    [
+        ("fanuc-lathe", "G0 X20. Z0.\nG1 Z-20. ,R30.\nX60.", {"limit": 20.0}),
+        ("nct-99m", MILL + "G1 X30 ,C31\nX40 Y40", {"limit": 30.0}),
+        # The largest is no decimal: 20 is sqrt(2) times it.
+        ("fanuc-lathe", "G0 X20. Z0.\nG1 Z-20. ,C31.\nX40. Z-30.", {"limit": 14.142135624}),
+        # Each of two keeps the other one's room.
+        ("nct-99m", MILL + "G1 X30 ,C20\nY30 ,C20\nX60", {"limit_first": 10.0, "limit_second": 10.0}),
+        # The second takes all of the line, so both must come down.
+        ("nct-99m", MILL + "G1 X60 ,C20\nY30 ,C30\nX120", {"together": 15.0}),
+        # An arc before the corner: what is left does not fall linearly, and ends where no rounding touches both.
+        ("nct-99m", MILL + "G1 X50 Y0 ,R90\nG3 X-50 Y0 R50", {"limit": 25.0}),
+    ],
+)
+def test_what_fits_is_told_to_the_last_digit(control, program, told):
+    (finding, *_) = [each for each in solve(program, control=control, rules="off").diagnostics if each.is_error]
+    assert {name: finding.values[name] for name in told} == pytest.approx(told, abs=1e-8)
