@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 from editor import Editor, Served, applied, edits_of, in_editor, random_edit, types
-from vectors import program_of
 
 import contoursolve
 from contoursolve import DIALECTS, Severity, end_text, solve
@@ -325,16 +324,6 @@ def test_a_hover_does_not_wait_for_the_end_of_a_long_program(served):
     served(use)
 
 
-def test_a_hover_does_not_wait_for_a_program_that_runs(served):
-    async def use(editor: Editor) -> None:
-        one = "#1={}.\nG00 X#1 Z0.\nG111 X100. A180. K-3{}. B120. P5. Q5.\n"
-        editor.open(SHAFT, "".join(one.format(40 + n % 7, n % 10) for n in range(2_000)))
-        assert (await hovered(editor, SHAFT, 5_997, 20)).endswith("not known yet: 0 of 6001 lines are examined.")
-        assert SHAFT not in editor.statuses
-
-    served(use)
-
-
 def explored(notebook: str) -> tuple[str, dict[str, Any]]:
     """The program and the options that a notebook asks for."""
     code = json.loads(notebook)["cells"][0]["source"]
@@ -353,21 +342,6 @@ def test_a_notebook_explores_the_contour_with_the_modal_codes_before_it(served):
         (answer,) = solve(text, **options).answers
         (wanted,) = solve(INCREMENTAL, control="fanuc-mill").answers
         assert end_text(answer) == end_text(wanted) == "X5.00000 Y6.00000"
-
-    served(use)
-
-
-WITH_A_POLE = program_of("heidenhain", "right-042")
-
-
-def test_a_notebook_has_all_of_the_program_where_a_contour_cannot_stand_alone(served):
-    async def use(editor: Editor) -> None:
-        editor.open(SHAFT, WITH_A_POLE)
-        found = await run(editor, "explore", SHAFT, 5)
-        text, options = explored(found["notebook"])
-        explorer = contoursolve.explore(text, **options)
-        assert (explorer.answer.lines, explorer.view["status"]["text"]) == (tuple(range(4, 10)), "solved")
-        assert explorer.text == WITH_A_POLE
 
     served(use)
 
@@ -474,20 +448,6 @@ def test_completions_are_the_words_that_the_block_may_still_take(served):
             )
         )
         assert [each.label for each in help_.signatures] == ["A135. K-10. B120. U40. P Q C D"]
-
-    served(use)
-
-
-def test_signatures_are_the_sets_of_words_that_complete_a_block(served):
-    async def use(editor: Editor) -> None:
-        editor.open(SHAFT, "G00 X40. Z0.\nG111 A135. B180. Z-40. \n")
-        help_ = await editor.ask(
-            editor.client.text_document_signature_help_async(
-                types.SignatureHelpParams(**about(editor, SHAFT, at(2, 24)))
-            )
-        )
-        assert [each.label for each in help_.signatures] == [f"A135. B180. Z-40. {word}" for word in "XUIK"]
-        assert help_.signatures[2].parameters[0].documentation.startswith("X distance")
 
     served(use)
 

@@ -110,9 +110,9 @@ def test_a_trusted_word_of_a_damaged_program_is_in_every_fix(seed):
     words = [word for each in result.answers if each.diagnostics for word in each.claim.words.values()]
     # A word with a variable is trusted as it is typed.
     words = [each for each in words if times(each, text, result.program.syntax)]
-    if not words:
-        pytest.skip("no contour with findings has a word to trust")
-    word = draw.choice(words)
+    word = draw.choice(words or [None])
+    if word is None:  # no contour with findings has a word to trust
+        return
     for finding in solve(text, control=control, trust=word.text).diagnostics:
         for fix in finding.fixes:
             old, new = (times(word, each, result.program.syntax) for each in (fix.replaced, fix.replacement))
