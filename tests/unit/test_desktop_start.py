@@ -47,13 +47,9 @@ def test_a_command_stays_and_files_open_the_workbench(home, given, expected):
 @pytest.mark.skipif(sys.platform == "win32", reason="the documents of this user, whatever the home folder")
 def test_a_double_click_opens_the_documents_and_a_terminal_its_folder(home):
     program = home / "contoursolve" / "contoursolve"
-    for here, folder in [
-        (home / "Programme", home / "Programme"),
-        (program.parent, home / "Documents"),
-        (home, home / "Documents"),
-        (Path(home.anchor), home / "Documents"),
-    ]:
-        assert start.arguments([], here, program) == ["serve", str(folder)]
+    documents, programs = home / "Documents", home / "Programme"
+    found = [start.arguments([], here, program) for here in (programs, program.parent, home, Path(home.anchor))]
+    assert found == [["serve", str(each)] for each in (programs, documents, documents, documents)]
     home.joinpath("Dokumente").mkdir()
     home.joinpath(".config").mkdir()
     settings = 'XDG_DESKTOP_DIR="$HOME/Schreibtisch"\nXDG_DOCUMENTS_DIR="$HOME/Dokumente"\n'

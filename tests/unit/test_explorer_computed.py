@@ -1,11 +1,10 @@
 """Words whose values are variables or expressions: the explorer leaves them, and every other character, as they are."""
 
 import pytest
+from test_explorer import Talk
 
 import contoursolve
-from contoursolve.notebook import exploration as explore
-from contoursolve.notebook.exploration_view import frames_of, range_of, view_of
-from contoursolve.workbench.desk import Desk
+from contoursolve.workbench import Desk
 
 PROGRAMS = {
     "fanuc-lathe": [
@@ -90,51 +89,44 @@ PROGRAMS = {
 CASES = [pytest.param(name, *each, id=f"{name}-{at}") for name, own in PROGRAMS.items() for at, each in enumerate(own)]
 
 
-def check_only_changed(now, moved, words):
-    """Nothing but these words, none of which stands twice in a line outside of a comment, has another text."""
-    old, new = now.text.split("\n"), moved.text.split("\n")
-    assert len(old) == len(new)
-    written = explore.words_of(moved.answer)
-    for number, (before, after) in enumerate(zip(old, new, strict=True), 1):
-        wanted = before
-        for key, word in words.items():
-            if word.span.line == number:
-                assert word.text in wanted
-                wanted = wanted.replace(word.text, written[key].text, 1)
-        assert after == wanted
-
-
 def begun(control, text):
     line = contoursolve.solve(text, control=control).answers[0].lines[0]
-    return explore.begin(text, line=line, control=control)
+    return Talk(text, line=line, control=control)
+
+
+def assert_only_changed(text, now, words):
+    """Nothing but these words, none of which stands twice in a line outside of a comment, has another text."""
+    pairs = list(zip(text.split("\n"), now.text.split("\n"), strict=True))
+    changed = [(old, new) for old, new in pairs if old != new]
+    for key, word in words.items():
+        typed = now.field(key)["word"]
+        changed = [(old.replace(word, typed, 1) if word in old else old, new) for old, new in changed]
+    assert [(old, new) for old, new in changed if old != new] == []
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("control", "text", "computed"), CASES)
 def test_a_word_with_a_variable_stays_and_moves_of_others_keep_every_character(control, text, computed):
     now = begun(control, text)
-    fields = {each["key"]: each for each in view_of(now)["fields"]}
-    words = explore.words_of(now.answer)
-    movable = {key: words[key] for key in fields if key not in computed}
-    assert movable
+    fields = {each["key"]: each for each in now.view["fields"]}
+    movable = {key: each["word"] for key, each in fields.items() if key not in computed}
+    assert len(movable) >= 1
     assert {key: each["word"] for key, each in fields.items() if each["state"] == "computed"} == computed
-    assert computed.keys().isdisjoint(explore.values_of(now))
-    assert computed.keys().isdisjoint(frames_of(now))
+    assert computed.keys() & now.view["frames"].keys() == set()
+    assert {key for handle in now.view["handles"] for key in handle["keys"]} & computed.keys() == set()
     for key, typed in computed.items():
         assert fields[key]["reason"].startswith(f"{typed} takes its value from ")
-        for change in (lambda key=key: explore.set_word(now, key, 7.5), lambda key=key: explore.free(now, key)):
-            with pytest.raises(ValueError, match="change that in the program"):
-                change()
-    assert not {key for handle in view_of(now)["handles"] for key in handle["keys"]} & computed.keys()
+        for action in ({"do": "move", "values": {key: 7.5}}, {"do": "free", "key": key}):
+            now.own.answer(action)
+            assert (now.text, now.view["trouble"][-28:]) == (text, "; change that in the program")
     for key, word in movable.items():
-        check_only_changed(now, explore.set_word(now, key, fields[key]["value"] + 1), {key: word})
-        free = explore.free(now, key)
-        check_only_changed(now, free, {key: word})
-        assert explore.words_of(free.answer)[key].is_asked
+        assert_only_changed(text, now.do("move", values={key: fields[key]["value"] + 1}), {key: word})
+        assert_only_changed(text, now.do("undo").do("free", key=key), {key: word})
+        assert (now.field(key)["state"], now.do("undo").text) == ("free", text)
     several = {key: fields[key]["value"] + 0.5 for key in movable if key != "Q"}
-    moved = explore.set_words(now, several)
-    check_only_changed(now, moved, {key: movable[key] for key in several})
-    assert several.items() <= explore.values_of(moved).items()
+    now.do("move", values=several)
+    assert_only_changed(text, now, {key: movable[key] for key in several})
+    assert {key: now.field(key)["value"] for key in several} == pytest.approx(several)
 
 
 def test_the_page_writes_beside_a_variable_and_marks_whole_words():
@@ -156,11 +148,9 @@ def test_the_page_writes_beside_a_variable_and_marks_whole_words():
     assert "edits" not in refused
 
 
-@pytest.mark.slow
+@pytest.mark.boundary
 def test_a_range_beside_a_variable_is_that_of_the_whole_program():
     now = begun("fanuc-lathe", PROGRAMS["fanuc-lathe"][0][0])
-    found = range_of(now, next(each for each in view_of(now)["fields"] if each["key"] == ",C"))
-    least, most = found["intervals"][0]
-    for value, is_solved in ((most - 0.01, True), (most + 0.01, False)):
-        assert (explore.set_word(now, ",C", value).answer.contour is not None) is is_solved
+    least, most = now.range(",C")["intervals"][0]
     assert least == 0
+    assert [now.has_contour(",C", value) for value in (most - 0.01, most + 0.01)] == [True, False]
