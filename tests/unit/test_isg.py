@@ -144,12 +144,6 @@ def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
     assert result.answers[0].contour is None
 
 
-def test_words_with_a_number_sign_show_the_control():
-    for name in (name for name in VECTORS[ISG] if name.startswith("IS-")):
-        assert solve(program_of(ISG, name)).control == ISG, name
-    assert solve(MILL + "G1 X30 # CHR = 2\nY40").control == ISG
-
-
 # Planes, diameters and settings -------------------------------------------------------------------------------------
 
 
@@ -239,12 +233,6 @@ def test_a_stored_size_stays_until_another_one_is_given():
     refused(later.replace(" I5", ""), "isg-corner-size", "20012")
 
 
-def test_a_stored_size_that_does_not_fit_is_named():
-    result = isg(MILL + "G1 X30\nG302 I5\nY30\nG302\nX32")
-    (finding,) = [each for each in result.diagnostics if each.severity.value == "error"]
-    assert "I5" in finding.message
-
-
 def test_a_corner_block_moves_nothing_and_keeps_the_motion():
     text = MILL + "G91 G1 X30\nG302 I5\nY30\nG301 I3\nX30\nG3 X10 Y10 I0 J10\nG302 I1\nG1 X-40"
     assert ends(text)[-1] == pytest.approx(30 + 40j)
@@ -264,13 +252,6 @@ def test_a_corner_block_may_say_more_and_a_word_and_a_block_are_one_too_many():
         refused(MILL + f"G1 X30\n{block}\nG1 Y30", "isg-corner-crowded")
     refused(MILL + "G1 X30\nG302 G301 I2\nG1 Y30", "isg-corner-both", "20130")
     assert ends(MILL + "G1 X30\nN5 G302 I2 F100 M8\nG1 Y30") == ends(MILL + "G1 X30\nG302 I2\nG1 Y30")
-
-
-def test_a_stream_gives_what_the_whole_program_gives():
-    text = MILL + "G1 X30\nG302 I5\nX30 Y30\nX60 Y30\nG301\nX60 Y60\nX70\nM30\n"
-    lines = [line for line in expand(text, control=ISG).text.splitlines() if line[0] != "("]
-    assert not any("G30" in line for line in lines)
-    assert lines[1:7] == ["G01 X25 Y0", "G03 X30 Y5 I0 J5", "G01 X30 Y30", "G01 X55 Y30", "G01 X60 Y35", "G01 X60 Y60"]
 
 
 # Expansion ----------------------------------------------------------------------------------------------------------
