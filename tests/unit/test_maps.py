@@ -266,17 +266,6 @@ def assert_names_stand_in_their_fields(picture, name):
             assert solved.all() if text.words == "solved" else not solved.any(), text
 
 
-@pytest.mark.parametrize("name", REGIONS)
-@pytest.mark.parametrize("counts", [(61, 61), (140, 90)])
-def test_names_of_maps_stand_in_their_fields_and_never_where_there_is_a_contour(name, counts):
-    block, box, options = BOXES[name]
-    # Values in the middles of the cells, so that the whole plane is the box.
-    shares = [(numpy.arange(count) + 0.5) / count for count in counts]
-    cells = [low + share * (high - low) for (low, high), share in zip(box.values(), shares, strict=True)]
-    family = contoursolve.family(block, vary=dict(zip(box, cells, strict=True)), **options)
-    assert_names_stand_in_their_fields(draw_family_map(family), name)
-
-
 def test_a_map_of_many_even_values_has_even_axes_and_counts_all_of_them():
     values = {"A": numpy.linspace(150, 210, 401), "P": numpy.linspace(1, 60, 57)}
     family = contoursolve.family(BLOCK, start=START, vary=values)
@@ -447,17 +436,6 @@ def test_a_page_asks_no_other_host_and_lets_nothing_out_of_its_texts():
         assert "stolen" not in "".join(told for _, told in found.scripts)
         assert set(re.findall(r"https?://[^\"' )]+", text)) <= {"http://www.w3.org/2000/svg"}
     assert "default-src 'none'" in unescape(page)
-
-
-@pytest.mark.slow
-def test_a_map_of_long_contours_holds_fewer_of_them():
-    steps = "\n".join(f"G1 X{number} Y{number % 2} ,R0.1" for number in range(1, 40))
-    chain = f"G17 G0 X0 Y0\n{steps}\nG1 X70 Y30"
-    vary = {"2:,R": numpy.linspace(0.01, 0.2, 60), "41:Y": numpy.linspace(20, 40, 60)}
-    data = data_of(contoursolve.map_page(contoursolve.family(chain, control="nct-99m", vary=vary)))
-    assert len(json.dumps(data["frames"])) <= 400_000
-    assert 20 <= len(data["frames"]) < 1000
-    assert f"of {len(data['columns'])} by {len(data['rows'])} values, the map has 60 by 60" in data["note"]
 
 
 @pytest.mark.parametrize("name", PAGES)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from oracle_mitsubishi import FORMS, random_block
 from vectors import VECTORS, ends as ends_of, program_of
 
-from contoursolve import DIALECTS, UnknownControlError, expand, solve
+from contoursolve import DIALECTS, UnknownControlError, solve
 
 VERTEX, CROSSING, ARCS, LEVER = (program_of("mitsubishi", name) for name in ("MI-G2", "MI-G3-H0", "MI-G5", "MI-G6"))
 MILL = "G17 G90 G00 X0 Y0\n"
@@ -170,11 +170,6 @@ def test_a_full_circle_is_one_unless_what_follows_shows_that_it_is_none():
     assert "mitsubishi-no-full-circle" in {each.code for each in mitsubishi(ARCS).diagnostics}
     assert mitsubishi(ARCS, arc_without_end="circle").answers == ()
     assert ends(LEAVING) == ends(LEAVING, arc_without_end="circle", angle_word="A")
-
-
-def test_what_is_written_out_has_diameters_where_x_is_one():
-    corner = "G18 G90 G00 X20. Z10.\nG01 A70.\nX50. Z80. A-30."
-    assert "X50 Z80" in expand(corner, control="mitsubishi", settings={"mitsubishi.diameter": "on"}).text
 
 
 def test_h_beside_an_arc_shows_the_control_and_other_words_do_not():

@@ -101,20 +101,6 @@ def test_an_arc_of_a_lathe_with_centre_and_radius_does_not_show_a_mill(arc):
     assert solve(f"G00 X40. Z0.\nG111 A180. K-30. B120. X100.\nG1 X30. Z0.\n{arc}").control == "yasnac-lx3"
 
 
-@pytest.mark.parametrize("rules", ["enforce", "off"])
-@pytest.mark.parametrize(
-    "text",
-    [
-        FROM_CIRCLE + "G1 X-50 ,A171.87 Q-1",
-        LINES.replace(",A150", ",C5"),
-        LINES.replace("G41 ", "").replace("G1 X10", "G41 G1 X10"),
-        "G17 G90 G41 G0 X90 Y10\nG91 G3 X-50 Y0 I0 J0 R50",
-    ],
-)
-def test_what_is_refused_here_is_verified(text, rules):
-    assert is_verified(text, solve(text, control="nct-99m", rules=rules))
-
-
 # Where compensation is on (3) -------------------------------------------------------------------------------
 
 

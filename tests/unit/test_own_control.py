@@ -2,7 +2,7 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from inspect import isfunction, signature
+from inspect import signature
 from pathlib import Path
 
 import pytest
@@ -58,12 +58,6 @@ def test_the_rows_of_the_control_itself_come_first_and_a_missing_one_is_named():
     rules = tuple(rule for rule in MINE.rules if rule.about is not RefusalKind.LINES_PARALLEL)
     with pytest.raises(LookupError, match=r"no row about RefusalKind.LINES_PARALLEL; .*GEOMETRY_RULES"):
         contoursolve.check(PARALLEL, control=replace(MINE, rules=rules))
-
-
-def test_every_public_function_with_a_control_says_that_it_takes_tables():
-    functions = [each for name in contoursolve.__all__ if isfunction(each := getattr(contoursolve, name))]
-    controls = [signature(each).parameters.get("control") for each in functions]
-    assert {str(each.annotation).count("Dialect") for each in controls if each} == {1}
 
 
 def test_the_keywords_of_every_door_are_the_fields_of_one_record():

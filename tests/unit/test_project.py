@@ -54,21 +54,6 @@ def test_the_workflow_runs_ci_run_and_the_tests_of_the_readme_on_every_system():
                 assert re.fullmatch(allowed, step.get("uses", "actions/x@v1"))
 
 
-def test_a_tag_publishes_the_package_the_pages_and_the_extension_and_each_job_may_do_no_more():
-    workflow = read_yaml(".github/workflows/publish.yml")
-    jobs = workflow["jobs"]
-    assert workflow[True]["push"] == {"tags": ["v*"]}
-    assert workflow["permissions"] == {"contents": "read"}
-    may = {"pypi": {"id-token"}, "pages": {"id-token", "pages"}, "marketplaces": {"contents"}}
-    assert {name: {*job["permissions"]} for name, job in jobs.items() if "permissions" in job} == may
-    for name in may:
-        assert (jobs[name]["if"], "pypi" in (name, *jobs[name]["needs"])) == ("github.ref_type == 'tag'", True)
-    (build,) = (step for step in jobs["build"]["steps"] if step.get("run", "").startswith(".ci/release"))
-    assert build["env"] == {"REPOSITORY": "${{ github.server_url }}/${{ github.repository }}"}
-    for command in re.findall(r"\S+\.(?:py|vsix)\b", " ".join(step.get("run", "") for step in jobs["site"]["steps"])):
-        assert (ROOT / command).is_file()
-
-
 def test_what_is_installed_by_name_is_an_extra_or_a_group():
     """The commands of the pages, the workflows and the scripts; the extras of users stand in one table."""
     extras, groups = PROJECT["optional-dependencies"], PYPROJECT["dependency-groups"]
@@ -113,24 +98,6 @@ def test_on_an_index_every_link_of_the_readme_leads_to_a_file_of_the_repository(
     assert all((ROOT / file).is_file() for file in PAGES.values())
 
 
-def test_the_program_without_python_is_built_on_every_system_and_attached_to_a_tag():
-    workflow = read_yaml(".github/workflows/desktop.yml")
-    assert workflow[True]["push"] == {"tags": ["v*"]}
-    build, attach = workflow["jobs"]["build"], workflow["jobs"]["attach"]
-    systems = {each["system"].partition("-")[0] for each in build["strategy"]["matrix"]["include"]}
-    assert systems == {"windows", "macos", "ubuntu"}
-    commands = " ".join(step.get("run", "") for step in build["steps"])
-    for name in re.findall(r"[\w./-]+\.(?:spec|py)\b", commands):
-        assert (ROOT / name).is_file()
-    assert (attach["if"], attach["permissions"]) == ("github.ref_type == 'tag'", {"contents": "write"})
-    assert workflow["permissions"] == {"contents": "read"}
-    page = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
-    (told, without) = re.search(r"It has the extras (.*?)\. It is without (.*?),\s+which", page, re.DOTALL).groups()
-    spec = (ROOT / "editors" / "desktop" / "contoursolve.spec").read_text(encoding="utf-8")
-    assert re.findall(r"`(\w+)`", told) == re.search(r"\[([\w,]+)\]\" --group desktop", spec)[1].split(",")
-    assert {*re.findall(r"`(\w+)`", told + without)} == OF_USERS
-
-
 @pytest.mark.slow
 def test_the_manual_page_is_made_of_the_help_and_goes_where_man_looks(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
@@ -145,16 +112,6 @@ def test_the_manual_page_is_made_of_the_help_and_goes_where_man_looks(monkeypatc
     if shutil.which("groff"):
         done = subprocess.run(["groff", "-man", "-ww", "-z", "-Tutf8", PAGE], capture_output=True, check=True)
         assert done.stderr == b""
-
-
-def test_the_version_stands_in_one_place_and_the_citation_is_of_this_project():
-    citation = read_yaml("CITATION.cff")
-    assert {"version"} <= {*PROJECT["dynamic"]} - citation.keys() - PROJECT.keys()
-    assert PYPROJECT["tool"]["hatch"]["version"]["path"] == "contoursolve/__init__.py"
-    assert citation["title"] == PROJECT["name"]
-    assert citation["license"] == PROJECT["license"]
-    assert [each["name"] for each in citation["authors"]] == [each["name"] for each in PROJECT["authors"]]
-    assert {"cff-version", "message"} <= set(citation)
 
 
 def test_a_version_of_the_changes_is_short_and_each_line_leads_to_a_page():

@@ -5,7 +5,6 @@ from math import dist
 from random import Random
 
 import pytest
-from click.testing import CliRunner
 from examples import law
 from examples_fanuc import drawn
 from hypothesis import strategies as st
@@ -14,7 +13,6 @@ from oracle_corners import gap
 from vectors import program_of
 
 from contoursolve import expand, solve
-from contoursolve.cli import main
 
 CONTROLS = ("siemens-840d", "siemens-808d")
 MILL = "G17 G90 G0 X0 Y0\n"
@@ -174,23 +172,17 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
     ("between", "told"),
     [
         ("L10", "L10"),
-        ("L0815 P2", "L0815"),
         ("POCKET", "POCKET"),
         ('CYCLE95("KONTUR",2,0.1,,,0.2)', "CYCLE95"),
         ("TRANS X10", "TRANS"),
-        ("ATRANS X10", "ATRANS"),
         ("ROT RPL=30", "ROT"),
         ("G54", "G54"),
-        ("G75 X1=0", "read X1 yet"),
         ("G1 AP=30 RP=20", "read AP yet"),
-        ("G3 AR=90 I5 J0", "read AR yet"),
         ("POLY PO[X]=(20,1) PO[Y]=(5)", "POLY"),
-        ("POS[X]=50", "read POS[X] yet"),
         ("G1 X1=5", "read X1 yet"),
         ("M17", "M17"),
         ("IF R1>5 GOTOF ENDE\nG1 X5\nENDE:", "R1"),
         ("G1 X=R1 Y=R2+5", "variable"),
-        ("G1 X=_A", "variable"),
         ("G751", "G751"),
     ],
 )
@@ -205,16 +197,6 @@ def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
 
 
 # Planes and diameters -----------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("plane", "letters"), [(17, "XYIJ"), (18, "ZXKI"), (19, "YZJK")])
-def test_planes_read_the_same_blocks_with_other_letters(plane, letters):
-    text = SI_G4.replace("G90", "G90 DIAMOF") + " CHR=2\nG3 X80 Y40 I20 J0 RND=1\nG1 Y=IC(40)\nCT X130 Y90"
-    table = str.maketrans("XYIJ", letters)
-    lines = [
-        re.sub(r"(?<![A-Z])[XYIJ](?=[\d=])", lambda word: word[0].translate(table), line) for line in text.split("\n")
-    ]
-    assert ends("\n".join(lines).replace("G17", f"G{plane}")) == near(*ends(text))
 
 
 def test_x_is_what_its_command_says():
@@ -341,8 +323,7 @@ def test_rndm_makes_no_corner_where_the_path_does_not_turn():
 
 
 def test_rndm_makes_no_corner_at_a_rapid():
-    text = MILL + "RNDM=2\nG1 X30\nY40\nG0 X0\nG1 Y20\nX5"
-    first, second = siemens(text).answers
+    first, second = siemens(MILL + "RNDM=2\nG1 X30\nY40\nG0 X0\nG1 Y20\nX5").answers
     assert [each.kind for each in path_of(first)] == ["line", "arc", "line"]
     assert path_of(second)[0].start == 40j
 
@@ -399,33 +380,6 @@ def test_a_long_stream_keeps_a_rounding_in_force():
     moves = re.findall(r"^G0[123].*$", expand(text, control=CONTROLS[0]).text, re.MULTILINE)
     turns = [each.split()[0] for each in moves if each.startswith(("G02", "G03"))]
     assert turns == ["G03", "G02", "G02", "G03"], "left at 10 0, right at 10 10 and 20 10, left at 20 0"
-
-
-# Expansion ----------------------------------------------------------------------------------------------------------
-
-WRITTEN = {
-    "CT": MILL + "G1 X10\nCT X20 Y10\nX30 Y20\nX50 Y0 RND=2\nG1 X80",
-    "RNDM": MILL + "RNDM=2\nG1 X30\nX40 Y40\nX80 CHR=3\nY80\nX90\nG0 X0\nG1 Y20\nX5",
-    "IC": MILL + "G1 X=IC(30) RND=3 FRC=0.1\nG91 Y30 CHR=2\nX=AC(0)",
-    "G19": "G19 G90 G0 Y0 Z0\nG1 ANG=30 RND=6\nY60 Z20 ANG=-45",
-    "DIAM90": "G18 DIAM90 G90 G0 X20 Z0\nG1 X40 Z-10 RND=2\nX=IC(5) Z-20",
-    "inches": "G17 G70 G0 X0 Y0\nG1 X1 RND=0.1\nY2",
-}
-
-
-@pytest.mark.parametrize("name", WRITTEN)
-@pytest.mark.parametrize("arcs", ["center", "radius"])
-def test_what_is_written_out_goes_the_same_way(name, arcs, tmp_path):
-    text = expand(WRITTEN[name] + "\n", control=CONTROLS[0], arcs=arcs).text
-    code = "\n".join(line for line in text.splitlines() if line[0] not in "(;")
-    assert not re.search(r"ANG|RND=|CHR|CT|IC", code)
-    place = list(re.finditer(r"[XYZ](-?[1-9]\d*\.?\d*)(?= |$)", code, re.MULTILINE))[-1]
-    moved = f"{code[: place.start(1)]}{float(place[1]) + 0.01}{code[place.end(1) :]}"
-    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
-    old.write_text(WRITTEN[name])
-    for text, status in ((code, 0), (moved, 1)):
-        new.write_text(text)
-        assert CliRunner().invoke(main, ["diff", str(old), str(new), "--control", CONTROLS[0]]).exit_code == status
 
 
 # Laws ---------------------------------------------------------------------------------------------------------------
