@@ -4,24 +4,18 @@ import json
 import re
 from collections import defaultdict
 from itertools import pairwise
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import pytest
-from click.testing import CliRunner
 from small_interpreter import CONTROLS, Typed, program
 
-from contoursolve import OpenProgram, check, expand, solve
-from contoursolve.cli import main
-from contoursolve.diagnosis.examine import Answer
+from contoursolve import Answer, OpenProgram, check, expand, solve
+from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.output.document import to_json
 
 
-def drawn(few: int, many: int):
-    """Programs of every control: a few, and many more as slow tests."""
-    cases = [(control, seed) for seed in range(many) for control in CONTROLS]
-    slow = [pytest.param(*case, marks=pytest.mark.slow) for case in cases[few * len(CONTROLS) :]]
-    return pytest.mark.parametrize(("control", "seed"), [*cases[: few * len(CONTROLS)], *slow])
+def drawn(count: int):
+    """So many programs of every control."""
+    return pytest.mark.parametrize(("control", "seed"), [(name, seed) for seed in range(count) for name in CONTROLS])
 
 
 MOST_TOLD = 10
@@ -43,7 +37,7 @@ def results(typed: Typed, control: str) -> dict[int, set[object]]:
     return found
 
 
-@drawn(2, 12)
+@drawn(12)
 def test_contours_are_those_of_the_flat_program(control, seed):
     typed, own = program(control, seed), defaultdict(list)
     for answer in solve(typed.text, control=control).answers:
@@ -73,7 +67,7 @@ def are_alike(one: str, other: str) -> bool:
     )
 
 
-@drawn(1, 9)
+@drawn(9)
 def test_expanded_inline_it_is_the_flat_program(control, seed):
     typed = program(control, seed)
     options = {"control": control, "comments": False, "keep_going": True}
@@ -89,26 +83,24 @@ def test_expanded_inline_it_is_the_flat_program(control, seed):
         assert (line in left) is (len(found) > 1 or status != {"solved"}), line
 
 
-@drawn(1, 4)
+@drawn(4)
 def test_verify_says_that_it_is_right(control, seed):
     typed = program(control, seed)
-    with TemporaryDirectory() as folder:
-        file, claimed = Path(folder, "program.nc"), Path(folder, "claimed.json")
-        file.write_text(typed.text, encoding="utf-8")
-        result = solve(typed.text, control=control)
-        claimed.write_text(to_json(result), encoding="utf-8")
-        done = CliRunner().invoke(main, ["verify", str(file), str(claimed), "--control", control])
-        assert done.exit_code == (0 if result.answers else 2), done.output
-        told = json.loads(to_json(result))
-        solved = [each for each in told["contours"] if each["status"] == "solved"]
-        if solved:
-            solved[-1]["elements"][-1]["end"][0] += 0.5
-            claimed.write_text(json.dumps(told), encoding="utf-8")
-            done = CliRunner().invoke(main, ["verify", str(file), str(claimed), "--control", control])
-            assert done.exit_code == 1, done.output
+    result, text = solve(typed.text, control=control), Document("", typed.text.encode())
+    told = json.loads(to_json(result))
+    right = (
+        {ReceiptVerdict.VERIFIED, ReceiptVerdict.PARTLY_VERIFIED}
+        if result.answers
+        else {ReceiptVerdict.NOTHING_CHECKED}
+    )
+    assert verify(text, Document("", json.dumps(told).encode())).verdict in right
+    solved = [each for each in told["contours"] if each["status"] == "solved"]
+    if solved:
+        solved[-1]["elements"][-1]["end"][0] += 0.5
+        assert verify(text, Document("", json.dumps(told).encode())).verdict is ReceiptVerdict.FAILED
 
 
-@drawn(1, 4)
+@drawn(4)
 def test_an_editor_finds_the_same_whatever_the_order_of_words_and_whenever_it_is_asked(control, seed):
     text = program(control, seed).text
     result = solve(text, control=control)

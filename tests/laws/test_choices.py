@@ -88,7 +88,6 @@ def test_the_nearer_end_along_the_first_element_that_differs_counts_first():
     assert far[0] == pytest.approx(73.19501037 + 59.32692308j, abs=1e-6)
 
 
-@pytest.mark.slow
 @law(
     st.sampled_from(sorted(CHAINS)),
     st.sampled_from((45, 90, 180, 201.5, 300)) | st.floats(0.5, 359.5),
@@ -123,7 +122,6 @@ ONE_AXIS = {
 AXIS = re.compile(r"\b(CC|I|)([XY])([+-][\d.]+)")
 
 
-@pytest.mark.slow
 @law(
     st.sampled_from(sorted(ONE_AXIS)),
     st.sampled_from((1, 2, 3)),
@@ -154,7 +152,6 @@ def test_a_choice_is_the_same_in_each_quarter_where_all_contours_have_nothing_in
     assert len(seen) > 1
 
 
-@pytest.mark.slow
 @law(st.sampled_from(sorted(CHAINS)))
 def test_what_is_listed_as_choosing_a_contour_chooses_it(name: str) -> None:
     text = BLOCK.format(re.sub(r"\d+ FSELECT\{\}\n?", "", CHAINS[name]))

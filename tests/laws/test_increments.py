@@ -33,12 +33,12 @@ def test_a_bevel_at_a_taper_onto_a_cylinder_is_inside_within_the_increment_of_x(
         assert answer.diagnostics[0].values["off_by_mm"] == pytest.approx(outside)
 
 
-@pytest.mark.parametrize("count", [30, 200])
+@pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("unit", ["mm", "inch"])
-def test_every_taper_onto_a_cylinder_with_x_rounded_to_the_increment_is_accepted(count, unit):
-    draw, decimals, scale = Random(1), *((3, 1.0) if unit == "mm" else (4, 1 / 25.4))
+def test_every_taper_onto_a_cylinder_with_x_rounded_to_the_increment_is_accepted(seed, unit):
+    draw, decimals, scale = Random(seed), *((3, 1.0) if unit == "mm" else (4, 1 / 25.4))
     step = 10.0**-decimals
-    for _ in range(count):
+    for _ in range(10):
         angle, k = round(draw.uniform(92, 134), 3), round(-draw.uniform(5, 40) * scale, decimals)
         start = round(draw.uniform(10, 80) * scale, decimals)
         x = round(start + 2 * k * tan(radians(angle)), decimals)
@@ -70,31 +70,22 @@ def half_circle(draw):
     return text, size, abs(end - begin) / 2
 
 
-@pytest.mark.parametrize("count", [30, 150])
-def test_every_half_circle_by_r_with_rounded_numbers_is_one(count):
-    draw, rounded = Random(2), 0
-    for _ in range(count):
-        text, size, half = half_circle(draw)
-        answer = answer_to(text.format(size), depth="verdict")
-        assert answer.status.value == "solved", (text.format(size), [each.message for each in answer.diagnostics])
-        notes = [each.code for each in answer.diagnostics]
-        assert ("nct-half-circle" in notes) == (half > size + 1e-9), (text.format(size), notes)
-        if half > size + 1e-9:
-            rounded += 1
-            arc = answer.contour.elements[0]
-            # The centre comes from the points, and the arc is as large as they say.
-            assert arc.radius == pytest.approx(half, abs=1e-9)
-            assert hypot(arc.start[0] - arc.center[0], arc.start[1] - arc.center[1]) == pytest.approx(half, abs=1e-9)
-        finding = answer_to(text.format(half - 0.0025), depth="verdict").diagnostics[0]
-        assert finding.code == "nct-radius-too-small", text
-        assert finding.values["limit"] - finding.values["actual"] == pytest.approx(finding.values["off_by_mm"])
-    assert rounded > count / 5
-
-
-def test_a_rounded_half_circle_is_verified():
-    draw = Random(3)
-    for _ in range(10):
-        text, size, _ = half_circle(draw)
+@pytest.mark.parametrize("seed", range(40))
+def test_every_half_circle_by_r_with_rounded_numbers_is_one(seed):
+    text, size, half = half_circle(Random(seed))
+    answer = answer_to(text.format(size), depth="verdict")
+    assert answer.status.value == "solved", (text.format(size), [each.message for each in answer.diagnostics])
+    notes = [each.code for each in answer.diagnostics]
+    assert ("nct-half-circle" in notes) == (half > size + 1e-9), (text.format(size), notes)
+    if half > size + 1e-9:
+        arc = answer.contour.elements[0]
+        # The centre comes from the points, and the arc is as large as they say.
+        assert arc.radius == pytest.approx(half, abs=1e-9)
+        assert hypot(arc.start[0] - arc.center[0], arc.start[1] - arc.center[1]) == pytest.approx(half, abs=1e-9)
+    finding = answer_to(text.format(half - 0.0025), depth="verdict").diagnostics[0]
+    assert finding.code == "nct-radius-too-small", text
+    assert finding.values["limit"] - finding.values["actual"] == pytest.approx(finding.values["off_by_mm"])
+    if seed < 10:
         result = contoursolve.solve(text.format(size))
         documents = (Document(name, each.encode()) for name, each in (("p", text.format(size)), ("r", to_json(result))))
         assert verify(*documents).verdict is ReceiptVerdict.VERIFIED, text.format(size)
@@ -113,23 +104,20 @@ def test_words_that_agree_within_their_increments_agree_in_the_text_and_in_the_t
     assert answer_to(block.replace("178.061", "178.057"), start, rules="off").status.value == "conflicting"
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("rules", ["enforce", "off"])
-@pytest.mark.parametrize("count", [10, pytest.param(60, marks=pytest.mark.slow)])
-def test_text_and_tie_never_disagree_on_rounded_words(rules, count):
-    draw, seen = Random(4), set()
-    for _ in range(count):
-        k, i = (draw.choice((1, -1)) * draw.uniform(1, 60) for _ in range(2))
-        angle = np.degrees(np.arctan2(i, k)) + draw.choice((0, 0.0005, 0.002, 0.01)) * draw.choice((1, -1))
-        block = f"G111 I{i:.3f} K{k:.3f} A{angle:.3f} B{angle:.3f} Z{1.5 * k:.3f}"
-        answer = answer_to(block, "X90. Z0.", rules=rules)
-        (tie,) = answer.diagnosis.ties
-        messages = " ".join(each.message for each in answer.diagnostics)
-        agrees = "agrees with them" in messages or " repeats " in messages
-        assert agrees != tie.is_conflict, (block, messages)
-        assert agrees == (answer.status.value != "conflicting") or rules == "enforce", block
-        seen.add(agrees)
-    assert seen == {True, False}
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("off", [0.0, 0.0005, 0.002, 0.01])
+def test_text_and_tie_never_disagree_on_rounded_words(rules, seed, off):
+    draw = Random(seed)
+    k, i = (draw.choice((1, -1)) * draw.uniform(1, 60) for _ in range(2))
+    angle = np.degrees(np.arctan2(i, k)) + off * draw.choice((1, -1))
+    block = f"G111 I{i:.3f} K{k:.3f} A{angle:.3f} B{angle:.3f} Z{1.5 * k:.3f}"
+    answer = answer_to(block, "X90. Z0.", rules=rules)
+    (tie,) = answer.diagnosis.ties
+    messages = " ".join(each.message for each in answer.diagnostics)
+    agrees = "agrees with them" in messages or " repeats " in messages
+    assert agrees != tie.is_conflict, (block, messages)
+    assert agrees == (answer.status.value != "conflicting") or rules == "enforce", block
 
 
 @pytest.mark.parametrize(
@@ -138,12 +126,7 @@ def test_text_and_tie_never_disagree_on_rounded_words(rules, count):
         (TAPER.format(92), "X40. Z0.", "X", 91.955 + 0.0005 * np.arange(20)),
         ("G111 I10. K-10. A135. B170. X80.", "X40. Z0.", "A", 134.99 + 0.0005 * np.arange(40)),
         ("G111 A180. K-30. B120. X100. U60.", "X40. Z0.", "U", 59.995 + 0.0005 * np.arange(20)),
-        (
-            "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1",
-            None,
-            "R",
-            49.995 + 0.0005 * np.arange(20),
-        ),
+        (HALF, None, "R", 49.995 + 0.0005 * np.arange(20)),
     ],
 )
 def test_columns_compare_as_single_blocks_do(block, start, word, values):

@@ -8,9 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from examples import law
 from fuzzing import mutate
-from hypothesis import strategies as st
 
 from contoursolve import DIALECTS, parse
 

@@ -8,13 +8,11 @@ from xml.etree import ElementTree
 
 import pytest
 from click.testing import CliRunner
-from test_pictures import check
 
-import contoursolve
 from contoursolve.cli import main
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import begin
-from contoursolve.pictures import DARK_COLORS, LIGHT_COLORS, Role, Theme, draw_result
+from contoursolve.pictures import DARK_COLORS, LIGHT_COLORS, Role
 
 SVG = "{http://www.w3.org/2000/svg}"
 TAPER = "G00 X20. Z2.\nG01 G42 X20. Z0. F0.2\nZ-10.\nX30. Z-20.\nZ-30.\nG40 X40."
@@ -145,18 +143,6 @@ def test_what_does_not_fit_is_red_at_its_place_with_the_amount(tmp_path, text, w
     assert told in texts
     assert any(each.startswith("error: ") for each in texts)
     assert bool(drawn.strokes(Role.REST)) is stays
-
-
-@pytest.mark.parametrize("case", [*RIGHT.values(), (SMALL, NOSE), (NECK, ("fanuc-mill", "--tool", "R6"))])
-def test_texts_stand_apart_and_are_those_of_the_tool(case):
-    text, (control, _, radius, *rest) = case
-    tip = int(rest[1]) if rest else None
-    result, report = contoursolve.solve_with_tool(text, radius, tip=tip, control=control)
-    for theme in Theme:
-        tree = check(draw_result(result, theme=theme, beside=contoursolve.beside_of(report)))
-    said = " ".join("".join(each.itertext()) for each in tree.iter())
-    assert f"{'nose' if tip else 'cutter'} {radius}" in said
-    assert (f"tip {tip}" in said) is bool(tip)
 
 
 def test_without_compensation_the_part_that_comes_out_is_drawn_over_it(tmp_path):

@@ -81,13 +81,13 @@ def contradictions(text: str, control: str) -> Iterator[tuple[str, list[str]]]:
 _NUMBERS = re.compile(r"-?\d+\.?\d*")
 
 
-@pytest.mark.slow
-def test_no_help_tells_to_write_what_no_fix_writes():
-    asked = [LATHE + "G111 A400. K-30. B120. X100.", *MEANT]
-    texts = [(text, "nct-99m" if "G17" in text else "yasnac-lx3") for text in asked]
-    texts += [(text, name) for name, each in DIALECTS.items() for rule in each.catalogue for text in rule.rejected]
-    found = {text: told for text, control in texts[::12] if (told := list(contradictions(text, control)))}
-    assert found == {}
+REJECTED = [(text, name) for name, each in DIALECTS.items() for rule in each.catalogue for text in rule.rejected]
+
+
+@pytest.mark.parametrize("part", range(20))
+def test_no_help_tells_to_write_what_no_fix_writes(part):
+    texts = [(text, "nct-99m" if "G17" in text else "yasnac-lx3") for text in MEANT] + REJECTED
+    assert {text: told for text, control in texts[part::60] if (told := list(contradictions(text, control)))} == {}
 
 
 # Slips in random blocks ------------------------------------------------------------------------------------
@@ -149,16 +149,11 @@ def places(seed: int, count: int) -> tuple[list[int | None], int]:
     raise AssertionError
 
 
-def assert_what_was_meant_is_named(found: list[int | None]) -> None:
+@pytest.mark.slow
+def test_of_random_slips_95_percent_have_what_was_meant_as_first_fix_and_99_among_three():
     """Of fewer than 100, one may be missed."""
+    found, sound_again = places(16, 60)
     first, three = (sum(place is not None and place < most for place in found) for most in (1, 3))
     assert first >= 0.95 * len(found), (first, three, len(found))
-    assert three >= min(0.99 * len(found), len(found) - 1), (first, three, len(found))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("seed", "count"), [(16, 60)])
-def test_of_random_slips_95_percent_have_what_was_meant_as_first_fix_and_99_among_three(seed, count):
-    found, sound_again = places(seed, count)
-    assert_what_was_meant_is_named(found)
-    assert sound_again > count / 8
+    assert three >= len(found) - 1, (first, three, len(found))
+    assert sound_again > len(found) / 8

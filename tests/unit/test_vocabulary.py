@@ -113,7 +113,7 @@ TOLD = [
     (SINUMERIK, COMMAND, "TC", "code-unknown w2", "write CT, TCA or TCI"),
     (SINUMERIK, COMMAND, "DIAMONN", "code-unknown w2", "write DIAMON"),
     (SINUMERIK, COMMAND, "G310", "code-unknown w2", "G310 is no code of this control that contoursolve knows"),
-    (ISG, ANY, MILL + "G1 X60\nG310 I5\nY40\nX20", "suspected w3", "G310 was probably meant to be G301"),
+    (ISG, ANY, MILL + "G1 X60\nG310 I5\nY40\nX20 #RND=3\nY9", "suspected w3", "G310 was probably meant to be G301"),
     (SINUMERIK, ALONE, "RND", "number-missing e3", "RND has no number"),
     (SINUMERIK, ALONE, "RND=", "number-missing e3", "RND has no number"),
     (SINUMERIK, ALONE, "ANG", "number-missing e3", "ANG has no number"),

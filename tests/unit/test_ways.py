@@ -4,10 +4,9 @@ known; a corner finds its neighbour on each of them."""
 import re
 
 import pytest
-from click.testing import CliRunner
 
 from contoursolve import OpenProgram, expand, solve
-from contoursolve.cli import main
+from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.output.document import to_json
 from contoursolve.solving import Status
 
@@ -80,7 +79,7 @@ G111 = (
         ("yasnac-lx3", G111, 3, 5),
     ],
 )
-def test_where_ways_meet_only_what_they_agree_on_is_known(control, text, first, second, tmp_path):
+def test_where_ways_meet_only_what_they_agree_on_is_known(control, text, first, second):
     result = solve(text, control=control)
     (answer,) = result.answers
     (finding,) = answer.diagnostics
@@ -97,17 +96,11 @@ def test_where_ways_meet_only_what_they_agree_on_is_known(control, text, first, 
     opened = OpenProgram(text, control=control)
     opened.check()
     assert opened.diagnostics == result.diagnostics
-    file, claimed = tmp_path / "program.nc", tmp_path / "claimed.json"
     for each in (text, alike):
-        file.write_text(each, encoding="utf-8")
-        claimed.write_text(to_json(solve(each, control=control)), encoding="utf-8")
-        done = CliRunner().invoke(main, ["verify", str(file), str(claimed), "--control", control])
-        # Of free contours without a path, verify checks nothing.
-        assert done.exit_code in (0, 2 if control == "heidenhain" else 0), done.output
-    path = tmp_path / "wrong.json"
-    path.write_text(claimed.read_text("utf-8"), encoding="utf-8")
-    file.write_text(text, encoding="utf-8")
-    assert CliRunner().invoke(main, ["verify", str(file), str(path), "--control", control]).exit_code == 1
+        claimed = to_json(solve(each, control=control))
+        right = [ReceiptVerdict.VERIFIED, ReceiptVerdict.NOTHING_CHECKED][: 2 if control == "heidenhain" else 1]
+        assert verify(Document("", each.encode()), Document("", claimed.encode())).verdict in right
+    assert verify(Document("", text.encode()), Document("", claimed.encode())).verdict is ReceiptVerdict.FAILED
 
 
 MODES = {
@@ -340,41 +333,24 @@ def test_what_a_block_with_a_slash_sets_jumps_to_or_calls_is_not_known(name):
             assert name == "variable" or (f"program line {line + 1}" in told and "a switch at the machine" in told)
 
 
-def test_what_a_skipped_block_decides_is_not_written_out(tmp_path):
-    file = tmp_path / "a.nc"
-    file.write_text(SKIPPED["goto"][1].format(42), encoding="utf-8")
-    result = CliRunner().invoke(main, ["expand", "--inline", "--control", MILL, str(file)])
-    assert (result.exit_code, "a switch at the machine" in result.output) == (1, True)
+IN_DOUBT = [
+    # A jump to an unknown block: behind it nothing is known where a block has a name.
+    (MILL, "IF[#500 EQ 1]GOTO#501\nX38. Y0.\nN20 Y10. ,R5.\nX80.", ("position-unknown", 5), None),
+    (MILL, "GOTO[#501*10]\nX38. Y0.\nN20 Y10. ,R5.\nX80.", ("position-unknown", 5), None),
+    (SIEMENS, 'GOTOF "AA"<<R500\nX38 Y0\nAA1: Y10 RND=5\nX80', ("position-unknown", 5), None),
+    # A jump to what is not there: the other way runs.
+    (MILL, "IF[#500 EQ 1]GOTO77\nX38.\nY10. ,R5.\nX80.", ("not-followed", 3), (38.0, 0.0)),
+    (SIEMENS, "IF R500==1 GOTOF ABSENT\nX38\nY10 RND=5\nX80", ("not-followed", 3), (38.0, 0.0)),
+]
 
 
-@pytest.mark.parametrize(
-    ("control", "text"),
-    [
-        (MILL, "G17 G90 G0 X0. Y0.\nG1 F200\nIF[#500 EQ 1]GOTO#501\nX38. Y0.\nN20 Y10. ,R5.\nX80.\nM30"),
-        (MILL, "G17 G90 G0 X0. Y0.\nG1 F200\nGOTO[#501*10]\nX38. Y0.\nN20 Y10. ,R5.\nX80.\nM30"),
-        (SIEMENS, 'G17 G90 G0 X0 Y0\nG1 F200\nGOTOF "AA"<<R500\nX38 Y0\nAA1: Y10 RND=5\nX80\nM30'),
-    ],
-)
-def test_behind_a_jump_to_an_unknown_block_nothing_is_known_where_a_block_has_a_name(control, text):
-    (answer,) = solve(text, control=control).answers
-    assert answer.status is Status.UNDERDETERMINED
-    assert (
-        "not known in X and Y"
-        in next(each for each in solve(text, control=control).diagnostics if each.is_error).message
-    )
-
-
-@pytest.mark.parametrize(
-    ("control", "text"),
-    [
-        (MILL, "G17 G90 G0 X0. Y0.\nG1 F200\nIF[#500 EQ 1]GOTO77\nX38.\nY10. ,R5.\nX80.\nM30"),
-        (SIEMENS, "G17 G90 G0 X0 Y0\nG1 F200\nIF R500==1 GOTOF ABSENT\nX38\nY10 RND=5\nX80\nM30"),
-    ],
-)
-def test_a_jump_in_doubt_to_what_is_not_there_is_told_and_the_other_way_runs(control, text):
-    result = solve(text, control=control)
-    assert [(each.code, each.span.line) for each in result.diagnostics] == [("not-followed", 3)]
-    assert result.answers[0].contour.start == (38.0, 0.0)
+@pytest.mark.parametrize(("control", "text", "told", "start"), IN_DOUBT)
+def test_a_jump_in_doubt_to_an_unknown_block_or_none_is_told(control, text, told, start):
+    result = solve(f"G17 G90 G0 X0. Y0.\nG1 F200\n{text}\nM30", control=control)
+    (answer,) = result.answers
+    assert told in [(each.code, each.span.line) for each in result.diagnostics]
+    assert (answer.contour.start if answer.contour else None) == start
+    assert start or any("not known in X and Y" in each.message for each in answer.diagnostics)
 
 
 O_WORDS = (
@@ -422,24 +398,18 @@ POLAR, ABOUT_CC = "FL PR+20 PA+30\nFL X+50 Y+20", "L X+40 Y+0\nRND R5\nC X+50 Y+
         ("FPOL X+1 Y+1\n", "FPOL X+5 Y+5", POLAR, ("FPOL X1 (program line 3) or FPOL X5 (program line 5)",)),
         ("", "CC X+50 Y+10", ABOUT_CC, ("whether CC is in force", "CC X50 (program line 4)")),
         ("", "TOOL CALL 1 X S100", "FL X+40 Y+0\nFL X+50 Y+20", ("tool axis X (program line 4)",)),
+        # What all ways agree on, or no word needs.
+        ("", "TOOL CALL 1 Z S100", "FL X+40 Y+0\nFL X+50 Y+20", ()),
+        ("FPOL X+5 Y+5\n", "FPOL X+5 Y+5", POLAR, ()),
+        ("", "FPOL X+9 Y+9", f"FPOL X+5 Y+5\n{POLAR}", ()),
+        ("", "FPOL X+9 Y+9", "FL X+40 Y+0\nFL X+50 Y+20", ()),
     ],
 )
-def test_what_one_way_of_a_klartext_program_puts_in_force_is_doubtful_behind_it(before, on_one_way, behind, told):
+def test_what_one_way_of_a_klartext_program_puts_in_force_is_doubtful_where_a_word_needs_it(
+    before, on_one_way, behind, told
+):
     (answer,) = solve(KLARTEXT.format(before, on_one_way, behind), control="heidenhain").answers
-    (error,) = (each for each in answer.diagnostics if each.is_error)
-    assert (answer.status, error.code) == (Status.UNDERDETERMINED, "mode-unknown")
-    assert all(part in error.message for part in told)
-
-
-@pytest.mark.parametrize(
-    ("before", "on_one_way", "behind"),
-    [
-        ("", "TOOL CALL 1 Z S100", "FL X+40 Y+0\nFL X+50 Y+20"),
-        ("FPOL X+5 Y+5\n", "FPOL X+5 Y+5", POLAR),
-        ("", "FPOL X+9 Y+9", f"FPOL X+5 Y+5\n{POLAR}"),
-        ("", "FPOL X+9 Y+9", "FL X+40 Y+0\nFL X+50 Y+20"),
-    ],
-)
-def test_what_all_ways_agree_on_or_no_word_needs_is_not_doubtful(before, on_one_way, behind):
-    (answer,) = solve(KLARTEXT.format(before, on_one_way, behind), control="heidenhain").answers
-    assert (answer.status, answer.diagnostics) == (Status.SOLVED, ())
+    errors = [each for each in answer.diagnostics if each.is_error]
+    assert answer.status is (Status.UNDERDETERMINED if told else Status.SOLVED)
+    assert [each.code for each in errors] == ["mode-unknown"] * bool(told)
+    assert all(part in each.message for each in errors for part in told)

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from editor import Served, edits_of, types
 
 from contoursolve import solve
 from contoursolve.cli import main
@@ -86,25 +85,6 @@ def test_the_lines_beside_the_contour_are_shown_and_written(case, tmp_path):
     assert added == [each for each in MENDED[case].splitlines() if each not in text.splitlines() or each == "M08"]
     assert run("--unsafe-fixes", "--yes").exit_code == 0
     assert program.read_text() == MENDED[case]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("case", [FUNCTION, PLANE], ids=["a function between", "another plane"])
-def test_an_editor_changes_the_lines_beside_the_contour(case):
-    control, text, _ = case
-
-    async def use(editor):
-        uri = "file:///part.nc"
-        editor.open(uri, text)
-        found = await editor.findings(uri)
-        asked = types.CodeActionParams(types.TextDocumentIdentifier(uri), found[0].range, types.CodeActionContext([]))
-        action, *_ = await editor.ask(editor.client.text_document_code_action_async(asked))
-        editor.edit(uri, *edits_of(action))
-        assert editor.texts[uri] == MENDED[case]
-
-    served = Served({"control": control})
-    served(use)
-    served.stop()
 
 
 def test_the_explorer_changes_the_lines_beside_the_contour():
