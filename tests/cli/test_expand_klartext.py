@@ -256,3 +256,10 @@ def test_convert_writes_contours_out_and_follows_both_paths():
     found = contoursolve.convert(CAM, "fanuc-mill", comments=False)
     assert found.text.splitlines()[9] == "N8 G01 X8.682 Y49.24"
     assert (found.summary.in_words, found.summary.written_out) == (0, [9])
+
+
+def test_blocks_in_a_row_with_one_reason_are_one_entry():
+    text = chain("L X+5 M25", "L X+6 M25", "L X+7", "L X+8 M25", "L X+9 M25", "L X+7 M25", "L X+4 M27")
+    expansion = contoursolve.expand(text, post="linuxcnc", comments=False, keep_going=True)
+    assert [left.lines for left in expansion.summary.left] == [(3, 4), (6, 7, 8), (9,)]
+    assert expansion.text.count("(NOT EXPANDED: M2") == 3
