@@ -188,22 +188,6 @@ def test_a_map_of_a_result_says_what_it_shows_and_only_then_has_its_colours():
     assert "V2.X [mm, radius]" in draw_family_map(family, result="V2.X").title
 
 
-def test_a_map_names_every_outcome_with_its_boundary():
-    vary = {"A": numpy.arange(100, 260, 2.0), "P": numpy.arange(0, 40, 1.0)}
-    family = contoursolve.family(BLOCK, start=START, vary=vary)
-    picture = draw_family_map(family)
-    check(picture)
-    told = " ".join(labels(picture))
-    for name in ("solved", "line reversed", "corner too large", "corners overlap", "A [deg]", "P [mm]"):
-        assert name in told
-    turned = draw_family_map(family, ("P", "A"), theme=Theme.PAGE)
-    check(turned)
-    assert turned.sheet != picture.sheet
-    for wrong, words in ((contoursolve.family(BLOCK, start=START, vary={"A": [170, 180]}), None), (family, ("A", "Q"))):
-        with pytest.raises(ValueError, match="a grid of two words"):
-            draw_family_map(wrong, words)
-
-
 @pytest.mark.parametrize("name", REGIONS)
 def test_the_lines_of_a_map_part_values_that_have_a_contour_from_those_that_have_none(name):
     block, box, options = BOXES[name]
@@ -473,6 +457,8 @@ def test_a_map_is_of_a_family_over_two_words_or_of_a_region():
         for ask in (contoursolve.map_page, contoursolve.explore_map):
             with pytest.raises(error, match=said):
                 ask(wrong)
+    with pytest.raises(ValueError, match="a grid of two words"):
+        draw_family_map(family_of("a taper", 3, 2), ("A", "Q"))
 
 
 # Axes of matplotlib -----------------------------------------------------------------------------------------------

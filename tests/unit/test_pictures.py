@@ -689,20 +689,6 @@ def plot(*arguments):
     return done.exit_code, done.output
 
 
-def test_plot_writes_an_svg_of_the_whole_program_with_its_name(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    status, output = plot(SHAFT)
-    assert (status, "shaft.svg: 7 contours" in output) == (0, True)
-    assert Path("shaft.svg").read_bytes() == draw_result(contoursolve.solve_file(SHAFT)).svg.encode()
-    assert plot(SHAFT)[0] == 0, "a picture of one's own is replaced"
-    Path("shaft.svg").write_text("mine")
-    assert plot(SHAFT)[0] == 2
-    assert Path("shaft.svg").read_text() == "mine"
-    assert plot(SHAFT, "--force")[0] == 0
-    assert plot("--block", BLOCK, "--start", START)[0] == 0
-    assert Path("contour.svg").is_file()
-
-
 def test_plot_writes_one_contour_or_each_in_the_theme_that_is_asked_for(tmp_path):
     result = contoursolve.solve_file(SHAFT)
     status, output = plot(SHAFT, "--line", 69, "-o", tmp_path / "a.PNG", "--theme", "dark")
@@ -718,12 +704,3 @@ def test_plot_writes_one_contour_or_each_in_the_theme_that_is_asked_for(tmp_path
     assert not (tmp_path / "c.svg").exists()
     for wrong in (("--line", 69, "--each"), ("--each", "-o", "x.dxf"), ("--line", 69, "-o", "x.dxf")):
         assert plot(SHAFT, *wrong)[0] == 2
-
-
-def test_plot_draws_what_cannot_be_solved_and_says_so(tmp_path):
-    target = tmp_path / "broken.svg"
-    status, output = plot("--block", "G111 X100. A180. K-30. B180.", "--start", START, "-o", target)
-    assert (status, "1 contour without a solution" in output) == (1, True)
-    assert "30 apart" in target.read_text()
-    status, output = plot("--block", "G00 X1.", "--start", START, "--control", "yasnac-lx3", "-o", tmp_path / "no.svg")
-    assert (status, "no.svg: not written" in output) == (1, True)

@@ -160,14 +160,6 @@ def test_a_corner_that_does_not_fit_is_refused_and_what_the_control_does_is_told
     assert ("makes it smaller by itself" in answer.diagnostics[0].message) is is_reduced
 
 
-def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
-    text = SI_G1.replace("G0 ", "").replace("G1 ", "")
-    assert ends(text) == ends(SI_G1)
-    (finding,) = siemens(text, first_motion="none").diagnostics
-    assert finding.code == "no-contour"
-    assert "no G code of a motion is in force" in finding.notes[0]
-
-
 @pytest.mark.parametrize(
     ("between", "told"),
     [

@@ -10,6 +10,8 @@ import pytest
 from msgspec.structs import replace
 
 import contoursolve
+from contoursolve.diagnostics import Span
+from contoursolve.sketches import as_program
 
 EXAMPLES = Path(__file__).parents[1] / "sketches"
 
@@ -197,6 +199,17 @@ def test_a_sketch_without_elements_or_a_start_says_so(name):
     whole = sketch(name)
     assert contoursolve.solve_sketch(replace(whole, elements=())).elements == ()
     assert contoursolve.solve_sketch(replace(whole, start={})).missing.startswith("where it begins is missing")
+
+
+@pytest.mark.boundary
+@pytest.mark.parametrize("name", ENDS)
+def test_a_place_of_the_program_is_that_of_a_field_or_of_the_kind_of_its_element(name):
+    program, count = as_program(sketch(name)), len(sketch(name).elements)
+    for field, span in program.places.items():
+        ends = [Span(span.line, column, column) for column in (span.column, span.end_column - 1)]
+        assert [program.field_at(each) for each in ends] == [field, field]
+    lines = [program.field_at(Span(line, 1, 2)) for line in (0, 1, count, count + 1)]
+    assert lines == [None, (1, "kind"), (count, "kind"), None]
 
 
 @pytest.mark.parametrize("name", ENDS)
