@@ -385,31 +385,14 @@ RADII = ("50", "2.3")
 
 
 @pytest.mark.parametrize("place", PLACES)
-def test_a_half_circle_by_its_radius_is_solved_wherever_it_lies(place: str) -> None:
-    at = Decimal(place)
-    for radius in map(Decimal, RADII):
-        program = (
-            f"G17 G42 G0 X{at} Y{at}\nG3 X{at - 2 * radius} Y{at} R{radius}\n"
-            f"G1 X{at - radius} Y{at + 3 * radius} ,A90 Q1"
-        )
-        (answer,) = solve(program, control=MILL).answers
-        assert answer.status.value == "solved", program
-        crossing = answer.contour.points["P1"]
-        # The centre lies off the chord by the root of the rounding.
-        assert hypot(crossing[0] - float(at - radius), crossing[1] - float(at + radius)) <= 1e-4, program
-
-
-@pytest.mark.parametrize("place", PLACES)
-def test_a_tangent_line_touches_the_circle_wherever_it_lies(place: str) -> None:
-    at = Decimal(place)
-    for radius in map(Decimal, RADII):
-        for angle, side, ahead in (("0", "1", 20), ("0", "-1", 20), ("180", "1", -20)):
-            program = (
-                f"G17 G42 G0 X{at} Y{at}\nG3 I{-radius} J0\nG1 X{at - radius + ahead} Y{at + radius} ,A{angle} Q{side}"
-            )
-            (answer,) = solve(program, control=MILL).answers
-            assert answer.status.value == "solved", program
-            assert [each.code for each in answer.diagnostics] == ["nct-circle-touched"], program
+@pytest.mark.parametrize("radius", RADII)
+@pytest.mark.parametrize(("angle", "side", "ahead"), [(0, 1, 20), (0, -1, 20), (180, 1, -20)])
+def test_a_tangent_line_touches_the_circle_wherever_it_lies(place: str, radius: str, angle: int, side: int, ahead: int):
+    at, size = Decimal(place), Decimal(radius)
+    line = f"G1 X{at - size + ahead} Y{at + size} ,A{angle} Q{side}"
+    (answer,) = solve(f"G17 G42 G0 X{at} Y{at}\nG3 I{-size} J0\n{line}", control=MILL).answers
+    assert answer.status.value == "solved"
+    assert [each.code for each in answer.diagnostics] == ["nct-circle-touched"]
 
 
 def test_a_conflict_in_the_third_block_is_explained_by_words_of_the_blocks_before() -> None:

@@ -417,6 +417,8 @@ NOT_FOLLOWED = [
         "runs from program line 3, but its last line, 2, stands before that",
     ),
     # Blocks that are named and stand nowhere or twice.
+    (SINUMERIK, "G17 G90 G0 X0 Y0\nAAA: G1 X5\nGOTOF AAA\nG1 X10 RND=1\nY10", 3, "jumps to AAA, which is not there"),
+    (SINUMERIK, "G17 G90 G0 X0 Y0\nGOTOB AAA\nAAA: G1 X10 RND=1\nY10", 2, "jumps to AAA, which is not there"),
     (LATHE, TURNED.format(58, ""), 3, "names block 58, which is not there"),
     (LATHE, TURNED.format(60, "N60 X42.\n"), 3, TWICE.format("block 60", 6, 7)),
     (MILL, MILLED.format("GOTO 10", "N10"), 3, TWICE.format("block 10", 4, 5)),

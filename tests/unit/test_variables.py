@@ -214,6 +214,23 @@ def test_values_of_variables_of_every_kind_are_taken(control):
     assert {each.code for each in contoursolve.check("G0 X0", control=control, variables=variables)} == {"no-contour"}
 
 
+@pytest.mark.parametrize("command", ["solve", "range"])
+@pytest.mark.parametrize(
+    ("start", "told"),
+    [("hello", "hello has no number"), ("X4O. Z0.", "did you mean the digit 0 (X40.)"), ("Q5.", "position")],
+)
+def test_a_start_that_cannot_be_read_is_wrong_usage(command, start, told):
+    words = ["--block", "G111 X100. A180. K-30. B120.", "--start", start, *["--word", "X"] * (command == "range")]
+    told = "the start point is not known" if (command, told) == ("range", "position") else told
+    done = CliRunner().invoke(main, [command, *words])
+    assert (done.exit_code, told in done.output) == (2, True), done.output
+
+
+def test_a_folder_that_cannot_be_read_is_wrong_usage():
+    done = CliRunner().invoke(main, ["solve", "--block", "G111 X100. A180. K-30.", "--path", "nowhere/at/all"])
+    assert (done.exit_code, "cannot be read as a folder" in done.output) == (2, True), done.output
+
+
 @pytest.mark.parametrize("head", ["PROC REC(INT K)", "DEF REAL K", "DEF INT K=1"])
 def test_a_variable_that_the_program_declares_has_any_name(head):
     text = f"{head}\nG18 G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\nIF K>0\n  Z-20 RND=2\nELSE\n  Z-25 RND=3\nENDIF\nX52\nM17"

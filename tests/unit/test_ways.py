@@ -280,12 +280,7 @@ def test_all_ways_of_case_meet(places):
     """The tool is where all ways that CASE opens end alike, else it is not known."""
     ways = [f"LA{number}: X{place}\nGOTOF EE" for number, place in enumerate(places, 1)]
     text = "\n".join(
-        [
-            "G17 G90 G0 X0 Y0\nG1 F9",
-            "CASE R1 OF 1 GOTOF LA1 2 GOTOF LA2 DEFAULT GOTOF LA3",
-            *ways,
-            "EE: Y10 RND=2\nX60",
-        ]
+        ["G17 G90 G0 X0 Y0\nG1 F9", "CASE R1 OF 1 GOTOF LA1 2 GOTOF LA2 DEFAULT GOTOF LA3", *ways, "EE: Y10 RND=2\nX60"]
     )
     result = solve(text, control="siemens-840d")
     told = {each.code for each in result.diagnostics}
@@ -305,10 +300,7 @@ SKIPPED = {
     "label": (SIEMENS, "G17 G90 G0 X0 Y0\nG1 F200\n/GOTOF A1\nX{}\nA1: Y30 RND=5\nX80\nM30"),
     "subprogram": (SIEMENS, "G17 G90 G0 X0 Y0\nG1 F200\n/L10\nY30 RND=5\nX80\nM30\n%_N_L10_SPF\nX{}\nM17"),
     "$GOTO": ("isg", "G17 G90 G0 X0 Y0\nG1 F200\n/$GOTO N50\nX{}\nN50 Y30 #RND=5\nX80\nM30"),
-    "CALL LBL": (
-        "heidenhain",
-        "L X+0 Y+0 R0 F100\n/CALL LBL 1\nL Y+30\nRND R5\nL X+80\nL M30\nLBL 1\nL X+{}\nLBL 0",
-    ),
+    "CALL LBL": ("heidenhain", "L X+0 Y+0 R0 F100\n/CALL LBL 1\nL Y+30\nRND R5\nL X+80\nL M30\nLBL 1\nL X+{}\nLBL 0"),
 }
 
 
