@@ -1,16 +1,14 @@
 """What every command printed and wrote, as text: one file a record, in the folder of its command.
 
-    python tests/golden/record.py --changed                           # runs all records, and writes those that differ
-    python tests/golden/record.py --add NAME [FILE...] -- check part.nc --control isg    # adds one
+    python tests/golden/record.py --changed                    # runs all records, and writes those that differ
+    python tests/golden/record.py --add NAME [FILE...] -- check part.nc --control isg
 
-A record begins with its command. Then follow what the command reads and what came of it. A FILE of `--add` is read
-here, and lies beside the command under its own name; `--stdin FILE` is its standard input, `--before "solve part.nc"`
-a run before it. NAME ends with the control, as in `corner-too-large.yasnac-lx3`.
+A record begins with its command. Then follows what the command reads, and what came of it. `--add` copies each FILE
+beside the command. NAME ends with the control, as in `corner-too-large.yasnac-lx3`.
 
-The text of a part is as it was printed, line by line. If a part is "escaped", a backslash leads what cannot be seen:
-`\\r`, `\\x1b`, `\\u2028`, `\\udcff` for a byte that is no UTF-8, `\\=` for an `=` that begins a line, `\\\\` for
-itself. There a backslash at the end of a line means that the line goes on. "unended" is a part without a newline at
-its end.
+A part is shown as it was, line by line. In an "escaped" part a backslash leads what cannot be seen: `\\r`, `\\x1b`,
+`\\u2028`, `\\udcff` for a byte that is no UTF-8, `\\=` for an `=` that begins a line, `\\\\` for itself. A backslash
+at the end of a line means that the line goes on. An "unended" part has no newline at its end.
 """
 
 import argparse
@@ -23,7 +21,6 @@ import shlex
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
-from subprocess import PIPE, Popen
 from tempfile import TemporaryDirectory
 
 from click.testing import CliRunner
@@ -32,9 +29,6 @@ FOLDER = Path(__file__).parent
 PROGRAM = "$ contoursolve "
 BEFORE = "before.txt"
 """Holds what a run before a case printed."""
-
-STARTED = "{folder}"
-"""Stands for the folder in which a case ran."""
 
 CODING = ("utf-8", "surrogateescape")
 LONG = 240
@@ -52,11 +46,7 @@ class Case:
     before: tuple[tuple[str, ...], ...] = ()
 
 
-Parts = dict[str, str]
-"""The texts that came of a case, by the heads of their parts."""
-
-
-# What comes of a case ----------------------------------------------------------------------------------------
+Parts = dict[str, str]  # the texts that came of a case, by the heads of their parts
 
 
 def run(case: Case, folder: Path) -> Parts:
@@ -72,40 +62,15 @@ def run(case: Case, folder: Path) -> Parts:
         for arguments in case.before:
             (folder / BEFORE).write_bytes(runner.invoke(commands(), list(arguments)).stdout_bytes)
         old = contents(folder)
-        if case.arguments == ("lsp",):
-            return {"status 0": "", "stdout": served(case.stdin)}
         done = runner.invoke(commands(), list(case.arguments), input=case.stdin.encode(*CODING) or None)
     finally:
         os.chdir(here)
     assert done.exception is None or isinstance(done.exception, SystemExit), (case, done.exception)
-    texts = {"stdout": done.stdout_bytes.decode(*CODING), "stderr": done.stderr_bytes.decode(*CODING)}
+    told = {"stdout": done.stdout_bytes.decode(*CODING), "stderr": done.stderr_bytes.decode(*CODING)}
     new = {path: content for path, content in contents(folder).items() if old.get(path) != content}
-    written = {f"written {path.relative_to(folder).as_posix()}": shown(path, new[path]) for path in sorted(new)}
-    parts = {name: shortened(text).replace(str(folder), STARTED) for name, text in texts.items() if text}
-    return {f"status {done.exit_code}": "", **parts, **written}
-
-
-def served(messages: str) -> str:
-    """What the language server answers to messages, one a line; it needs a process of its own. Each message waits for
-    the answer to the last one. What the server can do is left out: that depends on the version of its library."""
-    room = os.pathsep.join([str(FOLDER.parent.parent), os.environ.get("PYTHONPATH", "")])
-    command, told = [sys.executable, "-m", "contoursolve", "lsp"], list[dict[str, object]]()
-    with Popen(command, stdin=PIPE, stdout=PIPE, env={**os.environ, "PYTHONPATH": room}) as server:
-        for message in map(json.loads, messages.splitlines()):
-            content = json.dumps(message).encode()
-            server.stdin.write(b"Content-Length: %d\r\n\r\n%b" % (len(content), content))
-            server.stdin.flush()
-            is_edit = message["method"] in ("textDocument/didOpen", "textDocument/didChange")
-            name, value = ("method", "textDocument/publishDiagnostics") if is_edit else ("id", message.get("id"))
-            while value and not (told and told[-1].get(name) == value):
-                size = int(server.stdout.readline().split(b":")[1])
-                while server.stdout.readline().strip():
-                    pass
-                told.append(json.loads(server.stdout.read(size)))
-            told += [{"told": message["method"]}]
-    kept = [each for each in told if "capabilities" not in (each.get("result") or ())]
-    texts = [json.dumps(each, indent=1, sort_keys=True, ensure_ascii=False) for each in kept]
-    return re.sub(r"file:///[^\"]*/contoursolve-\w+/", "{pages}/", "".join(f"{text}\n" for text in texts))
+    made = {f"written {path.relative_to(folder).as_posix()}": shown(path, new[path]) for path in sorted(new)}
+    parts = {name: shortened(text).replace(str(folder), "{folder}") for name, text in told.items() if text}
+    return {f"status {done.exit_code}": "", **parts, **made}
 
 
 def contents(folder: Path) -> dict[Path, bytes]:
@@ -114,7 +79,7 @@ def contents(folder: Path) -> dict[Path, bytes]:
 
 
 def shown(path: Path, content: bytes) -> str:
-    """A file as text: a table by its columns, a picture by its size, a document without the time of its making."""
+    """A file as text: a table by its columns, a picture by its kind, all else without time and version."""
     match path.suffix:
         case ".parquet":
             from pyarrow import parquet  # noqa: PLC0415 - only here
@@ -125,21 +90,20 @@ def shown(path: Path, content: bytes) -> str:
             return f"{len(content) > 0} {content[:4]!r}"
         case ".gz":
             content = gzip.decompress(content)
-    return re.sub(r"\d{4}-\d\d-\d\dT[\d:.+]+", "TIME", shortened(content.decode(*CODING)))
+    text = re.sub(r"\bcontoursolve \d+\.\d+\.\d+", "contoursolve {version}", shortened(content.decode(*CODING)))
+    return re.sub(r"\d{4}-\d\d-\d\dT[\d:.+]+", "TIME", text)
 
 
 def shortened(text: str) -> str:
     """A document with the size and the digest of what is the same in each: style sheets, scripts, all rules."""
-    for pattern in (r"(?s)(<(?:style|script)\b[^>]*>)(.{200,}?)(</)", r'(?s)("rules": \[\n)(.{200,}?)(\n {5}\])'):
-        text = re.sub(pattern, lambda found: found[1] + digest(found[2]) + found[3], text)
-    return text
 
+    def short(found: re.Match[str]) -> str:
+        known = hashlib.sha256(found[2].encode(*CODING)).hexdigest()[:16]
+        return f"{found[1]}{{{len(found[2]):,} characters, SHA-256 {known}}}{found[3]}"
 
-def digest(text: str) -> str:
-    return f"{{{len(text):,} characters, SHA-256 {hashlib.sha256(text.encode(*CODING)).hexdigest()[:16]}}}"
+    styles, rules = r"(?s)(<(?:style|script)\b[^>]*>)(.{200,}?)(</)", r'(?s)("rules": \[\n)(.{200,}?)(\n {5}\])'
+    return re.sub(rules, short, re.sub(styles, short, text))
 
-
-# The text of a record ----------------------------------------------------------------------------------------
 
 UNSEEN = re.compile(
     r"^=|[\\\x00-\x09\x0b-\x1f\x7f-\xa0\xad\u200b-\u200f\u2028-\u202e\ud800-\udfff\ufeff]", re.MULTILINE
@@ -156,7 +120,8 @@ def escaped(text: str) -> str:
         return SIGNS.get(found[0]) or (f"\\x{code:02x}" if code < 256 else f"\\u{code:04x}")
 
     def broken(line: str) -> str:
-        pieces = re.findall(rf".{{1,{LONG}}}(?<=[ >,;])|.{{1,{LONG}}}", line) if len(line) > LONG else [line]
+        tags = re.split(r"(?<=>)(?=<[^/])", line) if len(line) > LONG else [line]
+        pieces = (piece for tag in tags for piece in re.findall(rf".{{1,{LONG}}}(?<=[ >,;])|.{{1,{LONG}}}|^$", tag))
         return "\\\n".join(re.sub(UNSEEN, sign, piece) for piece in pieces)
 
     return "\n".join(map(broken, text.split("\n")))

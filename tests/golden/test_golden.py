@@ -1,6 +1,7 @@
 """Every byte that the commands print and write is as it was when `tests/golden/record.py` recorded it."""
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from difflib import unified_diff
 from functools import cache
@@ -14,6 +15,7 @@ from contoursolve.__main__ import commands
 from contoursolve.controls import DIALECTS
 
 UNRECORDED = {
+    "lsp": "what it says while it examines depends on the time; tests/cli/test_lsp.py asks it",
     "sweep --dask": "needs a cluster",
 }
 """What no record has, each with the reason."""
@@ -28,9 +30,11 @@ def test_what_a_command_prints_and_writes_is_as_recorded(path: Path, tmp_path: P
     assert found == expected, "\n".join(unified_diff(expected.split("\n"), found.split("\n"), "recorded", "now", n=2))
 
 
-def test_the_records_have_every_command_and_option_and_every_rule_is_broken_in_one() -> None:
+def test_the_records_have_every_command_and_option_and_every_rule_is_broken_on_two_controls() -> None:
     recorded = {each for path in paths() for each in covered(path.stem, *read(stored(path)))}
-    assert set(wanted()) - recorded == UNRECORDED.keys()
+    controls = Counter(each.partition(": ")[2] for each in recorded if ": " in each)
+    missing = {each for each in wanted() if each not in recorded and controls[each.partition(": ")[2]] < 2}
+    assert missing == UNRECORDED.keys()
 
 
 @cache
@@ -47,11 +51,9 @@ def wanted() -> Iterator[str]:
         yield name
         for option in command.params:
             if isinstance(option, click.Option):
-                choices = option.type.choices if isinstance(option.type, click.Choice) else ()
-                yield from (f"{name} {option.opts[-1]} {each}" for each in choices)
-                controls = DIALECTS if option.type.name == "control" else ()
-                yield from (f"{name} {option.opts[-1]} {each}" for each in controls)
-                yield from () if choices or controls else [f"{name} {option.opts[-1]}"]
+                controls = [*DIALECTS] if option.type.name == "control" else [""]
+                choices = option.type.choices if isinstance(option.type, click.Choice) else controls
+                yield from (f"{name} {option.opts[-1]} {each}".strip() for each in choices)
     yield from (f"{control}: {rule.code}" for control, dialect in DIALECTS.items() for rule in dialect.catalogue)
 
 
@@ -67,7 +69,7 @@ def covered(name: str, case: Case, parts: Parts) -> Iterator[str]:
             yield from (f"{command} {option.opts[-1]} {value}" for value in given)
             yield from [f"{command} {option.opts[-1]}"] if given else ()
         yield f"{command} --control {control}"
-    if case.arguments[0] not in ("rules", "explain", "facts", "help"):
+    if control in DIALECTS and case.arguments[0] not in ("rules", "explain", "facts", "help"):
         text = "\n".join(map(parts.get, ("stdout", "stderr"), ("", "")))
         told = r'(?:^(?:error|warning|info)\[|"code": "|title=)([\w-]+)'
         yield from (f"{control}: {code}" for code in re.findall(told, text, re.MULTILINE))
