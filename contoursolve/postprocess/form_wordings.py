@@ -59,14 +59,17 @@ class FormWordings(GCodeSpeller):
 _MODAL = (1, 11, 12)
 """The codes of forms that stay in force."""
 
-_USES: dict[tuple[ContourForm, ...], tuple[tuple[ContourForm, frozenset[str]], ...]] = {}
+_USES: dict[object, tuple[tuple[ContourForm, frozenset[str]], ...]] = {}
+"""The sets of words of the controls that were asked for, by their forms and settings: a sample that one setting
+refuses may be right by another."""
 
 
 def _uses(dialect: Dialect) -> tuple[tuple[ContourForm, frozenset[str]], ...]:
     """The sets of words by which each form of a control may be stated, but for those of corners."""
-    if dialect.forms not in _USES:
-        _USES[dialect.forms] = tuple(dict.fromkeys(_sets(dialect)))
-    return _USES[dialect.forms]
+    key = dialect.name, dialect.forms, *sorted(dialect.modes.settings.items())
+    if key not in _USES:
+        _USES[key] = tuple(dict.fromkeys(_sets(dialect)))
+    return _USES[key]
 
 
 def _sets(dialect: Dialect) -> Iterator[tuple[ContourForm, frozenset[str]]]:
