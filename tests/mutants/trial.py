@@ -16,8 +16,6 @@ from itertools import count
 from pathlib import Path
 from sqlite3 import connect
 
-from coverage.numbits import numbits_to_nums
-
 from tests.mutants.faults import PACKAGE, Fault
 
 ROOT = Path(__file__).parents[2]
@@ -87,6 +85,8 @@ def _breadth() -> Counter[str]:
 @lru_cache(maxsize=8)
 def _cases_of(file: str) -> list[tuple[str, frozenset[int]]]:
     """The cases that reach a file, nearest first, each with its lines."""
+    from coverage.numbits import numbits_to_nums  # noqa: PLC0415 - the tests of faults do without it
+
     rows = _rows("where replace(file.path, '\\', '/') like ?", f"%{file}")
     found = [(case, frozenset(numbits_to_nums(bits))) for case, _, bits in rows if case]
     return sorted(found, key=lambda each: (_breadth()[each[0]], each[0]))
