@@ -38,7 +38,7 @@ def first_message(found: Answer | Result) -> str:
 
 
 def _example(answers: Sequence[Answer]) -> str:
-    """How to name one of several contours: by a word of the last that has one with its line."""
+    """Advice that names one of several contours: by a word of the last one, with its line."""
     blocks = (block for answer in reversed(answers) for block in answer.claim.blocks)
     word = next((word for block in blocks for word in block.words if word.address not in _NEVER), None)
     return f": name a word of it with its line, such as {word.span.line}:{word.address}" if word is not None else ""
