@@ -33,7 +33,7 @@ def random_blocks(rng: Random, count: int) -> list[tuple[str, str]]:
     for form in generate_typing.FORMS:
         sound = generate_typing.random_sound(rng, form)
         found.append((sound.text(), sound.control))
-    return rng.sample(found, count)
+    return rng.sample(found, min(count, len(found)))
 
 
 def findings(blocks: list[tuple[str, str]], *folders: Path) -> list:
