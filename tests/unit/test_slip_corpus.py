@@ -113,20 +113,19 @@ MORE = {
 """Controls and programs, besides those of the corpus."""
 
 FIRST = {
-    # Each is decided by another of the reasons that order fixes.
-    "ya-spindle-01": "write K-28. for I-28.",
-    "nc-plate-02": "write ,R8 for ,R88",
-    "ya-flange-02": "write I15. for K15.",
-    "fm-frame-02": "write Y65. for Y56.",
-    "circle": "write R50 for R55",
-    "fl-full-03": "write Z-25. for Z-52.",
-    "fl-cone-06": "write X70. for X7.",
-    "nc-cam-03": "write I-40 for I40",
-    "centre": "write J25. for J-25.",
-    "turn": "write A200. for A400.",
-    "two corners": "delete ,R1",
-    "nc-hook-08": "write X10 for X-10",
-    "mi-lever-02": "write A350. for A170.",
+    "ya-spindle-01": "write K-28. for I-28.",  # kind
+    "nc-plate-02": "write ,R8 for ,R88",  # round
+    "ya-flange-02": "write I15. for K15.",  # near
+    "fm-frame-02": "write Y65. for Y56.",  # familiar
+    "circle": "write R50 for R55",  # points
+    "fl-full-03": "write Z-25. for Z-52.",  # turns-back
+    "fl-cone-06": "write X70. for X7.",  # inward
+    "nc-cam-03": "write I-40 for I40",  # turning
+    "centre": "write J25. for J-25.",  # wide
+    "turn": "write A200. for A400.",  # across
+    "two corners": "delete ,R1",  # large
+    "nc-hook-08": "write X10 for X-10",  # long
+    "mi-lever-02": "write A350. for A170.",  # same
     "he-wing-01": "write FLT for FL",
     "he-star-02": "add PA?",
     "he-plate-02": "write RND for RDN",
@@ -137,6 +136,7 @@ FIRST = {
     "hl-axle-09": "write Z-52. for X-52.",
     "fm-bracket-01": "write G91 for G90",
 }
+"""The first fix of a slip, and the feature of `diagnosis/plausibility.py` that decides that it is the first."""
 
 
 def first_fix(control: str, lines: list[str], settings: dict[str, str]) -> str:
