@@ -8,6 +8,7 @@ from math import dist
 from pathlib import Path
 from random import Random
 
+import generate_fanuc
 import generate_slips
 import generate_typing
 import pytest
@@ -28,12 +29,18 @@ json.dump(found, sys.stdout, default=str)
 
 
 def random_blocks(rng: Random, count: int) -> list[tuple[str, str]]:
-    """Sound blocks and spoilt ones of every form."""
-    found = [(spoilt.text, spoilt.control) for form in generate_slips.FORMS.values() for spoilt in [form(rng)]]
-    for form in generate_typing.FORMS:
-        sound = generate_typing.random_sound(rng, form)
-        found.append((sound.text(), sound.control))
-    return rng.sample(found, min(count, len(found)))
+    """Sound blocks, mistyped ones and spoilt ones of every form."""
+    found: list[tuple[str, str]] = []
+    while len(found) < count:
+        for form in generate_slips.FORMS.values():
+            spoilt = form(rng)
+            found.append((spoilt.text, spoilt.control))
+        sound = generate_typing.random_sound(rng, rng.choice(generate_typing.FORMS))
+        slip = generate_typing.random_slip(sound, rng)
+        found += [(sound.text(), sound.control), (slip.text if slip else sound.text(), sound.control)]
+        program = generate_fanuc.random_lathe(rng, rng.randint(2, 3))
+        found.append(("\n".join(generate_fanuc.disturbed(rng, program, list("XUZWIKR"))), "fanuc-lathe"))
+    return found[:count]
 
 
 def findings(blocks: list[tuple[str, str]], *folders: Path) -> list:
