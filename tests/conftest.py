@@ -58,10 +58,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Cases are slow that the sample by time leaves out."""
     quick = sampling.quick_cases(sampling.read_costs())
     for item in items:
-        if isinstance(item, pytest.Function) and not {mark.name for mark in item.iter_markers()} & SLOW:
+        marks = {mark.name for mark in item.iter_markers()}
+        if not marks & SLOW:
+            is_sampled = isinstance(item, pytest.Function) and "boundary" not in marks
+            item.stash[sampling.KIND] = sampling.SAMPLED if is_sampled else sampling.ALWAYS
             file, name = sampling.place_of(item)
-            known = quick.get(file, {}).get(sampling.test_of(name))
-            if known is not None and name not in known and item.get_closest_marker("boundary") is None:
+            if is_sampled and name not in quick.get(file, {}).get(sampling.test_of(name), [name]):
                 item.add_marker("slow")
 
 
