@@ -94,6 +94,7 @@ def served_for():
         each.stop()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("control", "programs"), examples())
 def test_findings_of_the_rules_examples_stand_where_solve_finds_them(served_for, control, programs):
     """And each fix, applied as the editor does it, writes the lines that solve offers."""
