@@ -141,7 +141,7 @@ def judge(fault: Fault, folder: Path, patience: int) -> Verdict:
             ("slow", ["-m", SLOW], near, patience),
             ("quick", [], far, ENDLESS),
         ):
-            if cases and (caught := _run(folder, cases, marks, limit)):
+            if cases and limit and (caught := _run(folder, cases, marks, limit)):
                 if caught == "no end" and by == "slow":
                     break
                 return Verdict(by, caught, len(near))
