@@ -50,7 +50,7 @@ def draw(faults: list[Fault], seed: int) -> Iterator[Fault]:
 @click.option("--count", type=click.IntRange(1), default=60, show_default=True, help="How many faults.")
 @click.option("--room", "rooms", multiple=True, metavar="R", help="Only in this folder of the package. Repeatable.")
 @click.option("--at", "places", multiple=True, metavar="FILE:LINE", help="All faults of this line. Repeatable.")
-@click.option(
+@click.option("--patience", type=int, default=180, show_default=True, help="Seconds for a fault's slow cases; 0: none.")
     "--patience", type=int, default=180, show_default=True, help="Seconds for the slow cases of a fault; 0: none."
 )
 @click.option("--jobs", type=click.IntRange(1), default=2, show_default=True, help="How many run at once.")
