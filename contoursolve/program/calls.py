@@ -303,16 +303,20 @@ def _as_typed(
     why = [f"{each.typed}: {each.reason}" for _, each in changes if each.reason]
     return replace(
         finding,
-        span=_place(finding.span, here),
-        labels=tuple(Label(_place(each.span, here), each.text) for each in finding.labels),
+        span=_place(finding.span, blocks, here),
+        labels=tuple(Label(_place(each.span, blocks, here), each.text) for each in finding.labels),
         notes=(*finding.notes, *dict.fromkeys([*stands, *why])),
         fixes=tuple(_fix(each, [*lines], blocks, here) for each in finding.fixes),
     )
 
 
-def _place(span: Span, here: _Substituted) -> Span:
-    """The columns of what was typed."""
-    return typed_span(span, here.get(span.line, ()))
+def _place(span: Span, blocks: Sequence[Block], here: _Substituted) -> Span:
+    """The columns of what was typed; the whole line, where it ran again since with other numbers, so that they would
+    lie behind its end."""
+    if span.line not in here:
+        return span
+    found, block = typed_span(span, here[span.line]), blocks[span.line - blocks[0].line]
+    return found if found.end_column <= len(block.text) + 1 else block.span
 
 
 def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], here: _Substituted) -> Fix:

@@ -51,8 +51,6 @@ def draw(faults: list[Fault], seed: int) -> Iterator[Fault]:
 @click.option("--room", "rooms", multiple=True, metavar="R", help="Only in this folder of the package. Repeatable.")
 @click.option("--at", "places", multiple=True, metavar="FILE:LINE", help="All faults of this line. Repeatable.")
 @click.option("--patience", type=int, default=180, show_default=True, help="Seconds for a fault's slow cases; 0: none.")
-    "--patience", type=int, default=180, show_default=True, help="Seconds for the slow cases of a fault; 0: none."
-)
 @click.option("--jobs", type=click.IntRange(1), default=2, show_default=True, help="How many run at once.")
 @click.option("--measure", "is_measured", is_flag=True, help="First run all tests, to learn which lines they reach.")
 @click.option("--list", "is_listed", is_flag=True, help="Print the faults, and run nothing.")
