@@ -16,6 +16,7 @@ source_pkgs = contoursolve
 data_file = {folder}/reached
 parallel = true
 patch = subprocess
+sigterm = true
 context = ${{REACH_CASE-}}
 disable_warnings = no-data-collected, module-not-imported, dynamic-conflict, couldnt-parse
 """

@@ -178,5 +178,5 @@ def _run(folder: Path, cases: list[str], marks: list[str], limit: int) -> str:
         return "no end"
     if process.returncode in (0, 5):
         return ""
-    failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", told, re.MULTILINE)
+    failed = re.search(r"^(?:FAILED|ERROR) (\S.*?::.+?)(?: - .*)?$", told, re.MULTILINE)
     return failed[1] if failed else "the tests cannot start"
