@@ -344,4 +344,6 @@ def _place(lines: Sequence[str], starts: Sequence[int], offset: int) -> tuple[in
     text, units = lines[index], offset - starts[index]
     if text.isascii():
         return index + 1, units + 1
-    return index + 1, 1 + len(text.encode("utf-16-le", "surrogatepass")[: 2 * units].decode("utf-16-le", "surrogatepass"))
+    return index + 1, 1 + len(
+        text.encode("utf-16-le", "surrogatepass")[: 2 * units].decode("utf-16-le", "surrogatepass")
+    )
