@@ -78,6 +78,8 @@ class HandCalculation(HandCorners):
             return self._leg(step, lines[0])
         if len(lines) == 2 and lines[0] is not None and lines[1] is not None:  # noqa: PLR2004 - two lines
             return self._two_lines(step, lines[0], lines[1])
+        if any(fact.sides() for fact in step.facts):
+            return None  # no word tells on which side it lies
         turned = self._symbols.turned()
         formulas = self._hand.solve_linear(
             [fact.equation(self._at).xreplace(turned) for fact in step.facts],

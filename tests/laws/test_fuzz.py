@@ -108,6 +108,7 @@ MENDED = [
     ("yasnac-lx3", "sensitivity {blocks}", "G00 X100. Z-50.\nG112 U0 I10. K-50. R30. P5. Q5.\nG00 X60.\nG112"),
     ("cnc-pilot", "solve part.nc", "FERTIGTEIL\nG0 X30 Z0\nG1 X30 Z-20\nG1 Z? X30\nG1 X30 Z-50\nG1 A60"),
     ("heidenhain", "check part.nc", "L X+0 Y+0\nFL X+30 Y+0\nFCT DR+ R10 CCA+0\nFLT\nFC DR+ R10\nFCT DR- CCX+Q1"),
+    ("heidenhain", "solve part.nc --derivation", "L X+0 Y+0\nFL AN+0 LEN50\nFL AN+90\nFL PAR 2 DP20 X+10"),
 ]
 """What ended in a traceback, or took too long: the control, the command with part.nc or {blocks}, and the program."""
 
