@@ -23,6 +23,7 @@ from time import process_time
 from typing import NamedTuple
 
 import small_interpreter
+import sympy  # noqa: F401 - the first --explain imports it, which is not its fault
 from click.testing import CliRunner
 
 from contoursolve import DIALECTS, Result, Severity, Status, solve
