@@ -42,6 +42,7 @@ def _receipt(requirements: str) -> tuple[str, str]:
         ),
         ([("pyvenv.cfg", "uv = 0.13.9\n")], f'uv pip install --python {sys.executable} "contoursolve[picture]"'),
     ],
+    ids=map(str, range(9)),
 )
 def test_a_missing_package_is_installed_as_contoursolve_was(monkeypatch, tmp_path, files, command):
     prefix = tmp_path / "tool"
