@@ -219,7 +219,7 @@ class _Reader(Struct, frozen=True):
         text = (
             value.strip() if isinstance(value, str) else str(value) if isinstance(value, int | Decimal | float) else ""
         )
-        if isinstance(value, bool) or len(text) > LONGEST or not _NUMBER.fullmatch(text):
+        if len(text) > LONGEST or not _NUMBER.fullmatch(text):
             raise self.refusal(name, f'is {_shown(value)}; write a number, such as 12.5 or "12,5", or "?"')
         number = Decimal(text.replace(",", "."))
         if abs(number) > Decimal(LARGEST):

@@ -3,14 +3,12 @@
 import json
 import re
 from pathlib import Path
-from urllib.parse import unquote, urlsplit
 
 import jsonschema
 import pytest
 from calling import call
 
 from contoursolve import solve
-from contoursolve.controls import DIALECTS
 
 BROKEN = "G00 X40. Z0.\nG111 A135. I10. K-12. B180. Z-40. P2.\nG00 X40. Z0.\nG111 A180. K-30. P90. B120. X100.\n"
 CLEAN = "G00 X40. Z0.\nG111 A180. K-30. B120. X100.\n"
@@ -51,22 +49,6 @@ def test_sarif_holds_against_its_schema(text, save, request):
     jsonschema.validators.validator_for(schema)(schema).validate(log)
 
 
-def test_sarif_declares_every_rule_and_each_result_points_to_its_own(save):
-    run = sarif(save(BROKEN))
-    rules = run["tool"]["driver"]["rules"]
-    codes = [rule["id"] for rule in rules]
-    assert set(codes) == {rule.code for dialect in DIALECTS.values() for rule in dialect.rules}
-    assert len(codes) == len(set(codes))
-    assert all(rule["shortDescription"]["text"] and rule["help"]["text"] for rule in rules)
-    told = []
-    for result in run["results"]:
-        region = result["locations"][0]["physicalLocation"]["region"]
-        line = BROKEN.splitlines()[region["startLine"] - 1]
-        told.append((codes[result["ruleIndex"]], line[region["startColumn"] - 1 : region["endColumn"] - 1]))
-        assert codes[result["ruleIndex"]] == result["ruleId"]
-    assert told == [("g111-a-ignored", "A135."), ("g111-corner-too-large", "P90.")]
-
-
 def fingerprints(run: dict) -> list[tuple[str, str]]:
     return [(result["ruleId"], json.dumps(result["partialFingerprints"])) for result in run["results"]]
 
@@ -103,14 +85,6 @@ def test_a_fix_that_drops_a_line_takes_its_end_out_too(save):
     (replacement,) = fix["artifactChanges"][0]["replacements"]
     assert replacement["deletedRegion"] == {"startLine": 3, "startColumn": 1, "endLine": 4, "endColumn": 1}
     assert replacement["insertedContent"]["text"] == ""
-
-
-@pytest.mark.parametrize("name", ["a b.nc", "a%20b.nc", "a#1.nc", "Welle-\u00d8.nc", "a[1].nc"])
-def test_sarif_uri_is_a_uri_of_the_file(name, save):
-    (result, *_) = sarif(save(BROKEN, name))["results"]
-    uri = result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
-    assert re.fullmatch(r"(?:[A-Za-z0-9._~!$&'()*+,;=:@/-]|%[0-9A-Fa-f]{2})+", uri)
-    assert unquote(urlsplit(uri).path) == name
 
 
 # GitHub -----------------------------------------------------------------------------------------------
@@ -162,25 +136,6 @@ def test_a_folder_stands_for_its_programs_and_those_of_the_folders_in_it(save):
 # Exit statuses and the summary ------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("format_", ["text", "json", "sarif", "github"])
-@pytest.mark.parametrize(
-    ("text", "fails_on"),
-    [(BROKEN, {"error", "warning"}), (WARNED, {"warning"}), (NOTHING, set()), (CLEAN, set())],
-)
-def test_fail_on_names_the_least_finding_that_fails(text, fails_on, format_, save):
-    path = save(text)
-    statuses = {each: check(path, "--format", format_, "--fail-on", each).exit_code for each in FAIL_ON}
-    assert statuses == {each: int(each in fails_on) for each in FAIL_ON}
-    assert check(path, "--format", format_).exit_code == int("error" in fails_on)
-
-
-FAIL_ON = ("error", "warning", "never")
-
-
-def test_fail_on_never_still_tells_that_it_could_not_run(save):
-    assert check("missing.nc", "--fail-on", "never").exit_code == 2
-
-
 def test_summary_of_several_files_tells_nothing_found_from_nothing_examined(save):
     clean, nothing, broken = save(CLEAN, "1.nc"), save(NOTHING, "2.nc"), save(BROKEN, "3.nc")
     assert check(clean).output == "1 contour solved, no problems\n"
@@ -188,22 +143,3 @@ def test_summary_of_several_files_tells_nothing_found_from_nothing_examined(save
     assert check(clean, clean).output.splitlines()[-1] == "2 programs, 2 contours solved, no problems"
     last = check(clean, nothing, broken).output.splitlines()[-1]
     assert last == "3 programs, 3 contours: 2 solved, 1 without a solution; 1 error, 1 warning"
-
-
-def test_several_programs_end_with_a_table_the_worst_first(save, tmp_path):
-    for name, text in (("1", CLEAN), ("2", NOTHING), ("3", BROKEN), ("4", WARNED), ("5", NOTHING)):
-        save(text, f"{name}.nc")
-    save("int part(void);\n#include <math.h>\n", "6.nc")
-    done = check(f"{tmp_path}/?.nc")
-    assert done.exit_code == 2
-    assert "6.nc is C source, no CNC program" in done.stderr
-    head, *rows, nothing, blank, total = done.stdout.splitlines()[-8:]
-    assert head.split() == ["program", "contours", "errors", "warnings"]
-    assert [row.rpartition("/")[2].rpartition("\\")[2].split() for row in rows] == [
-        ["6.nc", "not", "examined"],
-        ["3.nc", "2", "1", "1"],
-        ["4.nc", "1", "0", "1"],
-        ["1.nc", "1", "0", "0"],
-    ]
-    assert (nothing, blank) == ("2 programs without contour blocks", "")
-    assert total == "5 programs, 4 contours: 3 solved, 1 without a solution; 1 error, 2 warnings"

@@ -5,25 +5,22 @@ import re
 import subprocess
 import sys
 from configparser import ConfigParser
-from dataclasses import replace
-from math import cos, dist, radians, sin, tan
 from pathlib import Path
 
 import pytest
 from calling import call
 from examples import control_of, law
-from hypothesis import assume, strategies as st
+from hypothesis import strategies as st
 from interpreter import RefusedError, interpret
 
 import contoursolve
 from contoursolve.comparison import compare, follow
-from contoursolve.controls import DIALECTS, PLAIN as TARGET_CONTROLS, YASNAC_LX3
+from contoursolve.controls import DIALECTS, PLAIN as TARGET_CONTROLS
 from contoursolve.diagnostics import Severity
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length
 from contoursolve.postprocess import POSTS, MachineKind
 from contoursolve.program import Request, run as run_program
-from contoursolve.reading import Effect
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 TAPER = "G111 A180. K-30. B120. X100."
@@ -48,55 +45,6 @@ def path_of(text, dialect, unit=Length.MM):
 
 
 # --- Rounding ------------------------------------------------------------------------------------------
-
-
-@law(
-    st.floats(5, 60),
-    st.floats(0.4, 30),
-    st.floats(-170, 170).filter(lambda turn: abs(turn) > 3),
-    st.sampled_from(["center", "radius"]),
-    st.booleans(),
-    st.integers(1, 4),
-    derandomize=False,
-)
-def test_a_rounded_path_is_one_and_as_near_as_it_says(length, radius, turn, arcs, is_incremental, decimals):
-    """The arc of a corner, by its own arithmetic: whoever reads the words finds its centre within the last decimal."""
-    end = 7.5 + length + 40 * cos(radians(turn)), -3.25 + 40 * sin(radians(turn))
-    assume(radius * abs(tan(radians(turn / 2))) < min(length, 40))
-    text = f"G17 G90 G0 X7.5 Y-3.25\nG1 X{7.5 + length:.6f} ,R{radius:.6f}\nX{end[0]:.6f} Y{end[1]:.6f}"
-    if is_incremental:
-        x, y = 40 * cos(radians(turn)), 40 * sin(radians(turn))
-        text = f"G17 G90 G0 X7.5 Y-3.25\nG91 G1 X{length:.6f} ,R{radius:.6f}\nX{x:.6f} Y{y:.6f}"
-    expansion = contoursolve.expand(text, control="nct-99m", arcs=arcs, decimals=decimals, comments=False)
-    exact = contoursolve.solve(text, control="nct-99m").answers[0].contour
-    step, here, places = 10.0**-decimals, (7.5, -3.25), []
-    for line in expansion.text.split("\n")[1:]:
-        words = {word[0]: float(word[1:]) for word in re.findall(r"[XYIJR]-?[\d.]+", line)}
-        there = words["X"] + is_incremental * here[0], words["Y"] + is_incremental * here[1]
-        if "R" in words:
-            assert 2 * words["R"] >= dist(here, there) - 1e-9
-        elif "I" in words:
-            center = here[0] + words["I"], here[1] + words["J"]
-            assert abs(dist(center, here) - dist(center, there)) <= 1.5 * step
-            assert abs(dist(center, here) - radius) <= expansion.summary.deviation + 0.75 * step
-            assert ("G03" in line) == (turn > 0)
-        here = there
-        places.append(there)
-    assert dist(here, exact.end) <= 0.72 * step
-    assert expansion.summary.deviation <= (6 if arcs == "radius" else 3) * step
-    for each in exact.elements[:1]:
-        assert min(dist(each.end, place) for place in places) <= 0.72 * step
-
-
-@pytest.mark.parametrize("arcs", ["center", "radius"])
-@pytest.mark.parametrize(("height", "count"), [(0.02, 1), (0.3, 2)])
-def test_an_element_that_rounds_to_nothing_is_left_out_and_its_deviation_counted(arcs, height, count):
-    """A rounding of 0.02 mm with one decimal, and one that is left."""
-    text = f"G17 G90 G0 X0 Y0\nG1 X10 ,R{height}\nY5"
-    expansion = contoursolve.expand(text, control="nct-99m", arcs=arcs, decimals=1, comments=False)
-    arc = [line for line in expansion.text.split("\n") if "G03" in line]
-    assert len(arc) == count - 1
-    assert expansion.summary.deviation == pytest.approx(height if not arc else 0.0, abs=1e-9)
 
 
 TARGETS = {"same": ("yasnac-lx3", "nct-99m"), "fanuc": ("fanuc-lathe", "fanuc-mill"), "linuxcnc": ("linuxcnc",) * 2}
@@ -198,15 +146,6 @@ def test_a_contour_is_replaced(name):
     assert expand(text, control=control_of(text)) == lines.split("\n")
 
 
-def test_the_original_block_stays_as_a_comment_that_nothing_ends():
-    text = f"{START}N30 {TAPER} (A (B) ; 100% (contoursolve: length of line 1 = 30)\r\n"
-    lines = contoursolve.expand(text.replace("A (B) ", "A) (B) "), rules="off").text.split("\n")
-    assert lines[1] == f"(N30 {TAPER} [A] [B] ; 100  [contoursolve: length of line 1 = 30])\r"
-    long = "G111 A180. K-30. B120. X100. (" + 500 * "X" + ")"
-    lines = contoursolve.expand(START + long).text.split("\n")
-    assert all(len(line) < 250 and line[0] == "(" and line[-1] == ")" for line in lines[1:4])
-
-
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
@@ -234,13 +173,6 @@ def test_what_cannot_be_expanded_is_told_and_nothing_is_written(text, reason):
     assert contoursolve.expand(kept.text, keep_going=True, control=kept.control).text == kept.text
 
 
-def test_a_contour_that_is_left_without_an_error_of_its_own_is_told_with_its_reason():
-    status, _, said = run("expand", "-", stdin="G00 X40. Z0.\n/G00 X50.\nG111 X100. A180. K-30. B120.\n")
-    assert status == 1
-    assert "info[start-skippable]" in said
-    assert "error: program line 3: it begins where a block with / leads" in said
-
-
 def test_what_the_target_reads_otherwise_is_named_once():
     text = f"G50 S2000\nG50 S1500\n{START}{TAPER}\nG01 X50 F.1\nG01 U5.\nIF [#1 GT 2] GOTO 5"
     for post, told in (
@@ -264,96 +196,11 @@ def test_a_word_that_the_control_ignores_is_not_passed_over():
 
 
 TURNED = "G00 X97. Z2.\nG90 X91. Z-40. F0.35\nX85.\nG00 X40. Z0.\nG111 X80. A180. K-30. B120. P5. F0.2\n"
-CIRCLED = "G17 G41 G0 X50. Y0.\nG3 X-50. Y0. R50.\nG1 X-50. Y42.857 ,A171.87 Q-1\n"
 
 LX3, HERE, RUN = "yasnac-lx3", "on LinuxCNC 2.9,", "which would run"
 TURNING = f"(turning cycle on {LX3})"
 RAPID, LINE = "a rapid: G00 is in force", "a line: G01 is in force"
 BY_HAND = "nothing was written: write by hand what is meant there"
-
-
-@pytest.mark.parametrize(
-    ("post", "text", "sentence"),
-    [
-        (
-            "linuxcnc",
-            TURNED,
-            (
-                f"program line 2: {HERE} G90 {TURNING} is absolute coordinates, "
-                f"{RUN} X91. Z-40. and 1 line after it as {RAPID}"
-            ),
-        ),
-        (
-            "linuxcnc",
-            f"{START}{TAPER}\nG94 X20. Z-50.\nG00 X50.",
-            f"program line 3: {HERE} G94 (facing cycle on {LX3}) is feed a minute, {RUN} X20. Z-50. as {LINE}",
-        ),
-        (
-            "linuxcnc",
-            f"{START}{TAPER} P5. Q5.\n/X60.\nG94 X20. Z-50.",
-            f"program line 4: {HERE} G94 (facing cycle on {LX3}) is feed a minute, {RUN} X20. Z-50. as {RAPID}",
-        ),
-        (
-            "linuxcnc",
-            f"{START}{TAPER}\nG01 X60.\nG92 X59. Z-70. F2.\nX58.\n(THIRD)\nX57.",
-            f"program line 4: {HERE} G92 (thread cycle on {LX3}) sets coordinates, {RUN} 2 lines after it as {LINE}",
-        ),
-        (
-            "linuxcnc",
-            f"{START}{TAPER}\nG90\nM08\nX59.\nX58.",
-            f"program line 3: {HERE} G90 {TURNING} is absolute coordinates, {RUN} 2 lines after it as {LINE}",
-        ),
-        (
-            "linuxcnc",
-            f"{START}{TAPER}\ng76 X26. Z-30. K1.8 D400 F3. A60",
-            f"program line 3: on LinuxCNC 2.9, g76 (threading cycle on {LX3}) is a threading cycle with other words",
-        ),
-        (
-            "linuxcnc",
-            f"{START}{TAPER}\nG91 X1.",
-            (
-                f"program line 3: {HERE} G91 (not known to contoursolve on {LX3}) is incremental coordinates, "
-                f"{RUN} X1. as {RAPID}"
-            ),
-        ),
-        (
-            "linuxcnc",
-            f"{START}{TAPER}\nG00 X-1500",
-            f"program line 3: on LinuxCNC 2.9, X-1500 (-1.5 mm on {LX3}) has no point and is -1500 mm; write X-1.5",
-        ),
-        (
-            "fanuc",
-            f"{CIRCLED}G0 Z50",
-            "program line 4: on Fanuc 0i and relatives, Z50 (50 mm on nct-99m) has no point and is 0.05 mm; write Z50.",
-        ),
-        (
-            "linuxcnc",
-            f"{CIRCLED}G76 X1. Y1. Z-5. R1. Q1.",
-            "program line 4: on LinuxCNC 2.9, G76 (drilling cycle on nct-99m) is a threading cycle",
-        ),
-    ],
-)
-def test_what_the_target_would_run_along_another_path_keeps_the_program_from_being_written(post, text, sentence):
-    expansion = contoursolve.expand(text, post=post)
-    assert expansion.text is None
-    (found,) = expansion.summary.misread
-    assert f"program line {found.line}: {found.sentence(POSTS[post].title)}" == sentence
-    status, written, said = run("expand", "-", "--post", post, stdin=text)
-    assert (status, written) == (1, b"")
-    assert f"error: {sentence}\n" in said
-    assert said.endswith(
-        "nothing was written: write by hand what is meant there (--keep-untranslated writes it as it is)\n"
-    )
-    status, written, said = run("expand", "-", "--post", post, "--keep-untranslated", stdin=text)
-    assert status == 0
-    assert written.decode() == contoursolve.expand(text, post=post, keep_untranslated=True).text
-    assert all(line in written.decode().split("\n") for line in text.split("\n") if line[:4] in ("G90 ", "X85."))
-    assert f"warning: {sentence}\n" in said
-    if post == "linuxcnc":
-        status, written, said = run("filter", "-", stdin=text)
-        assert (status, written) == (1, b"")
-        assert f"error: {sentence}\n" in said
-        assert said.endswith(f"{BY_HAND}\n")
 
 
 @pytest.mark.parametrize(
@@ -379,15 +226,6 @@ def test_what_changes_no_path_or_stops_the_target_is_only_told(post, line):
     assert run("expand", "-", "--post", post, stdin=text)[0] == 0
 
 
-def test_a_code_that_a_control_of_ones_own_reads_as_the_target_does_is_not_read_otherwise():
-    own = YASNAC_LX3.modes
-    absolute = replace(own.codes[90], effect=Effect.ABSOLUTE, meaning="absolute coordinates")
-    control = replace(YASNAC_LX3, name="mine", modes=replace(own, codes={**own.codes, 90: absolute}))
-    text = f"{START}{TAPER}\nG90 G01 X60. Z-60."
-    assert contoursolve.expand(text, post="linuxcnc", control=control).summary.unfamiliar == []
-    assert contoursolve.expand(text, post="linuxcnc").text is None
-
-
 @pytest.mark.interpreter
 @pytest.mark.parametrize("machine", MachineKind)
 @pytest.mark.parametrize("stride", [15])
@@ -404,25 +242,6 @@ def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine,
 
 BEFORE = "G00 X40. Z0.\nG71 P100 Q0120 U.5 F.2\nN100 G00 X40. Z0.\n"
 ROUNDED = "N0120 G111 A180. K-30. B120. X100. P5."
-
-
-@pytest.mark.parametrize(
-    ("text", "numbers", "written"),
-    [
-        (START + "N20 G111 A180. K-30. B120. X100. P5.\nN21 M01\nGOTO 22", "first", ["N20", "", ""]),
-        (START + "N20 G111 A180. K-30. B120. X100. P5.\nN21 M01\nGOTO 22", "all", ["N20", "N23", "N24"]),
-        (START + "N0020 G111 A180. K-30. B120. X100. P5.\nM99 P23", "all", ["N0020", "N0021", "N0022"]),
-        (START + "N9999 G111 A180. K-30. B120. X100. P5.", "all", ["N9999", "N0001", "N0002"]),
-        (START + "G111 A180. K-30. B120. X100. P5.", "all", ["", "", ""]),
-        (BEFORE + ROUNDED, "first", ["", "", "N0120"]),
-        (BEFORE + ROUNDED, "all", ["N0121", "N0122", "N0120"]),
-    ],
-    ids=["first", "all, not what is there", "width", "from 1", "no number", "end of a profile", "profile, all"],
-)
-def test_numbers_of_new_lines_are_those_that_nothing_else_uses(text, numbers, written):
-    lines = expand(text, block_numbers=numbers)
-    at = next(n for n, line in enumerate(lines) if "Z-27.113" in line)
-    assert [line.partition("G")[0].strip() for line in lines[at : at + 3]] == written
 
 
 def test_numbers_that_cannot_stand_where_they_are_needed_are_told():
@@ -704,73 +523,9 @@ def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
     assert abs(motions[-1].end - (-50.2073 + 50j)) < 1e-4
 
 
-@pytest.mark.parametrize(
-    ("data", "status", "message"),
-    [
-        (START.encode() + b"G111 A180. B120. X100.\n", 1, "error[g111-line-1]"),
-        (b"\x00\x01binary", 2, "is binary data"),
-        (None, 2, "no such file"),
-        (b"(ONLY A COMMENT)", 0, "nothing to expand"),
-    ],
-    ids=["not solved", "binary", "missing", "comment"],
-)
-def test_whoever_filters_is_told_why_it_fails(data, status, message, tmp_path):
-    old = tmp_path / "old.nc"
-    if data is not None:
-        old.write_bytes(data)
-    outcome, program, said = run("filter", old)
-    assert (outcome, program, message in said) == (status, b"" if status else data, True)
-
-
-def test_the_filter_leaves_a_program_of_linuxcnc_alone(tmp_path):
-    old = tmp_path / "own.ngc"
-    old.write_bytes(b"o100 sub\nG1 X[#1+2] F#<_feed>\no100 endsub\nM2\n")
-    assert run("filter", old)[:2] == (0, old.read_bytes())
-
-
-def test_the_filter_writes_and_refuses_as_its_options_ask(tmp_path):
-    old = tmp_path / "old.nc"
-    old.write_text(START + TAPER + " P5. Q5. M08\n")  # the manual allows no M word in this block
-    status, written, said = run("filter", old)
-    assert (status, written, "error[g111-m-s-t]" in said) == (1, b"", True)
-    options = ("--arcs", "radius", "--decimals", "3", "--no-comments")
-    status, written, said = run("filter", old, "--rules", "warn", *options)
-    assert (status, "warning[g111-m-s-t]" in said) == (0, True)
-    assert b"R5." in written
-    assert b"(" not in written
-    same = run("expand", old, "--post", "linuxcnc", "--rules", "warn", *options)
-    assert written == same[1]
-
-
-def test_a_program_without_calls_keeps_the_last_line_of_its_file():
-    docs = PROGRAMS.parents[1] / "docs" / "programs"
-    for name, last in (("pulley.nc", "%"), ("lever.h", "24 END PGM LEVER MM")):
-        text = contoursolve.expand((docs / name).read_text(), inline=True).text
-        assert text.splitlines()[-1] == last
-
-
 def test_a_profile_that_is_written_elsewhere_needs_its_call():
     text = (PROGRAMS.parents[1] / "docs" / "programs" / "bush.arc").read_text()
     assert contoursolve.expand(text, inline=True).text is None
     kept = contoursolve.expand(text, inline=True, keep_going=True).text
     assert 'N60 CYCLE95("L_BUSH",' in kept
     assert kept.count("%_N_") == 1
-
-
-def test_numbers_in_place_of_variables_are_told(tmp_path):
-    """A subprogram that computes with its arguments is written for one call: never in silence. F keeps its variable."""
-    text = "G17 G90 G00 X0 Y0\nG65 P2000 A30. B5. F90.\nM30\nO2000\nG01 X#1 ,R#2 F#9\nY40. S#19\nM99"
-    (tmp_path / "slot.nc").write_text(text, encoding="utf-8")
-    status, output, errors = run("expand", tmp_path / "slot.nc", "--control", "fanuc-mill", "--no-comments")
-    assert (status, output.split(b"\n")[4]) == (0, b"G01 X25. Y0. F#9")
-    assert "line 5: warning: X#1 and ,R#2 are written as X30. and ,R5.: other values of the variables no" in errors
-    assert "program line 6: warning: S#19 is written as nothing" in errors
-    assert contoursolve.expand(text, control="fanuc-mill", inline=True).summary.fixed == []
-    klartext = "0 BEGIN PGM A MM\n1 Q2 = 5\n2 L X+0 Y+0 R0\n3 L X+50 Y+0\n4 RND RQ2\n5 L X+60 Y+50 F Q3\n6 END PGM A MM"
-    (fixed,) = contoursolve.expand(klartext).summary.fixed
-    assert (fixed.line, fixed.words, fixed.numbers) == (5, ("RQ2",), ("RND R5.",))
-
-
-def test_a_call_that_is_not_found_stays_and_the_words_beside_it_run_once():
-    text = contoursolve.expand("G91 G01 X5. M98 P9000\nM30", control="fanuc-mill", inline=True, keep_going=True).text
-    assert (text.count("X5."), text.count("M98 P9000")) == (1, 1)

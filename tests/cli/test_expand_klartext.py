@@ -1,6 +1,5 @@
 """Klartext programs expanded: chains as L, CC and C, and whole programs in G codes."""
 
-import re
 from random import Random
 
 import pytest
@@ -23,85 +22,12 @@ WRITTEN = {
 }
 
 
-def in_place_of(text: str, **options: object) -> list[str]:
-    """What stands between the first and the last block of a program of which everything is said, without comments."""
-    expansion = contoursolve.expand(text, comments=False, **options)
-    assert expansion.text is not None, expansion.summary.left
-    return expansion.text.splitlines()
-
-
 def chain(*blocks: str, before: str = "L X+0 Y+0 F200", unit: str = "MM") -> str:
     lines = (f"BEGIN PGM A {unit}", before, *blocks, f"END PGM A {unit}")
     return "".join(f"{number} {line}\n" for number, line in enumerate(lines))
 
 
 # --- Klartext ---
-
-
-def test_a_chain_is_written_in_plain_klartext_with_its_blocks_as_comments():
-    lines = []
-    for line in CAM.splitlines():
-        number = line.split()[0]
-        lines += [f";{line}", WRITTEN[number]] if number in WRITTEN else [line]
-    assert contoursolve.expand(CAM).text == "\n".join(lines) + "\n"
-
-
-@pytest.mark.parametrize("comments", [True, False])
-def test_what_is_written_is_not_expanded_again(comments):
-    once = contoursolve.expand(CAM, comments=comments).text
-    again = contoursolve.expand(once)
-    assert again.text == once
-    assert again.summary.replaced == 0
-    assert all(each.code == "no-contour" for each in contoursolve.solve(once).diagnostics)
-
-
-def test_words_beside_a_contour_go_to_the_block_that_moves():
-    text = chain("FL X+50 Y+0 RL F300 M8", "FC DR+ CCX+50 CCY+20 CCA+0 M5 ; UP", "FL X+70 Y+60 FMAX")
-    assert in_place_of(text)[2:5] == ["2 L X+50 Y+0 RL F300 M8", "3 CC X+50 Y+20 ; UP", "C X+70 Y+20 DR+ M5"]
-    assert in_place_of(text)[5] == "4 L X+70 Y+60 FMAX"
-
-
-def test_a_long_arc_is_written_as_two_and_both_are_in_rapid_if_it_is():
-    text = chain("FC DR+ CCX+0 CCY+20 CCA-100 FMAX", "FL X+50 Y+50")
-    assert in_place_of(text)[2:6] == [
-        "2 CC X+0 Y+20", "C X+1.743 Y+39.924 DR+ FMAX", "CC X+0 Y+20.0001", "C X-3.473 Y+0.304 DR+ FMAX",
-    ]  # fmt: skip
-
-
-def test_the_feed_of_a_rounding_ends_with_it():
-    text = chain("FL X+50 Y+0", "RND R5 F50", "FL X+50 Y+50")
-    assert in_place_of(text)[2:6] == ["2 L X+45 Y+0", "3 CC X+45 Y+5", "C X+50 Y+5 DR+ F50", "4 L X+50 Y+50 F200"]
-    text = chain("FL X+50 Y+0", "RND R5 F50", "FL X+50 Y+50 FMAX", "L X+0")
-    assert in_place_of(text)[5:8] == ["4 L X+50 Y+50 FMAX", "L F200", "5 L X+0"]
-    lines = in_place_of(text.replace("5 L", "M8\n/L Y+0\n5 L"), post="linuxcnc")
-    assert lines[5:9] == ["N4 G00 X50 Y50", "M8", "/G01 Y0 F200", "N5 G01 X0 F200"]
-
-
-def test_a_centre_that_was_in_force_is_in_force_behind_the_contour():
-    text = chain("CC X+10 Y-5", "FL X+50 Y+0", "RND R5", "FL X+50 Y+50", "CP IPA+90 DR+")
-    assert in_place_of(text)[6:8] == ["5 L X+50 Y+50", "CC X+10 Y-5"]
-
-
-def test_a_move_of_the_tool_axis_between_free_elements_stays():
-    text = chain("FL AN+0 LEN50", "L IZ-5 F80 ; DOWN", "L IZ-1", "FL X+90 Y+20", before="L X+0 Y+0 Z+0 F200")
-    assert in_place_of(text)[3:5] == ["3 L IZ-5 F80 ; DOWN", "4 L IZ-1"]
-    assert in_place_of(text, post="linuxcnc")[4:6] == ["N3 G01 Z-5 F80 (DOWN)", "N4 G01 Z-6"]
-
-
-@pytest.mark.parametrize(("word", "is_written"), [("Z-5", True), ("IZ-5", False)])
-def test_a_single_free_line_may_move_the_tool_axis(word, is_written):
-    text = chain(f"FL X+50 Y+0 {word}", before="L X+0 Y+0 Z+0 F200")
-    assert in_place_of(text)[2] == f"2 L X+50 Y+0 {word}"
-    found = contoursolve.expand(text, post="linuxcnc", comments=False)
-    assert (found.text is not None) is is_written
-    if is_written:
-        assert "N2 G01 X50 Y0 Z-5\n" in found.text
-
-
-def test_numbers_for_every_line_are_those_that_are_free():
-    written = contoursolve.expand(CAM, block_numbers="all", comments=False).text.splitlines()
-    assert [line.split()[0] for line in written[8:12]] == ["8", "9", "18", "10"]
-    assert all(re.match(r"\d+ \D", line) for line in written)
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n"])
@@ -189,43 +115,6 @@ def test_what_has_no_g_codes_is_a_comment_and_told(tmp_path, block, told):
     assert remark.startswith("(NOT EXPANDED: ")
     assert told in remark
     assert kept == f"(1 {block})"
-
-
-def test_a_word_without_g_codes_is_told_and_the_block_moves():
-    expansion = contoursolve.expand(chain("L X+5 M25"), post="linuxcnc", comments=False, keep_going=True)
-    assert expansion.text.splitlines()[3:5] == [
-        "(NOT EXPANDED: M25 has no counterpart here: write by hand what it does)", "N2 G01 X5",
-    ]  # fmt: skip
-    assert [left.lines for left in expansion.summary.left] == [(3,)]
-
-
-def test_corners_between_conventional_moves_are_written_out():
-    text = chain("L X+50", "RND R5", "L Y+50", "CHF 2", "L X+0", "CT X+0 Y+20", "L X+30 Y+20")
-    assert in_place_of(text, post="linuxcnc")[3:-1] == [
-        "N2 G01 X45 Y0", "N3 G03 X50 Y5 I0 J5", "N4 G01 X50 Y48", "N5 G01 X48 Y50", "N6 G01 X0 Y50",
-        "N7 G03 X0 Y20 I0 J-15", "N8 G01 X30 Y20",
-    ]  # fmt: skip
-
-
-def test_what_a_block_that_is_not_written_puts_in_force_is_said_in_the_next_that_moves():
-    text = chain("APPR LT X+10 Y+20 LEN15 RL F250", "M8", "FL X+50 AN+0", "FL X+50 Y+50", "DEP LT LEN5", "L X+90")
-    lines = contoursolve.expand(text, post="linuxcnc", comments=False, keep_going=True).text.splitlines()
-    assert lines[5:8] == ["N3 G41 M8", "N4 G01 X50 Y20 F250", "N5 G01 X50 Y50"]
-    assert lines[10] == "N7 G40 G01 X90"
-
-
-def test_parameters_that_are_known_are_written_as_numbers():
-    text = chain("Q1 = 20 + 5", "L X+Q1 Y-Q1")
-    assert in_place_of(text, post="linuxcnc")[-2] == "N3 G01 X25 Y-25"
-
-
-@pytest.mark.parametrize(("post", "opening"), [("linuxcnc", "G8 G17 G20 G90 G91.1"), ("fanuc", "G17 G20 G90 G94")])
-def test_a_program_in_inches(post, opening):
-    lines = in_place_of(chain("FL X+1.5 Y+0", "RND R.25", "FL X+1.5 Y+1", unit="INCH"), post=post)
-    assert lines[0] == opening
-    assert lines[2].startswith("N1 G01 X0")
-    assert "F20" in lines[2]  # Tenths of an inch.
-    assert lines[3].startswith("N2 G01 X1.25 Y0")
 
 
 # --- The same path ---

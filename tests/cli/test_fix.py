@@ -2,7 +2,6 @@
 
 import json
 import os
-import stat
 import subprocess
 import sys
 from difflib import SequenceMatcher
@@ -65,36 +64,6 @@ def test_standard_input_is_fixed_on_standard_output():
     again = check("-", "--fix", stdin=(START + KEPT).encode(), status=0)
     assert again.stdout == START + KEPT
     assert check("--block", IGNORED, "--start", "X40. Z0.", "--fix", status=0).stdout == f"{KEPT}\n"
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="permissions and links of POSIX")
-def test_a_link_is_followed_and_permissions_stay():
-    save(START + IGNORED, "real.nc")
-    Path("real.nc").chmod(0o640)
-    Path("link.nc").symlink_to("real.nc")
-    check("link.nc", "--fix", status=0)
-    assert Path("link.nc").is_symlink()
-    assert Path("real.nc").read_text() == START + KEPT
-    assert stat.S_IMODE(Path("real.nc").stat().st_mode) == 0o640
-    assert sorted(each.name for each in Path().iterdir()) == ["link.nc", "real.nc"]
-
-
-def test_what_cannot_be_written_stays_and_the_others_are_fixed():
-    names = [save(START + IGNORED, f"{number}.nc") for number in range(3)]
-    Path(names[1]).chmod(0o444)
-    done = check(*names, "missing.nc", "--fix", status=2)
-    assert [Path(name).read_text() == START + KEPT for name in names] == [True, False, True]
-    assert "1.nc is write-protected" in done.stderr
-    assert "missing.nc: no such file" in done.stderr
-    Path(names[1]).chmod(0o644)
-
-
-def test_a_program_without_a_fix_is_not_written():
-    name = save(START + TOO_LARGE)
-    before = Path(name).stat().st_mtime_ns
-    done = check(name, "--fix", status=1)
-    assert Path(name).stat().st_mtime_ns == before
-    assert done.output.splitlines()[-1].endswith("1 error; 1 fix changes the contour (see --unsafe-fixes)")
 
 
 # Diffs and formats ----------------------------------------------------------------------------------------

@@ -2,8 +2,7 @@
 
 import codecs
 
-import pytest
-from calling import call
+from calling import call as run
 from examples import law
 from hypothesis import strategies as st
 
@@ -31,10 +30,6 @@ FAULTY = {
 }
 """Lines of programs with a slip, each with what is meant."""
 CLEAN = ("G00 X40. Z0.", "G01 X41. F0.2", "G00 U1. W1.", "G90", "G21", "M8", "T0202", "(note)", "%", "")
-
-
-def run(*arguments, stdin=""):
-    return call(*arguments, stdin=stdin)
 
 
 def end_of(text: str) -> object:
@@ -86,16 +81,6 @@ def test_what_is_passed_over_is_told_where_every_line_is(tmp_path):
     assert (short.output.count("number-malformed"), long.output.count("number-malformed")) == (11, 30)
     assert short.output.splitlines()[-1] == long.output.splitlines()[-1]
     assert run("check", program, "--strict", "--format", "json").output.count('"number-malformed"') == 30
-
-
-@pytest.mark.parametrize("line", [
-    "Gl11 X100. A180. K-30. B120.",
-    "X40. (contoursolve: length of line 1 = 30)",
-    "G01 X100. ,A12O.",
-])  # fmt: skip
-def test_what_is_meant_for_a_contour_is_told_without_one(line):
-    control = "nct-99m" if "," in line else "yasnac-lx3"
-    assert contoursolve.check(f"{START}\n{line}", control=control)[-1].code != "no-contour"
 
 
 def test_a_program_for_another_control_is_one_line_whatever_its_size():

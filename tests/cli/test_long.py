@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-import contoursolve
 from contoursolve.cli import main
 from contoursolve.gcode import lexer
 
@@ -42,17 +41,6 @@ def test_blocks_that_are_not_kept_give_the_same_output(arguments, monkeypatch, t
     for path, each in zip(paths, expected, strict=True):
         found = CliRunner().invoke(main, [*arguments, path])
         assert (found.exit_code, found.output) == (each.exit_code, each.output)
-
-
-@pytest.mark.parametrize("text", ["", "\n", "\r", "a", "a\n", "a\r\nb", "a\n\r\n\rb\r", "\n\n", "X1\r\n"])
-def test_blocks_that_are_not_kept_are_the_same_blocks(text, monkeypatch):
-    kept = contoursolve.parse(text).blocks
-    monkeypatch.setattr(lexer, "MANY_LINES", -1)
-    read = contoursolve.parse(text).blocks
-    assert not isinstance(read, tuple)
-    assert (tuple(read), len(read), read[:2], read[-1]) == (kept, len(kept), kept[:2], kept[-1])
-    with pytest.raises(IndexError):
-        read[len(kept)]
 
 
 LATHE, MILL = "G01 X{x:.3f} Z-{z:.3f} F0.2", "N10 G01 X{x:.3f} Y-{z:.3f} F200"

@@ -1,15 +1,13 @@
 """Words that are said to be right, and words that are only compared, in options, comments and the editor's program."""
 
 import json
-from random import Random
 
 import pytest
 from calling import call
 from click.testing import Result
-from fuzzing import damaged
 
-from contoursolve import DIALECTS, OpenProgram, apply_fixes, solve
-from contoursolve.gcode import decode, parse
+from contoursolve import DIALECTS, OpenProgram, solve
+from contoursolve.gcode import parse
 
 TAPER = "G111 A180. K-30. B120. X100. "
 START = "G00 X40. Z0.\n"
@@ -60,25 +58,6 @@ def test_no_fix_changes_a_word_that_is_right_whichever_way_it_is_said(control):
     assert not any(changing.values())
 
 
-def test_a_conflict_names_the_other_words():
-    text = START + TAPER + "U50."
-    (conflict,) = [each for each in solve(text, trust="U50.").diagnostics if each.code == "words-conflict"]
-    assert conflict.message == "X100. disagrees with U50., which you trust, by 10.000 mm"
-    assert "write X90. instead" in conflict.notes
-    assert text.splitlines()[1][conflict.span.column - 1 : conflict.span.end_column - 1] == "X100."
-    turned = START + " ".join(reversed((TAPER + "U50.").split()))
-    (again,) = [each for each in solve(turned, trust="U50.").diagnostics if each.code == "words-conflict"]
-    assert again.message == conflict.message
-
-
-def test_fix_leaves_words_that_are_right(tmp_path):
-    part = tmp_path / "part.nc"
-    part.write_text(f"{START}G111 A135. I10. K-12. B180. Z-40. (contoursolve trust: A135.)\n")
-    check(str(part), "--fix", status=0)
-    assert "A135. I10." in part.read_text()
-    assert apply_fixes(START + "G111 A135. I10. K-12. B180. Z-40.", trust="A135.").applied == ()
-
-
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
@@ -100,23 +79,6 @@ def test_what_is_trusted_is_there_or_it_is_said_what_may_be_meant(words, reason,
     assert reason in check(str(part)).output
     part.write_text(f"{START}{TAPER}(contoursolve trust: {words})")
     assert reason.replace("the program", "the contour").split(";")[0] in check(str(part), status=1).output
-
-
-@pytest.mark.parametrize("seed", range(40))
-def test_a_trusted_word_of_a_damaged_program_is_in_every_fix(seed):
-    data, control = damaged(seed)
-    text, draw = decode(data, "part"), Random(seed)
-    result = solve(text, control=control)
-    words = [word for each in result.answers if each.diagnostics for word in each.claim.words.values()]
-    # A word with a variable is trusted as it is typed.
-    words = [each for each in words if times(each, text, result.program.syntax)]
-    word = draw.choice(words or [None])
-    if word is None:  # no contour with findings has a word to trust
-        return
-    for finding in solve(text, control=control, trust=word.text).diagnostics:
-        for fix in finding.fixes:
-            old, new = (times(word, each, result.program.syntax) for each in (fix.replaced, fix.replacement))
-            assert old <= new, (seed, word.text, fix)
 
 
 def times(word, text, syntax) -> int:
@@ -172,14 +134,6 @@ def test_a_reference_for_the_program_is_compared_with_the_end_of_its_only_contou
         "the program has 2 contours"
         in solve(f"(contoursolve reference: Z1.)\n{part.read_text()}").diagnostics[0].message
     )
-
-
-def test_a_reference_is_a_coordinate_where_increments_are_in_force():
-    text = (
-        "G17 G90 G00 X10. Y5.\nG91 G01 X40. ,C5. (contoursolve reference: X50.)\nY20. (contoursolve reference: Y25.)\n"
-    )
-    found = solve(text, control="fanuc-mill").diagnostics
-    assert [each.code for each in found] == ["reference-met"] * 2
 
 
 def test_a_reference_to_what_is_not_solved_or_no_contour_is_not_compared():

@@ -82,49 +82,12 @@ def test_the_drawing_holds_every_element_on_its_layer_to_1e_9(text, mm):
     assert len(marks) == len(points) > 0
 
 
-def test_the_header_says_which_axes_the_drawing_has():
-    lathe = read(to_dxf(contoursolve.solve(INCH).answers)).header.custom_vars
-    assert lathe.get("Axes in G18") == "X of the drawing is Z, Y is X as radius"
-    mill = read(to_dxf(contoursolve.solve(CIRCLE).answers)).header.custom_vars
-    assert mill.get("Axes in G17") == "X of the drawing is X, Y is Y"
-
-
-def test_contours_of_several_planes_have_layers_of_their_own():
-    document = read(to_dxf(contoursolve.solve_file(PROGRAMS / "plate.nc").answers))
-    layers = {entity.dxf.layer for entity in document.modelspace()}
-    assert {name[:6] for name in layers} == {"G17 - ", "G18 - ", "G19 - "}
-    assert {"G17 - construction", "G19 - contour 6 - program line 73 - arc"} <= layers
-    lathe = read(to_dxf(contoursolve.solve(INCH).answers))
-    assert {entity.dxf.layer[:3] for entity in lathe.modelspace()} == {"con"}  # of one plane nothing is said
-
-
-def test_nothing_of_the_programs_text_enters_the_drawing():
-    hostile = "(\n0\nEOF\n) (%UD9 {\\C1;EVIL} \x1b[31m <>/\\:;?*|=`)"
-    text = INCH.replace("\n", f" {hostile.replace(chr(10), ' ')}\n") + " (EVIL)"
-    assert to_dxf(contoursolve.solve(text).answers) == to_dxf(contoursolve.solve(INCH).answers)
-
-
 def test_what_is_not_in_the_drawing_is_named_with_its_lines(tmp_path):
     block = "G00 X40. Z0.\nG111 X100. A180. K-30. B{}. P{}.\nG00 X150. Z10.\n"
     (tmp_path / "three.nc").write_text("".join(map(block.format, (120, 120, 180), (6, 60, 6))) + "M30\n")
     status, output = plot(tmp_path / "three.nc", "-o", tmp_path / "three.dxf")
     left = "left out: 2 contours without a solution (program lines 5 and 8)"
     assert (status, f"three.dxf: 3 elements of 1 contour; {left}\n" in output) == (1, True)
-
-
-def test_a_drawing_that_exists_is_replaced_only_by_force(tmp_path):
-    target = tmp_path / "part.dxf"
-    target.write_text("mine")
-    target.chmod(0o640)
-    status, output = plot(PROGRAMS / "shaft.nc", "-o", target)
-    assert (status, target.read_text()) == (2, "mine")
-    assert "part.dxf exists; give --force to replace it" in output
-    status, output = plot(PROGRAMS / "shaft.nc", "-o", target, "--force")
-    assert status == 0
-    assert "24 elements of 7 contours" in output
-    assert len(read(target.read_bytes()).modelspace().query("LINE ARC")) == 24
-    assert target.stat().st_mode & 0o777 == 0o640
-    assert [each.name for each in tmp_path.iterdir()] == ["part.dxf"]
 
 
 @pytest.mark.parametrize(

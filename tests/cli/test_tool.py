@@ -1,11 +1,10 @@
 """The tool on the command line: how it is stated, and what is said of it."""
 
 import json
-import re
 from pathlib import Path
 
 import pytest
-from calling import block, blocks, call, data
+from calling import block, call, data
 
 LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
 TAPER = block("X20. Z0. / G01 X20. Z-10. / X30. Z-20. / X30. Z-30.")
@@ -98,25 +97,6 @@ def test_a_family_has_the_tool_as_a_word(command):
 
 
 @pytest.mark.parametrize(
-    ("statement", "table"),
-    [
-        ("(contoursolve tool: R0.8, tip 3)", ""),
-        ("(CONTOURSOLVE TOOL: R0.80, TIP 3)", ""),
-        ("T0101", "T0101 = {radius = 0.8, tip = 3}"),
-        ("(no tool)", "D1 = {radius = 0.8, tip = 3}"),
-    ],
-)
-def test_a_program_states_its_tool(statement, table, tmp_path):
-    (tmp_path / "a.nc").write_text(f"{statement}\n(contoursolve note: it runs)\n{COMPENSATED}")
-    (tmp_path / "contoursolve.toml").write_text(f"[tools]\n{table}\n")
-    options = ("--tool", "program") if table else ()
-    (contour,) = data("solve", *LATHE, *options, tmp_path / "a.nc")["contours"]
-    assert (contour["tool"]["radius"], contour["tool"]["tip"], contour["tool"]["side"]) == (0.8, 3, "right")
-    assert contour["lines"] == [6, 7, 8]
-    assert contour["tool"]["elements"][-1]["end"] == [-30.8, 15.0]
-
-
-@pytest.mark.parametrize(
     ("row", "told"),
     [
         ("T0101 = {radius = -1}", "tools.T0101: the radius of the tool is R-1; it must not be less than 0"),
@@ -138,12 +118,6 @@ def test_a_row_of_the_table_is_named(row: str, told: str, tmp_path):
     assert "contoursolve.toml" in done.stderr or "in the table of tools" in done.stderr
 
 
-def test_an_inch_program_states_an_inch_tool():
-    row = (*blocks("G20 G18 G01 X.8 Z-.4", "X1.2 Z-.8", start="X.8 Z0"), "--units", "inch")
-    (contour,) = data("solve", *LATHE, "--tool", "R.0315", "--tip", "3", "--side", "right", *row)["contours"]
-    assert contour["tool"]["radius"] == pytest.approx(0.8001)
-
-
 # What is said of it -----------------------------------------------------------------------------------------------
 
 ROUND = "X-4. Y20. / G01 X-4. Y9.1652 / G03 X4. Y9.1652 I4. J-9.1652 / G01 X4. Y20."
@@ -154,35 +128,6 @@ GROOVE = "X30. Z0. / G01 X30. Z-10. / X20. Z-10. / X20. Z-11.5 / X30. Z-11.5 / X
 
 
 CUTTER, TURNING = (*MILL, "--tool", "R6", "--side", "left"), (*LATHE, *NOSE, "--side", "right")
-
-
-@pytest.mark.parametrize(
-    ("words", "row", "found", "more"),
-    [
-        (
-            (*LATHE, *NOSE, "--side", "right"),
-            GROOVE,
-            "3 tool-element-vanishes 1.5000 1.6000 0.1000",
-            "is 1.5000 mm wide",
-        ),
-        (CUTTER, ROUND, "3 tool-interference 4.0000", "the control looks two moves ahead (printed): it finds this"),
-        (CUTTER, FAR, "6 tool-interference 4.0000", "ahead (printed): it does not find this"),
-    ],
-)
-def test_what_does_not_fit_is_told_with_its_width(words, row, found, more):
-    told = [(line, code, *re.findall(r"[\d.]+(?= mm)", text)) for line, code, text in findings(*words, *block(row))]
-    assert found in [" ".join(map(str, each)) for each in told]
-    assert more in call("check", "--explain", *words, *block(row)).stdout
-
-
-def test_a_fix_of_what_does_not_fit_is_tried():
-    words = ("--tool", "R2.4", "--tip", "3", "--side", "right", "-")
-    text = (TABLES / "flange.nc").read_text()
-    told = call("check", *words, stdin=text).stdout
-    assert "the inside arc of radius 2.0000 mm is 0.4000 mm too small for the nose R2.4" in told
-    assert "a nose of radius up to 2.0000 mm cuts the whole contour (tried)" in told
-    assert "write ,R2.4 for ,R2." in told
-    assert call("check", *words, stdin=text.replace(",R2.", ",R2.4")).exit_code == 0
 
 
 @pytest.mark.parametrize(
@@ -201,144 +146,6 @@ def test_flanks_that_are_stated(tool: str, side: str, blocks: str, needed: float
         assert (f"clearance of {needed:.3f} deg" in done.stdout, done.exit_code) == (not is_free, int(not is_free))
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "told"),
-    [
-        ("Z2. D1", "Z0.5 D1", "the move to the contour is 0.5000 mm long, 0.3000 mm shorter"),
-        ("G42 G00 X20. Z2.", "G42 G03 X20. Z2. R20.", "compensation begins in an arc"),
-    ],
-)
-def test_entry_and_exit(old, new, told):
-    text = COMPENSATED.replace("Z5.", "Z1.").replace("G00 X40.", "G00 X20.").replace(old, new)
-    assert any(message.startswith(told) for _, _, message in findings(*LATHE, *NOSE, "-", stdin=text))
-
-
-UNCOMPENSATED = [
-    (3, "R0.8", "X0. Z0. / G01 X18. Z0. / X20. Z-1. / X20. Z-20.", "0.3314 too thick 0.9373 0.4686"),
-    (3, "R0.8", "X0. Z0. / G01 X14. Z0. / G03 X20. Z-3. R3. / G01 X20. Z-15.", "3.0000 0.3314 too thick 2.2000"),
-    (3, "R0.8", "X20. Z0. / G01 X20. Z-12. / G02 X26. Z-15. R3. / G01 X40. Z-15.", "3.0000 0.3314 too thick 3.8000"),
-    (3, "R0.4", "X30. Z0. / G01 X30. Z-10. / X18.453 Z-20. / X18.453 Z-30.", "0.2536 too deep 0.5856 0.5072"),
-    (3, "R0.8", "X0. Z0. / G03 X20. Z-10. R10. / G01 X20. Z-25.", "10.0000 0.3314 too thick 9.2000"),
-    (3, "R0.8", "X20. Z0. / G01 X20. Z-10. / X30. Z-20. / X30. Z-30.", "0.2733 too thick 0.6111 0.6111"),
-    (8, "R0.8", "X20. Z0. / G01 X20. Z-10. / X30. Z-20. / X30. Z-30.", "0.0845 too deep 0.1889 0.1889"),
-    (9, "R0.8", "X20. Z0. / G01 X20. Z-10. / X30. Z-20. / X30. Z-30.", "0.8000 too deep"),
-]
-"""The radius of an arc, how much stays of what is made without compensation, and what the arc becomes, or how much that
-is on the diameter and along Z."""
-
-
-@pytest.mark.parametrize(("tip", "radius", "row", "told"), UNCOMPENSATED)
-def test_what_comes_out_without_compensation(tip, radius, row, told):
-    found = findings(*LATHE, "--tool", radius, "--tip", tip, "--side", "right", *block(row))
-    (message,) = [message for _, code, message in found if code == "tool-uncompensated"]
-    assert " ".join(re.findall(r"[\d.]+(?= mm)|too \w+", message)) == told
-
-
-HAND = """\
-G21 G40 G18
-G00 X16. Z2.
-G00 X14.4 Z0.
-G01 X19.4 F0.2
-G03 X20.5314 Z-0.2343 R0.8
-G01 X23.5314 Z-1.7343
-G03 X24. Z-2.3 R0.8
-G01 Z-17.0679
-G00 X60. Z50.
-"""
-"""The face, the chamfer and the cylinder of a stud, X21. Z0., X24. Z-1.5, for nose R0.8 (sheet: TR-P1)."""
-
-
-@pytest.mark.parametrize(("radius", "is_other"), [("R0.8", False), ("R0.4", True)])
-def test_a_path_that_is_made_by_hand_names_its_radius_and_its_part(radius, is_other):
-    found = findings(*LATHE, "--tool", radius, "--tip", "3", "--side", "right", "-", stdin=HAND)
-    told = [code for _, code, _ in found]
-    assert (told.count("tool-by-hand"), told.count("tool-other-radius")) == (1, is_other)
-    text = call("check", *LATHE, "--tool", radius, "--tip", "3", "--side", "right", "-", stdin=HAND).stdout
-    if radius == "R0.8":
-        assert "the path is made by hand for a nose of radius 0.8000 mm" in text
-        assert "the part goes through Z0.0000 X21.0001, Z-1.5000 X24.0000 and Z-16.2679 X24.0000" in text
-    else:
-        # The chamfer of 0.8 is 0.3314 too thick without compensation: for half of it, half of that, to the other side.
-        assert "with the nose R0.4 this line comes out 0.1657 mm too deep" in text
-
-
-@pytest.mark.parametrize(
-    ("row", "is_by_hand"),
-    [
-        # TR-1 with its only outside corner, and a contour with a rounding of that radius in its place.
-        ("X20. Z2. / G01 Z-0.8 / Z-10.611 / X29.831 Z-20.442 / G03 X30. Z-20.8 R0.8 / G01 Z-30.8", True),
-        ("X20. Z0. / G01 Z-10. / X30. Z-20. ,R0.8 / Z-30.", False),
-        ("X0. Z0. / G01 X20. ,R0.8 / Z-10. ,R2. / X30. ,R0.8 / Z-20. / X50. Z-30. ,R0.8 / Z-40.", False),
-    ],
-)
-def test_one_arc_around_a_corner_shows_a_path_by_hand_where_all_of_the_part_is_round(row, is_by_hand):
-    told = codes(*LATHE, *NOSE, "--side", "right", *block(row))
-    assert ("tool-by-hand" in told, "tool-uncompensated" in told) == (is_by_hand, not is_by_hand)
-
-
-@pytest.mark.parametrize(
-    ("size", "units"),
-    [("0.4", "mm"), ("0.3", "mm"), ("1.7", "mm"), ("0.0157", "inch"), ("0.1", "inch"), ("0.03125", "inch")],
-)
-def test_the_largest_radius_that_is_shown_fits_and_the_next_one_does_not(size: str, units: str):
-    """A fillet between a cylinder and a face, the chamfer of two inside corners of the same size, and a groove."""
-    from_axis = [f"G01 X2. Z-{2 - float(size):g}", f"G02 X{2 + 2 * float(size):g} Z-2. R{size}", "G01 X8. Z-2."]
-    chamfer = ["G01 X2. Z-2.", f"X{2 + 2 * float(size):g} Z-{2 + float(size):g}", f"X8. Z-{2 + float(size):g}"]
-    groove = ["G01 X40.", "Z-2.", "X2.", f"Z-{2 + 2 * float(size):g}", "X40."]
-    for lines in (from_axis, chamfer, groove):
-        words = ["--units", units, "--side", "right", "--start", "X2. Z0.", "--tip", "3", "--tool"]
-        given = blocks(*lines)
-        text = call("check", *LATHE, *words, "R3.", *given).stdout
-        shown = re.search(r"up to ([0-9.]+) \S+ cuts", text)
-        assert shown is not None
-        step = 10.0 ** -len(shown[1].split(".")[1])
-        assert "error" not in call("check", *LATHE, *words, f"R{shown[1]}", *given).stdout
-        assert lines is chamfer or float(shown[1]) == float(size)
-        assert "error[tool-" in call("check", *LATHE, *words, f"R{float(shown[1]) + step:.5f}", *given).stdout
-
-
-@pytest.mark.parametrize(
-    ("tip", "side", "blocks", "told"),
-    [
-        (3, "right", "X0. Z0./G03 X20. Z-10. R10./G01 Z-25.", "1.6000"),
-        (3, "right", "X0. Z5./G01 Z0./G03 X20. Z-10. R10./G01 Z-25.", "1.6000"),
-        (3, "left", "X30. Z0./G01 X0.", "1.6000"),
-        (3, "left", "X30. Z0./G01 X-1.", "0.6000"),
-        (3, "left", "X30. Z0./G01 X-1.6", ""),
-        (3, "left", "X30. Z0./G01 X0./X-1.6", ""),
-        (8, "left", "X30. Z0./G01 X0.", "1.6000"),
-        (3, "right", "X0. Z0./G01 X20. Z-17.3205", "0.2144"),
-        (3, "left", "X30. Z0./G01 X2.", ""),
-        (0, "left", "X30. Z0./G01 X0.", ""),
-    ],
-)
-def test_a_stub_stands_where_the_tip_stops_at_the_axis(tip: int, side: str, blocks: str, told: str):
-    words = ("--tool", "R0.8", "--tip", tip, "--side", side, *block(blocks.replace("/", " / ")))
-    found = [message for _, code, message in findings(*LATHE, *words) if code == "tool-stub"]
-    assert [re.search(r"a stub of diameter (\S+) mm stands at X0$", each)[1] for each in found] == [told] * bool(told)
-
-
-@pytest.mark.parametrize(
-    ("row", "is_away"),
-    [
-        ("X30. Z0. / G01 X30. Z-10. / X20. Z-10. ,R1. / X20. Z-13. ,R1. / X30. Z-13. / X30. Z-20.", False),
-        ("X64. Z-46. / G01 X60. Z-46. / X44. Z-48.755 / X44. Z-51.755 / X60. Z-54.51", False),
-        ("X30. Z-10. / G01 X40. Z-10. / X40. Z-20. / X30. Z-20.", True),
-    ],
-)
-def test_a_tip_that_points_away_is_told(row, is_away):
-    told = call("check", *LATHE, *NOSE, "--side", "right", *block(row)).stdout
-    assert ("points away" in told) is is_away
-
-
-def test_a_tip_that_points_away_cuts_with_no_radius():
-    about = [*LATHE, "--tip", "3", "--side", "left", *TAPER]
-    done = call("range", "--word", "tool", *about)
-    assert (done.exit_code, "tip 3 points away from this line" in done.output) == (1, True)
-    rounded = [word.replace("Z-10.", "Z-10. ,R2.") for word in about]
-    assert call("sweep", "--vary", "tool=0.2:0.8:0.2", *rounded).stdout.count("not 1 (tip against side)") == 4
-
-
 PLATE = """\
 T1 M6
 G90 G17 G54 G00 X-20. Y-20.
@@ -354,48 +161,6 @@ G40 G00 X-20. Y-20.
 
 
 @pytest.mark.parametrize(
-    ("first", "last", "is_clear"),
-    [
-        ("Y-8.", "X-8.", True),
-        # In two lines, across the start.
-        ("Y-8.", "X2.\nX-8.", True),
-        ("Y-20.\nY-4.", "X20.\nX4.\nX-2.\nX-8.", True),
-        # They would cross if one went on by less than the radius; or by less than the tool reaches.
-        ("Y-8.", "X2.", True),
-        ("Y2.", "X-8.", True),
-        ("Y-8.", "X4.999", True),
-        # Beside the walls of a pocket, the cutter does cut in.
-        ("Y-8.", "X2. G42", False),
-    ],
-)
-def test_straight_run_in_and_run_off_are_walls_up_to_where_they_cross(
-    first: str, last: str, is_clear: bool, tmp_path: Path
-):
-    program = PLATE.replace(" ,C2.", "").replace("<<MIDST>>\n", "").replace("Y-8.", first, 1)
-    last, _, side = last.partition(" ")
-    program = program.replace("X-8.\n", f"{last}\n", 1).replace("G41", side or "G41")
-    (tmp_path / "a.nc").write_text(program)
-    done = call("check", *MILL, "--tool", "R5", tmp_path / "a.nc")
-    assert ("tool-interference" not in done.stdout, done.exit_code) == (is_clear, int(not is_clear)), done.stdout
-
-
-@pytest.mark.parametrize(
-    ("control", "words", "told"),
-    [
-        ("nct-99m", {"D1": "D00"}, "error[tool-no-offset]: D00 is in force: G41 works with radius 0 (printed)"),
-        ("haas-mill", {"D1": "D0"}, "error[tool-no-offset]: D0 is in force: G41 works with radius 0 (assumed)"),
-        ("fanuc-mill", {"T1": "T0", " D1": ""}, "T0 is in force"),
-    ],
-)
-def test_a_word_that_calls_no_tool(control, words, told):
-    text = PLATE.replace("<<MIDST>>\n", "")
-    for old, new in words.items():
-        text = text.replace(old, new)
-    done = call("expand", "--control", control, "--tool", "R5", "-", stdin=text)
-    assert (done.exit_code, done.stdout, told in done.stderr) == (1, "", True)
-
-
-@pytest.mark.parametrize(
     ("row", "text", "told"),
     [
         ("D1 = {radius = 0}", PLATE, "info[tool-no-radius]"),
@@ -408,23 +173,6 @@ def test_the_tool_of_the_table_is_the_one_in_force(row, text, told, tmp_path):
     (tmp_path / "a.nc").write_text(text.replace("<<MIDST>>\n", ""))
     (tmp_path / "contoursolve.toml").write_text(f"[tools]\n{row}\n")
     assert any(told in call(each, *MILL, "--tool", "program", tmp_path / "a.nc").output for each in ("check", "expand"))
-
-
-@pytest.mark.parametrize(
-    ("end", "line"), [("M30", 9), ("G28 X0 Y0", 9), ("T2 M6\nG40 G00 X0", 9), ("M05", 9), ("G40\nM30", 0)]
-)
-def test_compensation_that_nothing_ends(end: str, line: int, tmp_path):
-    program = PLATE.replace("<<MIDST>>\n", "").replace("G40 ", "")
-    for name, text in (("on.nc", f"{program}{end}\n"), ("off.nc", f"{program.replace('G00 X-20', 'G40 G00 X-20')}")):
-        (tmp_path / name).write_text(text.replace("G90 G17 G54 G40 G00", "G90 G17 G54 G00"))
-    done = call("check", *MILL, "--tool", "R5", tmp_path / "on.nc")
-    told = f"warning[tool-still-on]: G41 is still in force at program line {line}"
-    assert (done.exit_code, told in done.stdout) == (0, bool(line))
-    assert "on.nc:8:1" in done.stdout or not line
-    on, off = (
-        call("expand", *MILL, "--tool", "R5", "--no-comments", tmp_path / f"{each}.nc") for each in ("on", "off")
-    )
-    assert on.stdout.splitlines()[:14] == off.stdout.splitlines()[:14]
 
 
 def lines(control: str, *blocks: str) -> str:
@@ -501,21 +249,6 @@ def test_a_face_or_a_groove_by_the_tip_alone_is_right_on_either_side(blocks: tup
         done = call("check", *NOSE, "--side", side, tmp_path / "a.nc")
         assert done.stdout == "1 contour solved, no problems\n", done.stdout
     assert call("expand", *NOSE, "--side", "right", tmp_path / "a.nc").stdout == text
-
-
-def test_what_runs_again_is_told_once(tmp_path: Path):
-    loop = ("#1=1", "WHILE[#1LE3]DO1", "G00 X-40. Y-20.", "G01 Z-#1 F200", "G41 D1 X30.", "Y30.", "X-30.", "G40 Y-50.")
-    (tmp_path / "a.nc").write_text(lines(MILL[1], *loop, "#1=#1+1", "END1"))
-    told = call("check", "--tool", "R5", tmp_path / "a.nc").stdout
-    assert (told.count("tool-inside-corner"), told.count("= the same in 3 passes")) == (1, 1)
-
-
-def test_where_no_tool_fits_the_fix_is_no_smaller_one(tmp_path: Path):
-    """An arc in the wrong sense begins where the line comes from."""
-    blocks = ("G00 X0. Y-20.", "G41 D1 G01 Y0. F500", "Y30.", "G02 X-10. Y40. I-10. J0.", "G01 X-40.", "G40 Y80.")
-    (tmp_path / "a.nc").write_text(lines(MILL[1], *blocks))
-    told = call("check", "--tool", "R5", tmp_path / "a.nc").stdout
-    assert "no cutter fits here\n  = help: check whether the contour goes back on itself" in told
 
 
 @pytest.mark.parametrize(

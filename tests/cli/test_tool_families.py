@@ -60,33 +60,6 @@ def test_worked_examples_end_where_check_says(row: tuple[Any, ...]):
         assert (call("check", "--tool", f"R{radius:.9f}", *about).exit_code == 0) is is_cut
 
 
-def test_what_ends_the_range_is_told_with_its_place():
-    about = ("--word", "tool", *LATHE, "--side", "right", *blocks_of(WORKED[0][3]))
-    done = call("range", "--within", "0.1:2", *about)
-    assert done.exit_code == 0
-    assert "tool, from 0.1000 mm to 2.0000 mm: 1 range of tools that cut the contour" in done.stdout
-    assert "program line 2, R0.4: the inside arc of radius 0.4000 mm is 0.0010 mm too small for" in done.stdout
-    assert "tool at most 0.400 mm" in done.stdout
-    none = call("range", "--within", "0.5:2", *about)
-    assert (none.exit_code, "no range of tools" in none.stdout) == (1, True)
-    assert call("range", "--within", "0.1:0.2", *about).stdout.count("end of the range searched") == 2
-
-
-def test_what_no_tool_cuts_has_no_range():
-    crossing = ("--block", "G01 X10. Y0", "--block", "X5. Y5.", "--block", "X5. Y-5.", "--start", "X0 Y0")
-    done = call("range", "--word", "tool", *MILL, "--side", "left", *crossing)
-    assert (done.exit_code, "no tool fits" in done.stdout) == (1, True)
-    arc = ("--block", "G42 G02 X20. Z-10. R10.", "--block", "G01 X40. Z-20.", "--start", "X20. Z0.")
-    done = call("range", "--word", "tool", *LATHE, *arc)
-    assert (done.exit_code, "compensation begins in an arc: no tool fits" in done.stdout) == (1, True)
-
-
-def test_a_tool_is_in_the_unit_of_the_block():
-    block = ("--block", "G20 G18 G01 X.8 Z-1. ,R.2", "--block", "X3. Z-2.", "--start", "X.8 Z0", "--units", "inch")
-    found = data("range", "--word", "tool", *LATHE, "--side", "right", *block)
-    assert (found["unit"], found["ranges"][0]["high"]["value"]) == ("inch", pytest.approx(0.2))
-
-
 @pytest.mark.parametrize("seed", range(41, 49))
 def test_random_contours_end_where_check_says(seed, tmp_path):
     """What fits at the largest radius fits at smaller ones, and does not at larger ones, contour by contour."""
@@ -105,21 +78,6 @@ def test_random_contours_end_where_check_says(seed, tmp_path):
                     own = run("solve", "--format", "json", *tool, *map(str, about))["contours"][number]
                     assert (not own["tool"]["faults"] or not radius) is is_cut, (radius, contour)
     assert ended
-
-
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        (("--tip", "3"), "nothing says on which side of the contour the tool runs"),
-        (("--side", "left"), "a turning tool needs the number of its imaginary tip"),
-        (("--side", "left", "--tip", "12"), "there is no tip 12"),
-    ],
-)
-def test_what_is_no_tool_is_told_by_all_three(words: tuple[str, ...], told: str):
-    for command in (("range", "--word", "tool"), ("find", "--word", "tool"), ("sweep", "--vary", "tool=0.4,0.8")):
-        done = call(*command, *words, *G111)
-        assert (done.exit_code, done.stderr.count("\n"), done.stdout) == (2, 1, "")
-        assert told in done.stderr
 
 
 @pytest.mark.parametrize(
@@ -169,19 +127,6 @@ def test_the_largest_tool_of_whole_programs(name: str, words: tuple[str, ...], l
     found = data("find", TABLES / name, "--word", "tool", *words)
     (contour,) = found["contours"]
     assert (found["largest"], contour["ranges"][0]["high"]["reason"]["text"].split(":")[0]) == (largest, word)
-
-
-def test_each_contour_has_its_own_largest(tmp_path: Path):
-    program = tmp_path / "two.nc"
-    first = "G21 G40 G18\nG00 X20. Z2.\nG42 G01 Z-10. F0.2\nX30. Z-20.\nZ-30. ,R1.5\nX50.\nG40 X60.\n"
-    second = "G00 X100.\nG00 X20. Z2.\nG42 G01 Z-10.\nZ-20. ,R0.5\nX50.\nG40 X60.\n"
-    program.write_text(first + second)
-    done = call("find", program, "--word", "tool", *LATHE)
-    assert done.exit_code == 0
-    assert done.stdout.splitlines()[0] == "largest tool for all 2 contours: 0.5000 mm"
-    assert "1.  lines 4 to 6    1.5000 mm  program line 5, ,R1.5" in done.stdout
-    assert "2.  lines 11 to 12  0.5000 mm  program line 11, ,R0.5" in done.stdout
-    assert call("find", program, "--word", "tool", "--within", "0.6:5", *LATHE).exit_code == 1
 
 
 def test_lines_that_are_no_path_are_named_and_units_may_change(tmp_path: Path):

@@ -7,8 +7,6 @@ from typing import Any
 import pytest
 from calling import call, data
 
-from contoursolve.controls import DIALECTS
-
 LATHE, MILL = "fanuc-lathe", "fanuc-mill"
 FILLET = "X20. Z0. / G01 X20. Z-14.6 / G02 X20.8 Z-15. R0.4 / G01 X40. Z-15."
 CHAMFER = "X20. Z0. / G01 X20. Z-10. / X21. Z-10.5 / X30. Z-10.5"
@@ -38,51 +36,6 @@ def ends(found: dict[str, Any]) -> list[tuple[float, ...]]:
 
 
 NOSE = ("R0.8, tip 3", TAPER, "right", LATHE)
-
-
-@pytest.mark.parametrize(
-    ("about", "path", "rest", "said"),
-    [
-        # TR-22: the path of TR-5.
-        (
-            ("R0.8, tip 3", FILLET, "right", LATHE),
-            [(-0.8, 10.0), (-15.0, 10.0), (-15.0, 19.2)],
-            0.1657,
-            "leaves out this arc: 0.1657 mm stays there, 0.4000 mm before it and 0.4000 mm after it",
-        ),
-        # TR-24.
-        (
-            ("R1.2, tip 3", CHAMFER, "right", LATHE),
-            [(-1.2, 10.0), (-10.5, 10.0), (-10.5, 13.8)],
-            0.1435,
-            "leaves out this line: 0.1435 mm stays there, 0.7000 mm before it and 0.7000 mm after it",
-        ),
-        # TR-23: the nose rests on both edges, sqrt(0.8^2 - 0.75^2) away from their line.
-        (
-            ("R0.8, tip 3", GROOVE, "right", LATHE),
-            [(-0.8, 15.0), (-10.8, 15.0), (-11.55, 14.4784), (-12.3, 15.0), (-20.8, 15.0)],
-            5 - (0.8 - (0.8**2 - 0.75**2) ** 0.5),
-            "leaves out this line: 4.4784 mm stays there, 5.0000 mm before it and 5.0000 mm after it",
-        ),
-        # Two lines across a square corner, of which the farther place is (-10.3, 10.2).
-        (
-            ("R2, tip 3", "X20. Z0. / G01 X20. Z-10. / X20.4 Z-10.3 / X21. Z-10.5 / X30. Z-10.5", "right", LATHE),
-            [(-2.0, 10.0), (-10.5, 10.0), (-10.5, 13.0)],
-            (1.8**2 + 1.8**2) ** 0.5 - 2,
-            "leaves out what program lines 2 to 3 make",
-        ),
-    ],
-)
-def test_what_the_tool_does_not_reach_is_left_out(about: tuple[str, ...], path: Any, rest: float, said: str):
-    assert ends(tool_of(*about)) == []
-    found = tool_of(*about, "too-small=leave")
-    assert ends(found) == path
-    (fault,) = [each for each in found["faults"] if each["kind"] == "left_out"]
-    assert fault["short_by_mm"] == pytest.approx(rest, abs=1e-4)
-    done = call("check", *asked(*about, "too-small=leave"))
-    assert (done.exit_code, said in done.stdout) == (0, True)
-    assert call("expand", *asked(*about, "too-small=leave")).exit_code == 0
-    assert call("expand", *asked(*about)).exit_code == 1
 
 
 def test_a_tool_that_comes_nowhere_is_refused_although_it_may_leave_something():
@@ -121,12 +74,6 @@ def test_a_setting_changes_the_path(setting: str, about: tuple[str, ...], usual:
     assert ends(tool_of(*about)) != ends(tool_of(*about, setting))
 
 
-def test_a_tip_that_points_away_may_be_meant():
-    about = "R0.8, tip 3", TAPER, "left", LATHE
-    usual, other = (call("check", *asked(*about, *more)).stdout for more in ((), ("tip-against-side=off",)))
-    assert ("tool-tip-against-side" in usual, "tool-tip-against-side" in other) == (True, False)
-
-
 @pytest.mark.parametrize(
     ("entry", "blocks", "start"),
     [
@@ -151,23 +98,6 @@ def test_the_move_to_the_contour_may_be_an_element_itself(entry: str, blocks: st
     assert ("G02 X0. Y4." in done.stdout) is (begin == (-4.0, 0.0))
 
 
-@pytest.mark.parametrize(("radius", "told"), [("R4", "2.0"), ("R4.1", "2.1"), ("R7.9", "80.0"), ("R2", "")])
-def test_an_edge_that_is_much_faster_than_its_centre_is_told_once(radius: str, told: str):
-    """An inside arc of 8: the centre goes along 8 - R."""
-    arcs = "X0 Y0 / G01 X30. Y0 / G03 X38. Y8. R8. / G01 X38. Y40. / G03 X30. Y48. R8. / G01 X0 Y48."
-    text = call("check", *asked(radius, arcs, "left", MILL)).stdout
-    assert text.count("tool-faster-edge") == (told not in ("", "2.0"))
-    assert told in ("", "2.0") or f"the edge is {told} times as fast as F says" in text
-
-
-def test_the_control_decides_where_it_is_known():
-    arc = "X0 Y0 / G01 X30. Y0 / G03 X38. Y8. R8. / G01 X38. Y20."
-    for control, is_cut in (("isg", False), (MILL, True)):
-        done = call("check", *asked("R8", arc, "left", control))
-        assert ("tool-equal-radius" in done.stdout, done.exit_code) == (not is_cut, int(not is_cut))
-    assert "control: alarm 90017 (printed)" in call("check", *asked("R8", arc, "left", "isg")).stdout
-
-
 @pytest.mark.parametrize(
     ("control", "code", "is_rolled"),
     [("siemens-840d", "G450", True), ("siemens-840d", "G451", False), ("isg", "G26", True), ("isg", "G25", False)],
@@ -179,28 +109,3 @@ def test_the_program_says_the_way_around_outside_corners(control: str, code: str
         done = call("expand", "--control", control, "--tool", "R5", "--no-comments", *more, tmp_path / "a.nc")
         assert done.exit_code == 0, done.output
         assert ("CR=" in done.stdout or bool(re.search(r"G0?2 X", done.stdout))) is rolled
-
-
-def test_all_controls_have_the_settings():
-    assert {each.name for each in DIALECTS["isg"].settings if each.name.startswith("tool-")} == {
-        each.name for each in DIALECTS["heidenhain"].settings if each.name.startswith("tool-")
-    }
-    done = call("check", *asked("R0.8, tip 3", TAPER, "right", LATHE, "intersect-limit=180"))
-    assert (done.exit_code, "it is a number from 0 to 179 deg" in done.stderr) == (2, True)
-
-
-@pytest.mark.parametrize(
-    ("comment", "setting", "stated"),
-    [
-        ("", "radius", None),
-        ("", "diameter", None),
-        ("(contoursolve tool: R8)\n", "radius", 8.0),
-        ("(contoursolve tool: R8)\n", "diameter", 4.0),
-    ],
-)
-def test_a_radius_that_is_asked_for_is_none_of_a_diameter(comment, setting, stated):
-    """The largest radius is one whatever the setting; what the program states is a radius or a diameter."""
-    text = f"{comment}G17 G90 G00 X-10. Y0\nG01 X0 F300\nX40.\nY30. ,R5.\nX10.\nG00 Y60.\n"
-    about = ("--control", MILL, "--side", "left", "--set", f"{MILL}.tool-radius={setting}")
-    found = data("find", "-", "--word", "tool", *about, stdin=text)
-    assert (found["largest"], found["contours"][0]["stated"]) == (5.0, stated)

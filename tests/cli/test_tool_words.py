@@ -172,25 +172,6 @@ def test_a_lathe_without_an_offset(control: str, word: str, told: str):
     assert ("error[tool-no-offset]" in done.stdout, told in done.stdout) == (bool(told), True)
 
 
-def test_a_mill_without_d():
-    bare = program("fanuc-mill").replace(" D1", "")
-    assert "no D stands before G41" in call("check", bare, "fanuc-mill").stdout
-    assert "tool-no-d" not in call("check", f"D1\n{bare}", "fanuc-mill").stdout
-    assert "tool-no-d" not in call("check", program("siemens-840d").replace(" D1", ""), "siemens-840d").stdout
-
-
-def test_what_interrupts_a_contour_is_answered_in_the_words_of_the_control():
-    text = program("heidenhain", "", "\n7 CYCL DEF 7.0 NULLPUNKT\n7 CYCL DEF 7.1 X+10\n7 L X30 Y-20")
-    assert "help: write R0 before it" in call("check", text, "heidenhain").stdout
-    text = program("heidenhain").replace("L X-30 Y-20 RL", "APPR LCT X-30 Y-20 R5 RL")
-    told = call("check", text, "heidenhain").stdout
-    assert "APPR LCT in program line 5 leads to the contour" in told
-    assert "help: write L with RL or RR in its place" in told
-    assert "tool-interrupted" not in told
-    text = program("siemens-840d").replace("G01 X-30", "G247 X-30").replace("\nY30", "\nG1 X-30 Y30")
-    assert "help: write G1 in its place, with G41, G42 or G40" in call("check", text, "siemens-840d").stdout
-
-
 ARC = "G17 G90 G71\nG0 X5 Y0\nG41 D1 G1 X20 Y0 F500\nG3 X-20 Y0 {}\nG3 X20 Y0 I=AC(0)\nG40 G1 X5 Y0\nM30\n"
 
 
@@ -211,17 +192,3 @@ def test_a_centre_may_be_absolute(center: str, tmp_path: Path):
         "the radius of the arc is"
         in invoke("check", "--control", "siemens-840d", "--tool", "R5", "-", stdin=wrong).output
     )
-
-
-def test_a_missing_decimal_point_is_told_of_the_moves_of_a_tool():
-    text = program("fanuc-lathe", "T0101").replace("X30. Z-10.", "X30 Z-10.")
-    told = "X30 has no decimal point and is read as 0.030 mm; X30. would be 30.000 mm"
-    for more in ((), ("--strict",)):
-        done = call("check", text, "fanuc-lathe", *NOSE, *more)
-        assert (done.exit_code, done.stdout.count(told)) == (0, 1)
-        assert "warning[move-in-increments]" in done.stdout
-    assert "move-in-increments" in call("expand", text, "fanuc-lathe").stderr
-    assert "move-in-increments" not in call("check", text.replace("X30 ", "X30. "), "fanuc-lathe").stdout
-    # A program that writes no points at all, and one beside whose numbers none is missed.
-    assert "move-in-increments" not in call("check", text.replace("X30 ", "X30000 "), "fanuc-lathe").stdout
-    assert "move-in-increments" not in call("check", program("siemens-840d"), "siemens-840d").stdout

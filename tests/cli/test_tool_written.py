@@ -77,63 +77,6 @@ def test_whole_programs_are_written_as_by_hand(source: str, path: str, words: tu
     assert done.exit_code == 0, done.stdout
 
 
-def test_compensation_is_taken_out_and_all_else_stays(tmp_path: Path):
-    assert written(*LATHE, *NOSE, text=COMPENSATED) == [
-        "N1 G21 G18",
-        "N5 G00 X40. Z5.",
-        "(path of the tip for nose R0.8, tip 3, right of the contour)",
-        "N6 G00 X20. Z1.2",
-        "N10 G01 X20. Z-10.611 F0.2",
-        "N20 G01 X29.831 Z-20.442",
-        "G03 X30. Z-20.8 I-0.716 K-0.358",
-        "N30 G01 X30. Z-30.8",
-        "N40 G01 X50. Z-30.",
-        "N50 G00 Z100.",
-    ]
-
-
-@pytest.mark.parametrize("is_stated", [True, False])
-def test_increments_lead_to_the_same_places(is_stated: bool, tmp_path):
-    """The same contour in absolute and in incremental words, with a move of a third axis in each of its rapids."""
-    places = [(10, 10), (10, 35), (20, 45), (30, 35), (30, 10), (50, 0), (55, 5)]
-    words = ["{0}G01 {1} F100", "{1}", "{1}", "G02 {1} I0 J-10.", "G01 {1}", "G00 Z9.\n{2}{1}", "G00 {1} Z5."]
-    absolute, steps, before = ["G17 G90 G00 X0 Y0 Z9."], ["G17 G90 G00 X0 Y0 Z9.", "G91"], (0, 0)
-    for place, word in zip(places, words, strict=True):
-        codes = ("G41 ", "G40 ") if is_stated else ("", "")
-        absolute.append(word.format(codes[0], f"X{place[0]}. Y{place[1]}.", codes[1]))
-        step = word.format(codes[0], f"X{place[0] - before[0]}. Y{place[1] - before[1]}.", codes[1])
-        steps.append(step.replace("Z5.", "Z-4.").replace("Z9.", "Z0"))
-        before = place
-    for name, lines in (("absolute.nc", absolute), ("steps.nc", steps)):
-        (tmp_path / name).write_text("\n".join(lines) + "\n")
-        side = () if is_stated else ("--side", "left")
-        output = ("-o", tmp_path / f"new-{name}")
-        done = call("expand", *MILL, "--tool", "R4", *side, "--no-comments", tmp_path / name, *output)
-        assert done.exit_code == 0, done.stderr
-        assert not re.search(r"G4[012]|D\d", (tmp_path / f"new-{name}").read_text())
-    done = call("diff", tmp_path / "new-absolute.nc", tmp_path / "new-steps.nc", *MILL, "--tolerance", "0.005")
-    assert done.exit_code == 0, done.stdout
-
-
-@pytest.mark.parametrize(
-    ("around", "loop"),
-    [
-        ("X10. Y-10./G03 X20. Y0 J10./X10. Y10. I-10./X0 Y0", "G03 X20. Y0 I-20. J0"),
-        ("X-8. Y-10./G03 X0 Y-2. J8./G03 X-8. Y8. I-8./X-20. Y20.", "G01 Y30./X40./Y-20./X0/Y0"),
-    ],
-)
-def test_arcs_that_lead_to_a_closed_contour_are_no_walls(around: str, loop: str, tmp_path):
-    start, arc, behind, end = around.split("/")
-    blocks = ["G17 G90 G00 X-20. Y-30.", f"G41 D1 G01 {start} F300", arc, *loop.split("/"), behind, f"G40 G01 {end}"]
-    twice = [*blocks[:-1], f"G01 {end}", "Z-10.", start, *blocks[2:]]
-    for lines, radius in ((blocks, "R6"), (twice, "R2")):
-        (tmp_path / "a.nc").write_text("\n".join(lines) + "\n")
-        done = call("expand", *MILL, "--tool", radius, tmp_path / "a.nc")
-        assert done.exit_code == 0, done.stderr
-    done = call("check", *MILL, "--tool", "R12", tmp_path / "a.nc")
-    assert "inside arc of radius" in done.stdout
-
-
 def test_compensation_stays_where_a_contour_stays(tmp_path: Path):
     """A neck that the cutter does not pass, between two contours that it cuts; G41 and G40 stand alone."""
     good = ["G00 X{0}. Y0", "G41 D1", "G01 X{1}. Y0 F300", "Y20.", "G40", "G01 X{0}. Y30."]
@@ -158,38 +101,6 @@ def test_a_change_of_the_side_is_told_and_written(tmp_path: Path):
     assert "warning[tool-switched]" in done.stdout
     text = call("expand", *MILL, "--tool", "R3", "--no-comments", tmp_path / "a.nc").stdout
     assert "G01 X20. Y23.\n(path of the centre for cutter R3, right of the contour)\nG01 X23. Y20.\n" in text
-
-
-def test_nothing_is_written_where_the_tool_does_not_fit(tmp_path: Path):
-    words = ("--tool", "R2.4", "--tip", "3", "--side", "right")
-    done = call("expand", TABLES / "flange.nc", *words, "-o", tmp_path / "new.nc")
-    assert (done.exit_code, (tmp_path / "new.nc").exists()) == (1, False)
-    done = call("expand", TABLES / "flange.nc", *words, "--keep-going")
-    assert done.exit_code == 1
-    assert "N60 Z-70. ,R2." in done.stdout.splitlines()
-    assert "NOT EXPANDED: tool-arc-too-small" in done.stdout
-
-
-def test_run_in_and_run_off_that_cross_are_no_walls(tmp_path: Path):
-    (tmp_path / "a.nc").write_text(PLATE.replace("<<MIDST>>\n", ""))
-    done = call("expand", *MILL, "--tool", "R5", "--no-comments", tmp_path / "a.nc")
-    assert done.exit_code == 0
-    assert "G01 X-5. Y-8." in done.stdout
-    assert "G01 X-8. Y-5." in done.stdout
-    found = call("find", "--word", "tool", *MILL, tmp_path / "a.nc")
-    assert found.exit_code == 0
-
-
-@pytest.mark.parametrize(
-    "midst", ["G55", "G68 X0 Y0 R10.", "G28 Z0.", "G91 Z-1.", "G81 X45. Y45. Z-5. R2.", "T2 M6", "D2", "G53 Z0."]
-)
-def test_what_interrupts_a_contour_is_an_error_and_nothing_is_written(midst: str, tmp_path):
-    (tmp_path / "a.nc").write_text(PLATE.replace(" ,C2.", "").replace("<<MIDST>>", midst))
-    done = call("expand", *MILL, "--tool", "R5", tmp_path / "a.nc")
-    assert (done.exit_code, done.stdout) == (1, "")
-    assert "nothing was written" in done.stderr
-    code = "tool-other-tool" if midst[0] in "TD" else "tool-interrupted"
-    assert done.stderr.count(f"error[{code}]: program line 6 ") == 1
 
 
 TURNED = """\
@@ -391,58 +302,3 @@ def test_each_call_is_cut_by_the_tool_that_is_in_use(tmp_path: Path):
     done = call("check", *MILL, "--tool", "program", tmp_path / "a.nc")
     assert done.stdout.count("error[tool-arc-too-small]") == 1
     assert "radius 5.0000 mm is 1.0000 mm too small for the cutter R6" in done.stdout
-
-
-HELIX = """\
-G17 G90 G00 X20. Y0 Z2.
-G41 D1 G01 X30. Y-5. Z0 F200
-G03 X40. Y5. J10.
-G03 X40. Y5. I-40. Z-2.
-G03 X40. Y5. I-40.
-G03 X30. Y15. I-10.
-G40 G01 X0 Y0
-"""
-RAMPS = """\
-G17 G90 G00 X100. Y100. Z0
-G41 D1 G01 X110. F100
-Y120. Z-3.
-X140. Z-5.
-Y{0}
-G40 X160.
-"""
-
-
-@pytest.mark.parametrize(
-    ("text", "made"),
-    [
-        (
-            HELIX,
-            (
-                "G01 X30. Y-1. Z0. F200/G03 X36. Y5. I0. J6./G03 X-36. Y5. I-36. J0. Z-1./G03 X36. Y5. I36. J0. Z-2./"
-                "G03 X-36. Y5. I-36. J0./G03 X36. Y5. I36. J0./G03 X30. Y11. I-6. J0./G01 X0. Y0."
-            ),
-        ),
-        (
-            RAMPS.format("100."),
-            (
-                "G01 X106. Y100. F100/G01 X106. Y120. Z-3./G02 X110. Y124. I4. J0./G01 X140. Y124. Z-5./"
-                "G02 X144. Y120. I0. J-4./G01 X144. Y100./G01 X160. Y100."
-            ),
-        ),
-        # An inside arc of the radius of the tool is a point: what moves along moves alone.
-        (
-            RAMPS.format("110.\nG03 X144. Y106. R4. Z-7.\nG01 X150."),
-            (
-                "G01 X106. Y100. F100/G01 X106. Y120. Z-3./G02 X110. Y124. I4. J0./G01 X140. Y124. Z-5./"
-                "G02 X144. Y120. I0. J-4./G01 X144. Y110./G01 Z-7./G01 X150. Y110./G01 X160. Y106."
-            ),
-        ),
-    ],
-    ids=["helix", "ramps", "point"],
-)
-def test_what_moves_outside_the_plane_goes_along(text: str, made: str, tmp_path):
-    (tmp_path / "a.nc").write_text(text)
-    done = call("expand", *MILL, "--tool", "R4", "--no-comments", tmp_path / "a.nc", "-o", tmp_path / "new.nc")
-    assert done.exit_code == 0, done.stderr
-    assert (tmp_path / "new.nc").read_text().splitlines()[2:] == made.split("/")
-    assert call("diff", *MILL, "--tool", "R4", tmp_path / "a.nc", tmp_path / "new.nc").exit_code == 0

@@ -33,8 +33,6 @@ def place(numbers: Sequence[float], share: float) -> complex:
 
 FL_G1, FL_G5 = (program_of(LATHE, f"FL-G{number}") for number in (1, 5))
 FM_G1, FM_G2, FM_G3 = (program_of(MILL, f"FM-G{number}") for number in (1, 2, 3))
-FL_G4 = program_of(LATHE, "square-corner-1")
-"""Plain words: parameter 3405, bit 4."""
 
 EXAMPLES = [
     (control, row)

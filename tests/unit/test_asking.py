@@ -8,13 +8,13 @@ solution must satisfy words and facts, and where there is only one, what was era
 from cmath import phase, rect
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from math import acos, copysign, degrees, isclose, pi, radians, remainder, tan
+from math import copysign, degrees, isclose, pi, radians, remainder
 from random import Random
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import pytest
-from oracle import PLANES, Outcome, circle_line, g111, largest_gap
+from oracle import PLANES, Outcome, circle_line, g111
 
 from contoursolve import Answer, ArcSegment, Contour, Status, list_solutions, solve
 
@@ -437,91 +437,10 @@ def test_a_direction_is_found_from_a_fact_about_a_corner(words: str, fact: str, 
 # The line that the last corner meets ----------------------------------------------------------------------
 
 
-LANDINGS = [
-    (word, how, lands)
-    for word in "QD"
-    for how in ("at", "to", "next")
-    for lands in ((0.0, 35.0, 90.0, 150.0, 180.0, -100.0, -170.0) if word == "Q" else (150.0, 180.0, -170.0))
-]
-
-
-@pytest.mark.parametrize(("word", "how", "lands"), LANDINGS)
-def test_the_last_corner_meets_the_line_that_is_stated(word: str, how: str, lands: float) -> None:
-    v2, before, after = complex(-30 - 30 / 3**0.5, 50), rect(1, radians(120)), rect(1, radians(lands))
-    place = v2 + 25 * after
-    at = f"(Z{place.real:.12f} X{2 * place.imag:.12f})"
-    fact = {"at": f"line at {lands}", "to": f"line to {at}", "next": "next line"}[how]
-    program = f"G111 A180. K-30. B120. X100. {word}2.\nG01 {at.strip('()')} F0.2"
-    (answer,) = solve(program, start="X40. Z0.", facts=[f"corner 2 meets {fact}"], depth="verdict").answers
-    assert answer.status is Status.SOLVED, [each.message for each in answer.diagnostics]
-    assert answer.contour is not None
-    corner = drawing_of(answer.contour).parts["corner 2"]
-    reach = abs(corner.end - v2)
-    assert corner.end == pytest.approx(v2 + reach * after, abs=1e-9)
-    assert corner.start == pytest.approx(v2 - abs(corner.start - v2) * before, abs=1e-9)
-    if word == "Q":
-        assert corner.radius == pytest.approx(2)
-        assert reach == pytest.approx(2 * abs(tan(radians(wrapped(lands - 120)) / 2)))
-        assert corner.turn == ("ccw" if wrapped(lands - 120) > 0 else "cw")
-    else:
-        across = corner.end - corner.start
-        assert (abs(across.real), abs(across.imag)) == pytest.approx((2, 2))
-
-
 def setbacks(before: complex, after: complex, diagonal: complex) -> tuple[float, float]:
     """By how much a segment takes of the lines before and after it: s * before + t * after = diagonal."""
     turn = (before.conjugate() * after).imag
     return (diagonal.conjugate() * after).imag / turn, (before.conjugate() * diagonal).imag / turn
-
-
-@pytest.mark.parametrize("lands", [*range(-170, 181, 10), -167, 29, 31, 97, 163])
-@pytest.mark.parametrize("asks", [False, True])
-@pytest.mark.parametrize("way", [120, 160])
-def test_a_bevel_onto_a_line_is_the_one_with_the_most_equal_setbacks(lands: int, asks: bool, way: int) -> None:
-    """Of the four segments at 45 degrees, those that fit take a length of both lines that is not negative."""
-    before, after = rect(1, radians(way)), rect(1, radians(lands))
-    v2 = -30 + 30 / before.imag * before + 20j
-    if abs((before.conjugate() * after).imag) < 1e-9:
-        return
-    fitting = {}
-    for diagonal in (2 * complex(z, x) for z in (1, -1) for x in (1, -1)):
-        first, second = setbacks(before, after, diagonal)
-        if min(first, second) > 1e-9:
-            fitting[diagonal] = abs(first - second)
-    facts = [f"corner 2 meets line at {lands}", *(["radius of corner 2 = 2"] if asks else [])]
-    block = f"G111 A180. K-30. B{way}. X100. {'D?' if asks else 'D2.'}"
-    (answer,) = solve(block, start="X40. Z0.", facts=facts, depth="verdict").answers
-    is_even = len({round(each, 9) for each in fitting.values()}) < len(fitting)
-    if not fitting or (asks and is_even):
-        # A direction that is a sum of sines is not known to be zero where the size is an unknown, too.
-        assert answer.contour is None
-        return
-    assert answer.status is Status.SOLVED, [each.message for each in answer.diagnostics]
-    assert answer.contour is not None
-    corner = drawing_of(answer.contour).parts["corner 2"]
-    # Where two are equally near, it goes on along line 2.
-    wanted = min(fitting, key=lambda each: (round(fitting[each], 9), -(each.conjugate() * before).real))
-    assert corner.end - corner.start == pytest.approx(wanted, abs=1e-9)
-    assert corner.start == pytest.approx(v2 - setbacks(before, after, wanted)[0] * before, abs=1e-9)
-
-
-@pytest.mark.parametrize("word", ["Q5.", "D5."])
-@pytest.mark.parametrize("how", ["to", "next"])
-def test_a_corner_that_ends_beyond_the_line_that_it_meets_is_refused(word: str, how: str) -> None:
-    v2, lands = complex(-30 - 30 / 3**0.5, 50), 170
-    needed = 5 * tan(radians(25))
-    if word[0] == "D":
-        needed = setbacks(rect(1, radians(120)), rect(1, radians(lands)), complex(-5, 5))[1]
-    for length, fits in ((needed + 1e-6, True), (needed - 1e-6, False), (needed / 2, False), (0.0, False)):
-        place = v2 + rect(length, radians(lands))
-        at = f"Z{place.real:.12f} X{2 * place.imag:.12f}"
-        fact = {"to": f"line to ({at})", "next": "next line"}[how]
-        program = f"G111 A180. K-30. B120. X100. {word}\nG01 {at} F0.2"
-        (answer,) = solve(program, start="X40. Z0.", facts=[f"corner 2 meets {fact}"], depth="verdict").answers
-        assert answer.status is (Status.SOLVED if fits else Status.NO_SOLUTION)
-        if not fits:
-            (finding,) = [each for each in answer.diagnostics if each.code == "g111-corner-too-large"]
-            assert finding.values["limit"] == pytest.approx(5 * length / needed, abs=1e-6)
 
 
 # NCT ------------------------------------------------------------------------------------------------------
@@ -583,83 +502,3 @@ def random_pair(rng: Random) -> Pair:
 def drawing_of_pair(outcome: Outcome, start: complex) -> Drawing:
     parts = dict(zip(("arc", "line"), (Part(*each[1:]) for each in outcome.elements), strict=True))
     return Drawing({"S": start, "P1": parts["line"].start, "N2": parts["line"].end}, parts)
-
-
-def pair_drawing(contour: Contour) -> Drawing:
-    found = drawing_of(contour)
-    return Drawing({**found.points, "N2": complex(*contour.end)}, found.parts)
-
-
-@pytest.mark.parametrize("seed", range(40))
-def test_without_q_both_intersections_are_listed_each_with_its_q(seed: int) -> None:
-    pair = random_pair(Random(seed))
-    (answer,) = solve(pair.program(pair.units(1.0), {"2Q": "?"}), control="nct-99m", depth="verdict").answers
-    listing = list_solutions(answer)
-    assert listing is not None
-    assert listing.is_complete
-
-    def outcome(q: float, r: str = "") -> Outcome:
-        arc = {**pair.arc, "R": copysign(pair.arc["R"], -1 if r[1] == "-" else 1)} if r else pair.arc
-        return circle_line(pair.plane, pair.start, pair.turn, arc, {**pair.line, "Q": q})
-
-    for each in listing.solutions:
-        words = {word[0]: word for word in each.selects}
-        if each.contour is not None:
-            assert largest_gap(outcome(float(words["Q"][1:]), words.get("R", "")), each.contour) < TOLERANCE
-    nearest = min(gap_between(pair_drawing(each), pair.drawn) for each in contours_listed(answer))
-    assert nearest < TOLERANCE
-    legal = [q for q in (1.0, -1.0) if outcome(q).status == "solved"]
-    assert (answer.status is Status.AMBIGUOUS) == (len(legal) > 1)
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_a_tangent_line_has_its_direction_and_its_point(seed: int) -> None:
-    """From the circle's far side to a given end: the tangents touch where the angle from the centre says."""
-    rng = Random(seed)
-    radius, turn = rng.uniform(10, 40), rng.choice(("cw", "ccw"))
-    start = rect(radius, rng.uniform(-pi, pi))
-    end = rect(radius * rng.uniform(1.2, 3), rng.uniform(-pi, pi))
-    # It is tangent on the side from which the arc goes on into the line.
-    way = 1 if turn == "ccw" else -1
-    touch = radius * end / abs(end) * rect(1, -way * acos(radius / abs(end)))
-    program = (
-        f"G17 G41 G0 X{start.real:.12f} Y{start.imag:.12f}\n"
-        f"{'G3' if turn == 'ccw' else 'G2'} I{-start.real:.12f} J{-start.imag:.12f}\n"
-        f"G1 X{end.real:.12f} Y{end.imag:.12f} ,A?"
-    )
-    # A turn of nothing between neighbours is a tangent.
-    for fact in ("line tangent to arc", "angle from arc to line = 0"):
-        (answer,) = solve(program, facts=[fact], depth="verdict").answers
-        assert answer.status is Status.SOLVED, program
-        assert answer.contour is not None
-        assert abs(complex(*answer.contour.points["P1"]) - touch) < TOLERANCE, program
-        (asked,) = answer.answers
-        assert wrapped((asked.value or 0.0) - direction(end - touch)) == pytest.approx(0, abs=1e-6), program
-
-
-@pytest.mark.parametrize("seed", range(30))
-def test_an_unknown_centre_comes_back_from_two_facts(seed: int) -> None:
-    rng = Random(seed)
-    pair = random_pair(rng)
-    _, _, i, j = PLANES[pair.plane]
-    units = pair.units(1.0)
-    facts = [*coordinates("center of arc", "center", lambda d: d.parts["arc"].center or 0j, pair.drawn, units)]
-    if rng.random() < 0.5:
-        size, axis = pair.drawn.parts["arc"].radius, rng.choice((0, 1))
-        radius = units.length(size)
-        facts[axis] = quantity("size", "radius of arc", radius, lambda d: d.parts["arc"].radius, pair.drawn)
-    lines = pair.program(units).split("\n")
-    asked = "\n".join((lines[0], f"{lines[1].split()[0]} {i}? {j}?", lines[2]))
-    (answer,) = solve(asked, control="nct-99m", facts=[fact.text for fact in facts], depth="verdict").answers
-    found = [pair_drawing(each) for each in contours_listed(answer)]
-    assert min(gap_between(drawing, pair.drawn) for drawing in found) < TOLERANCE, asked
-    assert all(abs(fact.miss(drawing)) < 1e-7 for drawing in found for fact in facts)
-    if answer.status is Status.SOLVED and facts[0].kind == facts[1].kind:
-        center = (pair.drawn.parts["arc"].center or 0j) - pair.start
-        assert [each.value for each in answer.answers] == pytest.approx([center.real, center.imag], abs=TOLERANCE)
-
-
-def contours_listed(answer: Answer) -> list[Contour]:
-    listing = list_solutions(answer)
-    assert listing is not None
-    return [each.contour for each in listing.solutions if each.contour]

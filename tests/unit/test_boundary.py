@@ -1,16 +1,15 @@
 """Where a contour exists: every range of a word's values, with what ends it; and regions of two words."""
 
 import re
-from math import asin, atan2, degrees, hypot, radians, sin, tan
+from math import radians, sin, tan
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import FamilyError, family, feasible, region, solve
+from contoursolve import FamilyError, family, feasible, region
 from contoursolve.cli import main
-from contoursolve.families import Way, outcomes_of
-from contoursolve.output import region_data, region_lines
+from contoursolve.families import outcomes_of
 from contoursolve.solving import StatusCode
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
@@ -62,25 +61,6 @@ def with_value(block, word, value):
     return "\n".join(lines)
 
 
-@pytest.mark.parametrize(("block", "options", "word", "within"), CASES)
-def test_a_value_is_in_a_range_exactly_if_a_single_solve_has_a_contour(block, options, word, within):
-    low, high = within
-    found = feasible(block, word, within=within, **options)
-    assert found.is_complete
-    ends = [end for each in found.intervals for end in (each.low, each.high)]
-    assert [end for end in ends if not end.is_verified] == []
-    rng = np.random.default_rng(len(block))
-    values = {round(float(value), 3) for value in rng.uniform(low, high, 15)}
-    values |= {round(end.value + step, 3) for end in ends for step in (-0.003, -0.001, 0, 0.001, 0.003)}
-    for value in sorted(values):
-        if low <= value <= high and all(abs(value - end.value) > 2e-5 for end in ends):
-            (answer,) = solve(with_value(block, word, value), depth="verdict", **options).answers
-            assert (value in found) is (answer.contour is not None), (word, value)
-    for end in ends:
-        if end.inside is not None and end.outside is not None:
-            assert abs(end.inside - end.outside) <= 4e-4 * max(1, abs(end.value))
-
-
 def only(found):
     (interval,) = found.intervals
     return interval
@@ -90,81 +70,12 @@ SHARE, LINE_2 = tan(radians(30)), 30 / sin(radians(120))
 """What a rounding takes of its radius from each line; how long line 2 is, from X40 to X100."""
 
 
-@pytest.mark.boundary
-@pytest.mark.parametrize(
-    ("word", "end", "value"),
-    [
-        ("P", "high", 30 / SHARE),
-        ("K", "high", -5 * SHARE),
-        ("Q", "high", LINE_2 / SHARE - 5),
-        ("X", "low", 40 + 2 * 10 * SHARE * sin(radians(120))),
-    ],
-)
-def test_ends_are_those_of_the_formulas(word, end, value):
-    """Line 1 has 30 mm, line 2 runs at 120 deg: a rounding takes tan(30) of its radius from each."""
-    assert getattr(only(feasible(BLOCK, word, start=START)), end).value == pytest.approx(value, abs=1e-9)
-    if word == "P":
-        inches = feasible("G111 X4. A180. K-1.2 B120. P.2 Q.2", "P", **INCH)
-        assert (inches.unit, only(inches).high.value) == ("inch", pytest.approx(1.2 / SHARE, abs=1e-9))
-
-
-def test_a_line_meets_a_circle_up_to_its_tangent():
-    """Seen from the end of the line, the circle of 50 mm about the origin reaches from the direction of its centre to
-    either side by the arc sine of radius over distance."""
-    found = only(feasible(CIRCLE_LINE, ",A", within=(160, 200)))
-    tangent = degrees(atan2(42.857, -50)) + degrees(asin(50 / hypot(50, 42.857)))
-    assert found.high.value == pytest.approx(tangent, abs=1e-9)
-    assert found.high.reason.text == "the line misses the circle: ,A at most 188.797 deg"
-
-
-@pytest.mark.parametrize(
-    ("block", "word", "within", "texts"),
-    [
-        (
-            *(BLOCK, "P", None),
-            [
-                "the control refuses P below 0.000 mm; `contoursolve explain g111-corner-sign` says why",
-                "P is too large for line 1: P at most 51.961 mm",
-            ],
-        ),
-        (BLOCK, "Q", (0, 99), ["", "Q is too large for line 2: Q at most 55.000 mm"]),
-        (BLOCK, "K", (-60, 9), ["", "P5. is too large for line 1: K at most -2.887 mm"]),
-        (
-            *("G111 A180. K-30. B120. Z-60.", "Z", (-90, 0)),
-            ["", "B120. points away from the end of line 2: Z at most -30.000 mm"],
-        ),
-        # Before lines are parallel, they meet where no word reaches.
-        (
-            *("G111 A180. B120. X100. Z-60.", "A", (160, 350)),
-            ["", "a point lies farther away than words reach: A at most 299.998 deg"],
-        ),
-    ],
-)
-def test_an_end_says_what_fails_beyond_it(block, word, within, texts):
-    found = only(feasible(block, word, start=START, within=within))
-    assert [end.reason.text if end.reason else "" for end in (found.low, found.high)] == texts
-
-
-def test_a_single_value_without_a_contour_parts_two_ranges():
-    found = feasible("G111 A160. B120. I10. Z-60. P2. Q2.", "A", start=START, within=(100, 150))
-    first, second = found.intervals
-    assert first.high.value == second.low.value == 120
-    assert [value in found for value in (119.999, 120, 120.001)] == [True, False, True]
-    assert first.high.reason.code == "g111-no-corner"
-
-
 def test_ranges_of_a_few_thousandths_are_found_in_a_wide_range():
     block = "G111 X100. A180. K-30. B120. I0. P5."
     found = only(feasible(block, "I", start=START, rules="off", within=(-5000, 5000)))
     # Two coordinates in X and the angle, each exact to half its increment.
     allowed = 0.0005 + 30 * radians(0.0005) + 1e-9
     assert (found.low.value, found.high.value) == (pytest.approx(-allowed), pytest.approx(allowed))
-
-
-def test_the_range_itself_ends_without_a_reason():
-    found = only(feasible(BLOCK, "P", start=START, within=(1, 9)))
-    assert (found.low.way, found.low.value, found.low.reason) == (Way.RANGE, 1, None)
-    assert (found.high.way, found.high.value, found.high.reason) == (Way.RANGE, 9, None)
 
 
 @pytest.mark.parametrize(
@@ -183,12 +94,6 @@ def test_a_range_that_makes_no_sense_is_refused(block, word, within, message):
     options = LATHE if block == BLOCK else {}
     with pytest.raises(FamilyError, match=message):
         feasible(block, word, within=within, **options)
-
-
-def test_a_number_without_a_point_means_what_the_control_reads():
-    """On this control, least increments: K-30000 is -30 mm."""
-    found = feasible("G111 X100000 A180000 K-30000 B120000 P5000 Q5000", "P", start=START)
-    assert (found.stated, only(found).high.value) == (5, only(feasible(BLOCK, "P", start=START)).high.value)
 
 
 REGIONS = {
@@ -223,22 +128,6 @@ def test_a_cut_through_a_region_has_the_ends_of_the_range_of_the_other_word(name
         # A value without the contour alone, as between two angles, is narrower than what is sampled.
         expected = [end for end in ends if ends.count(end) == 1]
         assert sorted(crossings(found, value)) == pytest.approx(expected, abs=found.cell[1]), value
-
-
-def test_what_is_sampled_says_how_finely_and_is_never_called_proven():
-    block, options, words, within = REGIONS["a circle"]
-    found = region(block, words, within, **options)
-    assert found.fineness == (
-        "sampled, edges within 0.33 deg and 0.20 mm; what is narrower than 1.4 deg and 0.80 mm may be missing"
-    )
-    told = " ".join(region_lines(found))
-    assert found.fineness in told
-    assert "proven" not in told.replace("sampled, not proven", "")
-    assert region_data(found)["sampled"] == {
-        "edges_within": pytest.approx([100 / 304, 0.2]),
-        "narrower_may_be_missing": pytest.approx([400 / 304, 0.8]),
-    }
-    assert "complete" not in region_data(found)
 
 
 @pytest.mark.slow
@@ -408,56 +297,3 @@ def test_a_cut_through_a_region_with_facts_is_what_a_fine_family_shows(name, wor
         assert len(at) == changes.size, (value, at, axis[changes])
         cell = found.cell[1]
         assert all(axis[n] - cell <= each <= axis[n + 1] + cell for n, each in zip(changes, at, strict=True))
-
-
-@pytest.mark.parametrize(
-    ("block", "facts", "message"),
-    [
-        (
-            "G111 X100. A? K-30. B?",
-            ["length of line 1 = 35", "angle from line 1 to line 2 = -50"],
-            "length of line 1 = 35 and K with A. and B.: they have no closed form together; .* `contoursolve sweep`",
-        ),
-        (BLOCK, ["lenght of line 1 = 30"], "lenght"),
-    ],
-)
-def test_facts_of_which_no_range_can_be_told_are_named(block, facts, message):
-    with pytest.raises(FamilyError, match=message):
-        feasible(block, "K", start=START, facts=facts)
-    with pytest.raises(FamilyError, match=message):
-        region(block, ("K", "X"), ((-40, -20), (80, 120)), start=START, facts=facts)
-
-
-def test_the_end_where_a_second_contour_begins_says_so():
-    block, options, _ = FACTS["an angle from a length"]
-    found = feasible(block, "K", within=(-1000, 0), **options)
-    touching, rest = found.intervals
-    assert touching.low.value == touching.high.value == -35, "there both are one"
-    assert "2 contours fit the block" in rest.low.reason.text
-    # From there on the one that runs down would run against B120.
-    assert rest.low.value == pytest.approx(-((35**2 - 30**2) ** 0.5), abs=1e-9)
-    assert "2 contours" in found.refusal
-
-
-@pytest.mark.parametrize(
-    ("units", "start", "block"), [("mm", START, "X100. A? K-30."), ("inch", "X1.6 Z0.", "X4. A? K-1.2")]
-)
-def test_a_coordinate_of_zero_is_looked_at_as_far_as_any_other(units, start, block):
-    told = [
-        feasible(f"G111 {block} B120.", "X of V1", start=start, units=units, facts=[f"X of V1 = {value}"])
-        for value in (0, 1)
-    ]
-    assert told[0].within == told[1].within
-    assert told[0].intervals == told[1].intervals
-
-
-def test_a_coordinate_and_the_start_point_that_it_counts_from_bound_a_region_together():
-    within = (60, 140), (10, 70)
-    found = region(BLOCK, ("X", "start.X"), within, start=START)
-    # The first line reaches 30 mm; on the second, P and Q of 5 mm need tan(30) of it each.
-    least = 4 * 5 * tan(radians(30)) * sin(radians(120))
-    (line,) = found.boundaries
-    assert all(abs(end - start - least) <= max(found.cell) for end, start in line.points)
-    rows = family(BLOCK, vary={"X": np.linspace(*within[0], 9), "start.X": np.linspace(*within[1], 7)}, start=START)
-    ends, starts = np.meshgrid(*rows.ranges.values.values(), indexing="ij")
-    assert np.array_equal(rows["status"] == StatusCode.SOLVED, ends - starts >= least)

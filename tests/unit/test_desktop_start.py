@@ -27,23 +27,6 @@ def home(tmp_path, monkeypatch) -> Path:
     return home
 
 
-@pytest.mark.parametrize(
-    ("given", "expected"),
-    [
-        (["check", "welle 1.nc"], ["check", "welle 1.nc"]),
-        (["check"], ["check"]),
-        (["--help"], ["--help"]),
-        (["no such.nc"], ["no such.nc"]),
-        (["solve", "--block", "G01 X1. " * 600], ["solve", "--block", "G01 X1. " * 600]),
-        (["welle 1.nc"], ["serve", "welle 1.nc"]),
-        (["welle 1.nc", "--port", "8100"], ["serve", "welle 1.nc", "--port", "8100"]),
-        (["welle 1.nc", "check"], ["serve", "welle 1.nc"]),
-    ],
-)
-def test_a_command_stays_and_files_open_the_workbench(home, given, expected):
-    assert start.arguments(given, Path.cwd(), home / "contoursolve" / "contoursolve") == expected
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="the documents of this user, whatever the home folder")
 def test_a_double_click_opens_the_documents_and_a_terminal_its_folder(home):
     program = home / "contoursolve" / "contoursolve"

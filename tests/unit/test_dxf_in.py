@@ -2,18 +2,17 @@
 
 import io
 import math
-import random
 from decimal import Decimal
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
+import calling
 import ezdxf
 import pytest
-from click.testing import CliRunner
 from ezdxf import units
 
-from contoursolve import ArcSegment, DxfError, LineSegment, read_dxf, solve_file, solve_sketch, to_dxf
-from contoursolve.__main__ import commands
+from contoursolve import ArcSegment, DxfError, LineSegment, read_dxf, solve_sketch
 from contoursolve.geometry import Turn
 
 ROOT = Path(__file__).parents[2]
@@ -60,15 +59,6 @@ def refused(document, **options) -> str:
 
 
 # What we write is read back -----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", ["shaft.nc", "roller.nc", "plate.nc", "cover.nc", "unusual.nc"])
-def test_our_own_drawings_are_read_back(name):
-    for answer in solve_file(ROOT / "notebooks" / "programs" / name).answers:
-        part = "turned" if any(answer.plane.diameters) else "milled"
-        found = read_dxf(to_dxf([answer]), part=part, layer="contour *")
-        assert rounded(path_of(found)) == plain(answer.contour.elements)
-        assert not found.given
 
 
 def random_chain(rng, *, is_closed):
@@ -130,35 +120,6 @@ def around(segments):
     ]
 
 
-@pytest.mark.parametrize("kind", ["entities", "polyline", "block"])
-@pytest.mark.parametrize("seed", range(12))
-def test_a_chain_is_found_by_its_ends(kind, seed):
-    rng = random.Random(f"{kind} {seed}")
-    segments = list(random_chain(rng, is_closed=seed % 2 == 0))
-    version = rng.choice(["R12", "R2000", "R2018"])
-    document, space = drawing(version=version)
-    if kind == "polyline":
-        bulges = [
-            math.tan(math.radians(each.sweep) / 4) * each.turn.sign if isinstance(each, ArcSegment) else 0
-            for each in segments
-        ]
-        points = [(*each.start, bulge) for each, bulge in zip(segments, bulges, strict=True)]
-        points += [] if seed % 2 == 0 else [(*segments[-1].end, 0)]
-        add = space.add_polyline2d if version == "R12" else space.add_lwpolyline
-        add(points, format="xyb", close=seed % 2 == 0, dxfattribs={"layer": "cut"})
-    elif kind == "block":
-        draw(rng, document.blocks.new("part"), segments, "0")
-        # Mirrored in one block and once more in the next: as it was.
-        document.blocks.new("sheet").add_blockref("part", (50, 0), dxfattribs={"xscale": -1})
-        space.add_blockref("sheet", (50, 0), dxfattribs={"layer": "cut", "xscale": -1})
-    else:
-        draw(rng, space, segments, "cut")
-    space.add_line((0, 0), (1, 0), dxfattribs={"layer": "frame"})
-    found = read_dxf(data(document), part="milled", layer="CUT", unit="mm")
-    assert rounded(path_of(found)) in around(segments)
-    assert found.sketch.closed == (seed % 2 == 0)
-
-
 # Dimensions ---------------------------------------------------------------------------------------------------------
 
 
@@ -204,34 +165,6 @@ def test_dimensions_become_the_given_numbers_and_nothing_that_follows_from_them(
     assert any(": 30: it follows from others" in each for each in found.notes)
     assert found.sketch.closed
     assert rounded(path_of(found))[2] == [80, 40, 70, 50, 10]
-
-
-def test_what_no_dimension_gives_is_read_from_the_lines_and_told():
-    document, space = plate()
-    space.add_radius_dim(center=(70, 40), radius=10, angle=45).render()
-    found = read_dxf(data(document), part="milled")
-    assert found.given == (f"DIMENSION {space.query('DIMENSION')[0].dxf.handle}: 10",)
-    assert any(each.startswith("no dimension gives X of line 1, Y of line 2, X of line 4") for each in found.notes)
-    assert found.measured[2]["CCX"] == Decimal(70)
-    assert found.measured[4]["LEN"] == Decimal("42.426407")
-
-
-def test_chained_dimensions_stay_increments():
-    document, space = drawing()
-    points = [(0, 10), (-12, 10), (-27.5, 14), (-27.5, 20), (-50, 20)]
-    space.add_lwpolyline(points)
-    for first, second in ((0, 1), (1, 2), (1, 4)):
-        space.add_linear_dim(base=(0, 40), p1=points[first], p2=points[second]).render()
-    for at in (points[0], points[2], points[4]):
-        space.add_linear_dim(base=(5, 0), p1=(at[0], -at[1]), p2=at, angle=90, text="%%c<>").render()
-    found = read_dxf(data(document), part="turned")
-    assert fields(found) == [
-        {"AN": "180", "Z": "-12"},
-        {"X": "28", "IZ": "-15.5"},
-        {"AN": "90", "X": "40"},
-        {"AN": "180", "IZ": "-38", "RZ": "1"},
-    ]
-    assert found.sketch.start == {"Z": 0, "X": 20}
 
 
 def whole_shaft():
@@ -411,19 +344,6 @@ def test_a_dimension_that_is_not_of_the_chain_or_of_another_scale_is_told():
     )
 
 
-def test_a_binary_drawing_is_read_and_a_damaged_one_is_told():
-    document, space = plate()
-    document.layers.add("Außenkontur")
-    space[0].dxf.layer = "Außenkontur"
-    stream = io.BytesIO()
-    document.write(stream, fmt="bin")
-    for form in (stream.getvalue(), data(document), data(document).replace(b"\n", b"\r\n")):
-        found = read_dxf(form, part="milled", layer="außenkontur")
-        assert (len(found.sketch.elements), found.layers) == (6, {"Außenkontur": 6})
-    cut = data(document)[:-2000]
-    assert any("the file is damaged" in each for each in read_dxf(cut, part="milled", unit="mm").notes)
-
-
 def test_what_a_drawing_may_have_else_is_told():
     document, space = drawing()
     document.layers.add("off").off()
@@ -453,9 +373,7 @@ def test_what_a_drawing_may_have_else_is_told():
 SHAFT = ROOT / "docs" / "programs" / "shaft.dxf"
 
 
-def run(*arguments):
-    done = CliRunner().invoke(commands(), ["write", *map(str, arguments)])
-    return done.exit_code, done.stdout, done.stderr
+run = partial(calling.run, "write")
 
 
 def test_write_takes_a_drawing_and_keeps_its_sketch(tmp_path):

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 import contoursolve
-from contoursolve.controls import DIALECTS
 from contoursolve.pictures.theme import DARK_COLORS, LEVELS, LIGHT_COLORS, Role
 
 HOUSE = Path(contoursolve.__file__).parent.parent
@@ -118,21 +117,6 @@ def test_the_picture_has_the_colours_of_the_package():
         # An editor shows contours; levels are of maps, guesses of sketches.
         others = (Role.PAPER, Role.INK, Role.GUESSED, *LEVELS)
         assert found == {role.value: colors[role] for role in Role if role not in others}
-
-
-def test_every_control_setting_and_command_is_there_for_every_language():
-    settings = contributed("configuration")["properties"]
-    assert settings["contoursolve.control"]["enum"] == ["", *sorted(DIALECTS)]
-    assert [name for name in settings if f"`{name}`" not in read("README.md")] == []
-    registered = {f"contoursolve.{name}" for name in re.findall(r'register\("(\w+)"', read("src/extension.ts"))}
-    assert registered == {command["command"] for command in contributed("commands")}
-    languages = [language["id"] for language in contributed("languages")]
-    (named,) = re.findall(r"LANGUAGES = (\[.*\]);", read("src/protocol.ts"))
-    assert json.loads(named) == languages
-    assert [row["languages"] for row in contributed("codeActions")] == [languages] * len(contributed("codeActions"))
-    rows = [*chain.from_iterable(contributed("menus").values()), *contributed("keybindings")]
-    clauses = [re.search(r"editorLangId =~ /(.*)/", row["when"])[1] for row in rows]
-    assert [each for each in clauses if not all(re.fullmatch(each, language) for language in languages)] == []
 
 
 def test_nothing_names_a_registry_and_the_icon_is_as_the_marketplace_wants_it():

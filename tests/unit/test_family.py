@@ -2,20 +2,18 @@
 
 import json
 import re
-import sys
+from functools import partial
 from types import SimpleNamespace
 
+import calling
 import flint
 import numpy as np
 import pyarrow
 import pytest
-from click.testing import CliRunner
 from pyarrow import parquet
 
-import contoursolve
-from contoursolve.cli import main
 from contoursolve.families import FamilyError, family, sensitivity
-from contoursolve.solving import REASONS, RefusalKind, StatusCode
+from contoursolve.solving import REASONS, StatusCode
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
 _NCT = "G17 G90 {comp} G0 X{x} Y{y}\n"
@@ -175,19 +173,6 @@ def text_of(block, words, values):
     return "\n".join(lines)
 
 
-def expected_points(answer):
-    """Every coordinate of a solved contour by the family's name for it."""
-    axes = answer.plane.axes
-    for point, pair in answer.contour.points.items():
-        yield from ((f"{point}.{axis}", value) for axis, value in zip(axes, pair, strict=True))
-    for element in answer.contour.elements:
-        if element.name.startswith("corner"):
-            for place in ("start", "end"):
-                name = {"start": "begin"}.get(place, place)
-                pair = getattr(element, place)
-                yield from ((f"{element.name}.{name}.{axis}", value) for axis, value in zip(axes, pair, strict=True))
-
-
 def filled(block, options, values):
     """The block, the start point and the facts with values in place, by plain text."""
     facts, start = list(options.get("facts", ())), options.get("start")
@@ -206,48 +191,7 @@ def filled(block, options, values):
 ALL = CASES | SEVERAL
 
 
-@pytest.mark.parametrize("name", ALL)
-@pytest.mark.parametrize("part", range(5))
-def test_a_row_of_a_family_is_the_single_solve_of_its_block(name, part):
-    """Words, facts, choices and start points alike: status, reason, branches and every coordinate."""
-    block, options, _ = ALL[name]
-    count = 10 if "search" in name else 50
-    values = draw(name, count, 10 * sorted(ALL).index(name) + part)
-    found = family(block, vary=values, paired=True, **options)
-    names, seen, compared = {*found.names}, set(), 0
-    for row, each in enumerate(zip(*values.values(), strict=True)):
-        text, more = filled(block, options, dict(zip(values, each, strict=True)))
-        answer = contoursolve.solve(text, depth="verdict", **more).answers[0]
-        assert StatusCode(int(found["status"][row])).status is answer.status, (text, more)
-        seen.add(answer.status)
-        if name in CASES:
-            branch = {key[7:]: int(found[key][row]) for key in names if key.startswith("branch.") and found[key][row]}
-            assert branch == {point: side.sign for point, side in answer.sides.items()}, text
-        assert found.has_contour[row] == (answer.contour is not None)
-        if answer.contour is None:
-            is_nowhere = any(each.code == "no-point" for each in answer.diagnostics)
-            assert (REASONS[found["reason"][row]] is RefusalKind.NO_POINT) == is_nowhere, (text, more)
-            continue
-        assert found["residual"][row] < 1e-9
-        for key, value in expected_points(answer):
-            if key in names:
-                compared += 1
-                assert abs(found[key][row] - value) <= 1e-12 * max(1.0, abs(value)), (text, key)
-    assert compared or not found.has_contour.any()
-    assert len(seen) > 1
-
-
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
-
-
-def test_a_grid_has_an_axis_for_each_word_and_the_rows_of_its_columns():
-    a, p = np.arange(150, 210, 0.5), np.arange(1, 30, 0.25)
-    grid = family(BLOCK, start=START, vary={"A": a, "P": p})
-    assert grid.shape == grid["status"].shape == (a.size, p.size)
-    columns = family(BLOCK, start=START, vary={"A": np.repeat(a, p.size), "P": np.tile(p, a.size)}, paired=True)
-    for name in grid.names:
-        assert np.array_equal(grid[name].ravel(), columns[name], equal_nan=True), name
-    assert sum(grid.summary().values()) == len(grid) == a.size * p.size
 
 
 @pytest.mark.parametrize(
@@ -288,17 +232,6 @@ def test_the_number_of_threads_changes_nothing(name, monkeypatch):
 def test_each_row_has_the_status_of_its_own_values(block, options, vary, statuses):
     found = family(block, start=START, vary=vary, **options)
     assert [StatusCode(code).name for code in found["status"].ravel()] == statuses
-
-
-def test_types_are_as_documented_and_reasons_have_names():
-    found = family(BLOCK, start=START, vary={"P": [5, 80]})
-    assert (found["status"].dtype, found["reason"].dtype, found["V1.Z"].dtype) == (np.uint8, np.uint8, np.float64)
-    assert found["status"].tolist() == [StatusCode.SOLVED, StatusCode.NO_SOLUTION]
-    assert REASONS[found["reason"][1]].value == "corner-too-large"
-    assert np.isnan(found["V2.Z"]).tolist() == [False, True]
-    # Line 1 is 30 mm long; a rounding takes P tan 30 deg of it, and of line 2 that and Q tan 30 deg.
-    assert found["line 1.room"] == pytest.approx([30 - 5 / 3**0.5, 30 - 80 / 3**0.5])
-    assert found["line 2.room"] == pytest.approx([30 / 0.75**0.5 - 10 / 3**0.5, 30 / 0.75**0.5 - 85 / 3**0.5])
 
 
 def test_a_value_that_is_asked_for_is_a_column():
@@ -406,47 +339,7 @@ def test_every_column_names_its_unit_as_in_one_row_words_and_points_differ():
 ON_BLOCK = ("--block", BLOCK, "--start", START)
 
 
-def run(*arguments):
-    done = CliRunner().invoke(main, ["sweep", *map(str, arguments)])
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
-    return done.exit_code, done.stdout, done.stderr
-
-
-@pytest.mark.parametrize(
-    ("block", "told"),
-    [
-        ("G11l X100. A180. K-30. B120.", "letter l in G11l: did you mean the digit 1.*write G111 for G11l"),
-        ("G111 X100. A180.", "line 2 needs two of B, X or U, Z or W.*add B[?]"),
-        ("G111 X100. A180. K-30. B120. P?", "radius of corner 1 is still open.*give P[?] a value"),
-        ("G111 X100. A180. K-30. B120. P-5.", "P-5. is negative.*write P5. for P-5."),
-    ],
-)
-@pytest.mark.parametrize(
-    ("command", "call"),
-    [
-        (["sweep", "--vary", "A=170:190:1"], lambda block: family(block, start=START, vary={"A": [170, 180]})),
-        (
-            ["find", "--word", "A", "--bring", "end Z-50."],
-            lambda block: contoursolve.find_word(block, "A", "end Z-50.", start=START),
-        ),
-        (["range", "--word", "A"], lambda block: contoursolve.feasible(block, "A", start=START)),
-        (
-            ["range", "--word", "A", "--word", "X", "--within", "1:2", "--within", "1:2"],
-            lambda block: contoursolve.region(block, ("A", "X"), ((1, 2), (1, 2)), start=START),
-        ),
-        (["sensitivity"], lambda block: sensitivity(block, start=START)),
-    ],
-)
-def test_a_block_that_is_refused_whatever_the_values_says_so_as_solve_does(block, told, command, call):
-    printed = CliRunner().invoke(main, ["solve", "--block", block, "--start", START]).stdout
-    findings = printed[min(at for at in (printed.find("error["), printed.find("warning[")) if at >= 0) :]
-    done = CliRunner().invoke(main, [*command, "--block", block, "--start", START])
-    assert (done.exit_code, done.stdout) == (2, "")
-    # The last line counts; the hint at further fixes names the block where another command gives it.
-    shown = re.sub(r" --explain .* lists all", " --explain lists all", done.stderr.rstrip().rpartition("\n")[0])
-    assert shown.strip() == findings.rpartition("\n\n")[0].strip()
-    with pytest.raises(FamilyError, match="(?s)" + told):
-        call(block)
+run = partial(calling.run, "sweep")
 
 
 def test_where_no_row_has_a_contour_the_reason_of_most_is_named_with_a_row():
@@ -575,12 +468,6 @@ def test_a_sweep_writes_every_row(tmp_path):
     check_table(parquet.read_table(files[0]), found)
 
 
-def test_a_missing_package_is_named_with_the_extra_that_brings_it(monkeypatch, tmp_path):
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    status, _, errors = run(*ON_BLOCK, "--vary", "A=170", "-o", tmp_path / "family.parquet")
-    assert (status, f'{sys.executable} -m pip install "contoursolve[family]"' in errors) == (2, True)
-
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -597,43 +484,6 @@ def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message
     status, output, errors = run(*arguments)
     assert (status, output) == (2, "")
     assert message in errors
-
-
-@pytest.mark.parametrize(
-    ("block", "options"),
-    [
-        (BLOCK, LATHE),
-        ("G111 X100. A170. K-30. B120. C5. D5.", LATHE),
-        ("G112 X50. K-30. I-10. R20. P2. Q2.", LATHE),
-        ("G111 X4. A180. K-1.2 B120. P.2 Q.2", {"start": "X1.6 Z0.", "units": "inch"}),
-        (_NCT.format(comp="G41", x=50, y=0) + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1", MILL),
-        (
-            _NCT.format(comp="G41", x=90, y=10)
-            + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225 Q1 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1",
-            MILL,
-        ),
-    ],
-)
-def test_derivatives_are_central_differences(block, options):
-    slopes = sensitivity(block, **options).slopes
-    words = list(next(iter(slopes.values())))
-    program = contoursolve.parse(block)
-    step = 1e-4
-    compared = 0
-    for word in words:
-        line, _, address = word.rpartition(":")
-        same = [each for each in program.blocks if not line or each.line == int(line)]
-        value = float(next(each.find(address) for each in same if each.find(address)).number)
-        found = family(block, vary={word: [value - step, value + step]}, **options)
-        if set(found.summary()) != {contoursolve.Status.SOLVED}:
-            continue  # a circle that is said to pass through a point allows it little
-        if any(np.isnan(by_word[word]) for by_word in slopes.values()):
-            continue  # a half circle by R is one for longer chords, too, but not for shorter ones
-        compared += 1
-        for name, by_word in slopes.items():
-            difference = np.diff(found[name])[0] / (2 * step)
-            assert abs(by_word[word] - difference) <= 1e-6 * max(1.0, abs(difference)), (name, word)
-    assert compared >= 3
 
 
 def test_tolerances_add_up_at_worst_and_in_squares():

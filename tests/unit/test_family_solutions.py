@@ -1,16 +1,12 @@
 """Families with every solution of each row: a pair without the word that chooses, a fact that leaves two, a chain."""
 
-import re
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from msgspec.structs import replace
 
 import contoursolve
-from contoursolve import list_solutions
 from contoursolve.families import FamilyError, family
-from contoursolve.solving import StatusCode, choose, find_alternatives
 
 TURN = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
 FACT = {"start": "X40. Z0.", "facts": ["length of line 1 = 35."]}
@@ -25,52 +21,6 @@ BLOCKS = {
         (-40, 20),
     ),
 }
-
-
-@pytest.mark.parametrize(("block", "options", "word", "within"), BLOCKS.values(), ids=BLOCKS)
-@pytest.mark.parametrize("part", range(10))
-def test_each_row_has_the_solutions_that_a_single_solve_lists(block, options, word, within, part):
-    values = np.round(np.random.default_rng(part).uniform(*within, 4), 3)
-    found = family(block, vary={word: values}, branches="all", **options)
-    for row, value in enumerate(values.tolist()):
-        if " " in word:
-            answer = contoursolve.solve(block, **{**options, "facts": [f"{word} = {value!r}"]}).answers[0]
-        else:
-            line, _, address = word.rpartition(":")
-            text = with_word(block, int(line or 0), address, value)
-            answer = open_answer(text, **options)
-        letters = answer.plane.axes
-        chosen = {item.name for item in choose(answer.alternatives, answer.profile.choices)}
-        listed = [each for each in list_solutions(answer).solutions if each.contour and each.name in chosen]
-        has = found.has_contour[row]
-        assert has.sum() == len(listed), (value, [each.name for each in listed])
-        for each in listed:
-            assert each.certificate.proof.value in ("exact", "unique", "verified")
-            places = [found.solutions.index(each.name)] if each.name in found.solutions else np.flatnonzero(has)
-            (place,) = places
-            for name, at in each.contour.points.items():
-                for letter, number in zip(letters, at, strict=True):
-                    assert found[f"{name}.{letter}"][row, place] == pytest.approx(number, abs=1e-9), (value, each.name)
-        for place in np.flatnonzero(~has):
-            assert all(np.isnan(found[f"{name}.{letters[0]}"][row, place]) for name in answer.profile.figure.points)
-            assert found["status"][row, place] > StatusCode.OVERDETERMINED
-    assert len({*found.solutions}) == len(found.solutions) <= 2
-
-
-def open_answer(text, **options):
-    """The answer of a block in which nothing chooses, not even what the control does without the word."""
-    (answer,) = contoursolve.solve(text, **options).answers
-    choices = tuple(each for each in answer.profile.choices if each.given in ("", *answer.profile.givens))
-    profile = replace(answer.profile, choices=choices)
-    return replace(answer, profile=profile, alternatives=find_alternatives(profile))
-
-
-def with_word(block, line, address, value):
-    lines = block.split("\n")
-    for number, text in enumerate(lines, 1):
-        if line in (0, number):
-            lines[number - 1] = re.sub(rf"{address}-?[\d.]+", f"{address}{value!r}", text)
-    return "\n".join(lines)
 
 
 def test_the_default_stays_one_solution_and_refuses_a_block_without_its_choice():

@@ -1,37 +1,27 @@
 """Fanuc and Haas, fact by fact of the controls' sheets: lines and arcs with ,A ,C ,R, and what is refused."""
 
-import re
 from collections import Counter
 from collections.abc import Sequence
-from itertools import product
 from math import inf
 from random import Random
 
 import pytest
-from click.testing import CliRunner
 from examples_fanuc import (
-    EXAMPLES,
-    FL_G1,
-    FL_G4,
     FL_G5,
-    FM_G1,
     FM_G3,
     HAAS_LATHE,
     HAAS_MILL,
     LATHE,
     MILL,
-    drawn,
 )
 from generate_fanuc import disturbed, random_lathe, random_mill
 from oracle import Element
 from oracle_corners import gap
 from oracle_fanuc import Machine, run
 
-from contoursolve import Diagnostic, Result, UnknownControlError, check, expand, family, solve
-from contoursolve.cli import main
+from contoursolve import Diagnostic, Result, UnknownControlError, check, solve
 from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.output import to_json
-from contoursolve.solving import StatusCode
 
 
 def errors(result: Result) -> list[Diagnostic]:
@@ -62,71 +52,7 @@ def test_the_program_of_the_lathe_tells_its_control_and_that_of_the_mill_asks():
     assert not {"yasnac-lx3", LATHE, HAAS_LATHE} & {*caught.value.choices}
 
 
-@pytest.mark.parametrize("control", [LATHE, MILL, HAAS_LATHE, HAAS_MILL])
-@pytest.mark.parametrize(
-    ("size", "names"),
-    [
-        pytest.param("20.", ["corner 1", "line 2"], marks=pytest.mark.boundary),
-        pytest.param("20.001", None, marks=pytest.mark.boundary),
-        ("0", ["line 1", "line 2"]),
-    ],
-)
-def test_a_corner_as_long_as_the_move_is_accepted_and_a_zero_one_is_none(control, size, names):
-    start, second = ("G00 X40. Z0", "X120.") if control.endswith("lathe") else ("G17 G90 G00 Z0 X0 Y0", "Y40.")
-    first = "Z-20." if control.endswith("lathe") else "X20."
-    for word in ("R", "C"):
-        (answer,) = solve(f"{start}\nG01 {first} ,{word}{size}\n{second}", control=control).answers
-        assert (answer.contour and [each.name for each in answer.contour.elements if each.length > 1e-9]) == names
-
-
 # Seen in real text ------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "G1X50.,R5.F100\nY40.",
-        "G1 X50. F100 ,R5.\nY40.",
-        "G1 X50. ,R5. F100\nY40.",
-        "g1 x50. ,r5. f100\ny40.",
-        "G1(edge)X50.(c),R5.(r)\nY40.",
-        "G1 X 50. , R 5.\nY 40.",
-        "G1 ,R5. X50.\nY40.",
-        "N10G1X+50.,R+5.\nN20Y40.",
-        "G1 X50. ,R5.\nG04 P500\nY40.",
-        "G1 X50. ,R5.\nG4 X1.5\nY40.",
-        "G1 X50. ,R5.\n(corner)\n\nY40.",
-        "G1 X50. ,R5.\nN30 G04 P500 (wait)\nN31 G04 P500\nY40.",
-        "/G1 X50. ,R5.\nY40.",
-        "G1 X50000 ,R5000\nY40000",
-    ],
-)
-@pytest.mark.parametrize("control", [MILL, HAAS_MILL])
-def test_the_same_corner_is_read_however_it_is_written(control, text):
-    result = solve("G17 G90 G00 X0 Y0\n" + text, control=control)
-    assert errors(result) == []
-    assert gap(drawn("0 0; 45 0 > ccw 50 5 45 5; 50 40", 1), path(result)) < 1e-9
-
-
-@pytest.mark.parametrize(
-    ("control", "text", "found", "fix"),
-    [
-        (MILL, "G1 Y100 R10\nX50.", "R10", "G1 Y100 ,R10"),
-        (MILL, "g1x.375c.063\ny1.", "c.063", "g1x.375,c.063"),
-        (MILL, "G1 X50. R10.\nY60.", "R10.", "G1 X50. ,R10."),
-        (HAAS_MILL, "G1 X50. R2.\nY60.", "R2.", "G1 X50. ,R2."),
-        (HAAS_LATHE, "G1 Z-50. C2.\nX60.", "C2.", "G1 Z-50. ,C2."),
-        (LATHE, "G1 X50. A150.\nZ-60.", "A150.", "G1 X50. ,A150."),
-        (LATHE, "G1 Z-50. C10.\nX60.", "C10.", "G1 Z-50. ,C10."),
-    ],
-)
-def test_a_lost_comma_is_told_with_what_the_letter_means_without_it(control, text, found, fix):
-    start = "G00 X40. Z0\n" if control.endswith("lathe") else "G17 G90 G00 X0 Y0\n"
-    (finding,) = [each for each in check(start + text, control=control) if each.code.endswith("comma-missing")]
-    assert finding.message == f"{found} has no comma, so the control does not read it as ,{found}"
-    assert "C is an axis" in finding.help or "A and C are axes" in finding.help
-    assert [each.replacement for each in finding.fixes] == [fix]
-    assert len(finding.message.split()) <= 20
 
 
 @pytest.mark.parametrize(
@@ -147,33 +73,6 @@ def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
     found = [each for each in check("G00 X20. Z0.\n" + text, control=LATHE) if each.fixes]
     assert found[0].code == code
     assert found[0].fixes[0].replacement == fix
-
-
-@pytest.mark.parametrize(
-    ("control", "text"),
-    [
-        (MILL, "G01 X30. ,R5.\nG03 X40. Y10. R10."),
-        (MILL, "G03 X20. Y20. I0 J20. ,R2.\nG01 Y60."),
-        (MILL, "G01 X30. ,R5.\nG03 X40. Y10. R10. ,C2.\nG01 X0"),
-        ("nct-99m", "G1 X30 ,R5\nG3 X40 Y10 I0 J10"),
-        ("nct-99m", "G1 X30 ,C5\nG3 X40 Y10 R10"),
-        ("mitsubishi", "G01 X30. ,R5.\nG03 X40. Y10. R10."),
-        ("mitsubishi", "G01 X30. ,R5.\nX60."),
-    ],
-)
-def test_a_corner_on_a_tangent_joint_may_be_deleted(control, text):
-    (finding,) = check("G17 G90 G00 X0 Y0\n" + text, control=control)
-    corner = text.split("\n")[0].split()[-1]
-    assert finding.message.startswith(f"{corner}: ")
-    assert text.replace(" " + corner, "", 1) in [each.replacement for each in finding.fixes]
-
-
-def test_an_angle_that_is_missing_behind_an_open_line_is_asked_for_with_a_value_that_fits():
-    (finding,) = [each for each in check("G00 X20. Z0.\nG01 ,A180.\nX60. Z-47.", control=LATHE) if each.fixes]
-    assert finding.message.endswith("it lacks ,A")
-    assert finding.fixes[0].replacement == "G01 ,A180.\nX60. Z-47. ,A?"
-    told = [each.message for each in check("G00 X20. Z0.\nG01 ,A180.\nX60. ,A120.", control=LATHE)]
-    assert not any("W in line 3" in each or "U in line 3" in each for each in told)
 
 
 # Random contours --------------------------------------------------------------------------------------------
@@ -254,23 +153,6 @@ def test_drawn_programs_come_out_as_the_oracle_says_and_no_wrong_one_is_solved(c
 START = "G00 X20. Z0.\n"
 
 
-@pytest.mark.parametrize("text", ["G01 X40. ,A-30.", "G01 ,A0\nX60. Z-47. ,A120.", "G01 ,A180.\nX60. Z-47. ,A-60."])
-@pytest.mark.parametrize("is_haas", [False, True])
-def test_a_line_against_its_angle_is_told_and_a_ray_is_refused(text, is_haas):
-    if is_haas and "\n" in text:
-        return
-    control, text = (HAAS_LATHE, text.replace(",A", "A")) if is_haas else (LATHE, text)
-    result = solve(START + text, control=control)
-    assert [each.code for each in result.diagnostics] == [f"{control.split('-')[0]}-angle-opposite"]
-    assert result.diagnostics[0].severity.value == "warning"
-    assert result.answers[0].status.value == "solved"
-    refused = solve(START + text, control=control, settings={f"{control}.angle-sense": "ray"})
-    assert refused.answers[0].contour is None
-    assert [each.code for each in errors(refused)] == ["line-reversed"]
-    conventions = [each for answer in refused.answers for each in answer.claim.conventions]
-    assert ("angle-sense", "ray") in [(each.setting.name, each.value) for each in conventions]
-
-
 def test_an_angle_beside_both_coordinates_is_checked_or_refused():
     strict = {"fanuc-lathe.redundant-angle": "error"}
     agrees, misses = START + "G01 X40. Z-17.3205 ,A150.", START + "G01 X40. Z-17. ,A150."
@@ -283,32 +165,6 @@ def test_an_angle_beside_both_coordinates_is_checked_or_refused():
         assert result.answers[0].contour is None
     closing = START + "G01 ,A180.\nX60. Z-47. ,A120."
     assert errors(solve(closing, control=LATHE, settings=strict)) == []
-
-
-@pytest.mark.parametrize(
-    ("control", "text", "angle", "expected"),
-    [
-        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nZ-40.", "0.000", "0 50; -20 50; -40 50"),
-        (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5.\nX50.2 Z-40.", "0.286", "0 50; -20 50; -40 50.2"),
-        (HAAS_LATHE, "G00 X50. Z0\nG01 Z-20. ,C5.\nX50.2 Z-40.", "0.286", "0 50; -20 50; -40 50.2"),
-        (MILL, "G17 G90 G00 X0 Y0\nG01 X20. ,R2.\nX50. Y.5", "0.955", "0 0; 20 0; 50 .5"),
-        (HAAS_MILL, "G17 G90 G00 X0 Y0\nG01 X20. ,C2.\nX50. Y.5", "0.955", "0 0; 20 0; 50 .5"),
-    ],
-)
-def test_a_corner_within_the_guard_is_left_out_with_a_warning_that_tells_the_angle(control, text, angle, expected):
-    result = solve(text, control=control)
-    (answer,), (finding,) = result.answers, result.diagnostics
-    assert answer.status.value == "solved"
-    assert finding.severity.value == "warning"
-    assert finding.code == f"{control.split('-')[0]}-corner-dropped"
-    assert f"turns by {angle} deg" in finding.message
-    assert finding.fixes[0].applicability.value == "safe"
-    corner = text.split("\n")[-2].split()[-1]
-    assert finding.fixes[0].replacement == "\n".join(text.replace(" " + corner, "").split("\n")[-2:])
-    share = 0.5 if control.endswith("lathe") else 1
-    places = [tuple(map(float, each.split())) for each in expected.split(";")]
-    found = [answer.contour.start, *(each.end for each in answer.contour.elements)]
-    assert found == [pytest.approx((first, second * share)) for first, second in places]
 
 
 def test_a_corner_on_a_tangent_arc_is_left_out_and_the_others_are_cut():
@@ -363,43 +219,6 @@ SWEEPS = [
 ]
 
 
-@pytest.mark.parametrize(("text", "vary", "control", "settings"), SWEEPS)
-def test_a_sweep_across_the_guard_and_the_sign_says_what_solve_says(text, vary, control, settings):
-    """Also within the guard about the other line's direction, and at its ends."""
-    named = {f"{control}.{name}": value for name, value in settings.items()}
-    table, rows = family(text, vary=vary, control=control, settings=named), [*product(*vary.values())]
-    for number, row in enumerate(rows):
-        lines = text.split("\n")
-        for name, value in zip(vary, row, strict=True):
-            line, address = name.split(":")
-            lines[int(line) - 1] = re.sub(rf"(?<![,A-Z]){address}-?[\d.]+", f"{address}{value}", lines[int(line) - 1])
-        (answer,) = solve("\n".join(lines), control=control, settings=named, depth="verdict").answers
-        assert StatusCode(table["status"].ravel()[number]).status is answer.status, row
-        if answer.contour:
-            for point, pair in answer.contour.points.items():
-                for letter, value in zip(answer.plane.axes, pair, strict=True):
-                    assert table[f"{point}.{letter}"].ravel()[number] == pytest.approx(value, abs=1e-9), row
-    is_by_row = text == SWEPT and len(vary["3:,A"]) == 4 and "guard-deg" not in settings
-    assert table.remark == "each value of ,A of block 2 and ,A of block 3 decides how its row is read" * is_by_row
-
-
-@pytest.mark.parametrize("control", MACHINES)
-def test_a_number_without_a_point_counts_least_increments_or_is_as_written(control):
-    text, expected = {
-        True: ("{} X20000 Z0\nG01 X40000 ,C2000\nZ-30000", "20 0; 36 0; 40 -2; 40 -30"),
-        False: ("{} G17 G90 X0 Y0\nG01 X40000 ,C2000\nY30000", "0 0; 38 0; 40 2; 40 30"),
-    }[control.endswith("lathe")]
-    share = 0.5 if control.endswith("lathe") else 1
-    for unit, size in (("G21 G00", 1), ("G20 G00", 2.54)):
-        found = path(solve(text.format(unit), control=control))
-        wanted = [each._replace(start=each.start * size, end=each.end * size) for each in drawn(expected, share)]
-        assert gap(wanted, found) < 1e-9
-    plain = solve(
-        text.replace("000", "").format("G21 G00"), control=control, settings={f"{control}.number": "calculator"}
-    )
-    assert gap(drawn(expected, share), path(plain)) < 1e-9
-
-
 def test_an_angle_without_a_point_counts_thousandths_of_a_degree():
     result = solve(START + "G01 X40. ,A150000", control=LATHE)
     assert result.answers[0].contour.end == pytest.approx((-17.320508, 20))
@@ -408,29 +227,6 @@ def test_an_angle_without_a_point_counts_thousandths_of_a_degree():
 # Corners between two axes ------------------------------------------------------------------------------------
 
 PLAIN = {"fanuc-lathe.corner-words": "plain"}
-
-
-@pytest.mark.parametrize("control", [LATHE, MILL, HAAS_LATHE])
-@pytest.mark.parametrize("part", range(8))
-def test_random_steps_with_signs_come_out_as_the_oracle_says(control, part):
-    rng, verdicts = Random(f"steps {control}{part}"), Counter[str]()
-    plane, letters = ("G18", "ZXKI") if control != MILL else rng.choice((("G17", "XYIJ"), ("G19", "YZJK")))
-    for _ in range(30):
-        program, way = [f"{plane} G90 G00 {letters[0]}0 {letters[1]}400."], rng.randrange(2)
-        at, steps = [0.0, 400.0], [rng.choice((-1, 1)) * rng.uniform(15, 60) for _ in range(rng.randint(2, 5))]
-        for number, step in enumerate(steps):
-            at[way] += step
-            word = f"{letters[way]}{at[way]:.3f}"
-            if number + 1 < len(steps) and rng.random() < 0.8:
-                sign = (1 if steps[number + 1] > 0 else -1) * (-1 if rng.random() < 0.1 else 1)
-                address = rng.choice((letters[3 - way], *("R" * (control != MILL))))
-                word += f" {address}{sign * rng.uniform(0.5, 5):.3f}"
-            program.append("G01 " + word)
-            way = 1 - way if rng.random() < 0.95 else way
-        program = disturbed(rng, program, TYPED[control]) if rng.random() < 0.3 else program
-        verdicts[judge(program, control, MACHINES[control])] += 1
-    assert verdicts["right"] > 5
-    assert verdicts["refused"] > 1
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -442,113 +238,10 @@ def test_random_chains_in_plain_words_are_those_with_commas(seed):
         assert path(plain) == path(with_commas), text
 
 
-def test_plain_words_leave_the_radius_of_an_arc_alone():
-    text = FL_G4 + "\nG02 X60. Z-55. R5.\nG01 Z-60. R2.\nX70."
-    assert [each.form for each in solve(text, control=LATHE, settings=PLAIN).answers] == ["corners", "corners"]
-    assert solve("G00 X20. Z0\nG02 X30. Z-5. R5.", control=LATHE, settings=PLAIN).answers == ()
-
-
-@pytest.mark.parametrize("control", MACHINES)
-def test_a_corner_within_the_guard_may_be_refused(control):
-    start, ends = (
-        ("G00 X50. Z0", ("Z-40.", "X50.2 Z-40."))
-        if control.endswith("lathe")
-        else ("G00 Z-20. X0 Y0", ("X60.", "X60. Y.3"))
-    )
-    first, beyond = ("Z-20.", "X52. Z-40.") if control.endswith("lathe") else ("X30.", "X60. Y2.")
-    for end in (*ends, beyond):
-        text = f"{start}\nG01 {first} ,C2.\n{end}"
-        assert solve(text, control=control).answers[0].contour is not None
-        refused = solve(text, control=control, settings={f"{control}.guard-corner": "error"})
-        assert (refused.answers[0].contour is None) is (end != beyond)
-        assert [each.code for each in errors(refused)] == [f"{control.split('-')[0]}-corner-straight"] * (end != beyond)
-        documents = Document("program", text.encode()), Document("result", to_json(refused).encode())
-        assert verify(*documents).verdict is not ReceiptVerdict.FAILED
-
-
 # Which control ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("text", "control"),
-    [
-        (FL_G1, LATHE),
-        (FL_G1.replace(" ,A-45.", ""), LATHE),
-        ("G00 U-10. W5.\nG01 ,A30.\nX0.\nZ150.", LATHE),
-        ("G00 X20. Z0\nG01 X40.\nZ-30. ,A175.", LATHE),
-        ("G18 G90 G00 X20. Z0\nG01 X40. ,A30.", "nct-99m"),
-        ("G17\n" + FL_G1, "nct-99m"),
-        ("G00 X0 Y0\nG01 X40. ,A30.", "nct-99m"),
-        (FM_G1, None),
-        (START + "G111 A180. K-30. B120. X100.", "yasnac-lx3"),
-    ],
-)
-def test_the_control_is_told_from_the_program_or_asked_for(text, control):
-    if control:
-        assert solve(text).control == control
-        return
-    with pytest.raises(UnknownControlError) as caught:
-        solve(text)
-    assert len(caught.value.choices) > 1
-    for name in caught.value.choices:
-        assert name in str(caught.value)
-
-
 # Commands ---------------------------------------------------------------------------------------------------
-
-DWELL = FL_G5.replace("N60 Z-70.", "G04 P500\nN60 Z-70.").replace("N50 X60.", "N45 G04 U1.5 (WAIT)\nN50 X60.")
-
-
-@pytest.mark.parametrize("post", ["same", "fanuc", "linuxcnc"])
-def test_a_dwell_behind_a_corner_stays_between_the_corner_and_the_next_line(post):
-    lines = expand(DWELL, post=post).text.splitlines()
-    at = [number for number, line in enumerate(lines) if "G04" in line]
-    assert len(at) == 2
-    assert lines[at[0] - 1].startswith("G02 X53.67"), "the rounding behind N40 ends before it"
-    assert lines[at[1] - 1] == "G01 X60. Z-57."
-    assert next(line for line in lines[at[1] + 1 :] if line[0] != "(").startswith("N60 G01 X60. Z-68.")
-
-
-def test_a_dwell_behind_an_open_line_stays_at_its_end():
-    text = "G00 X50. Z50.\nG01 ,A30.\nG04 P500\nX0. Z150. ,A-45."
-    lines = [line for line in expand(text).text.splitlines() if line[0] != "("]
-    assert [line[:3] for line in lines] == ["G00", "G01", "G04", "G01"]
-
-
-@pytest.mark.parametrize("number", range(len(EXAMPLES)))
-@pytest.mark.parametrize("post", ["same", "fanuc"])
-def test_an_example_and_what_it_is_expanded_to_are_the_same_path(number, post, tmp_path):
-    control, row = EXAMPLES[number]
-    text = "\n".join(row["program"]) + "\n"
-    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
-    old.write_text(text)
-    new.write_text(expand(text, control=control, post=post).text)
-    named = ["--control", control]
-    outcome = CliRunner().invoke(main, ["diff", str(old), str(new), *named])
-    assert outcome.exit_code == 0, outcome.output
-    text = new.read_text()
-    place = re.search(r"^(?:N\d+ )?G01 X(-?\d+\.\d*)", text, re.MULTILINE)
-    new.write_text(f"{text[: place.start(1)]}{float(place[1]) + 0.01}{text[place.end(1) :]}")
-    assert CliRunner().invoke(main, ["diff", str(old), str(new), *named]).exit_code == 1
-
-
-def test_a_value_that_is_asked_for_is_found_beside_a_fact():
-    (answer,) = solve("G00 X50. Z50.\nG01 ,A30.\nX0. Z? ,A-45.", facts=["X of P1 = 104.90381"]).answers
-    assert answer.answers[0].value == pytest.approx(150, abs=1e-4)
-    (answer,) = solve("G17 G90 G00 X0 Y0\nG1 X50. ,R?\nY40.", control=MILL, facts=["radius of corner 1 = 7"]).answers
-    assert answer.answers[0].value == pytest.approx(7)
-    (answer,) = solve(START + "G01 X40. ,A? (contoursolve: length of line = 20)", control=LATHE).answers
-    assert answer.status.value == "ambiguous", "a line of 20 mm to that diameter runs either way"
-
-
-def test_what_a_setting_means_that_is_not_computed_is_refused():
-    angled, arc = START + "G01 X40. ,A150.", "G17 G90 G00 X0 Y0\nG01 X40. ,C6.\nG02 X60. Y20. I20. J0"
-    for control, text, setting in ((LATHE, angled, "angle=supplementary"), (MILL, arc, "chamfer-on-arc=arc_length")):
-        name, value = setting.split("=")
-        assert solve(text, control=control).answers[0].contour is not None
-        (answer,) = solve(text, control=control, settings={f"{control}.{name}": value}).answers
-        assert answer.contour is None
-        assert any(value in each.message or name in each.help for each in answer.diagnostics)
 
 
 STEPS = [f"G00 X20. Z0\nG01 Z-25. R{sign}5.\nX{end}." for sign in ("", "-") for end in range(-30, 70, 33)]
@@ -569,9 +262,3 @@ def test_many_contours_of_a_program_come_out_as_each_alone(settings):
         # What is hardly meant depends on the contours beside.
         one, other = ([each.code for each in found.diagnostics] for found in (answer, alone))
         assert [code for code in one if code != "suspected"] == [code for code in other if code != "suspected"], text
-
-
-def test_a_corner_in_a_thread_behind_a_contour_is_told():
-    result = solve("G00 X20. Z0.\nG01 X22. ,A150.\nG32 Z-25. F1. ,R2.\nM30", control=LATHE)
-    assert [each.alarm.number[:3] for each in errors(result)] == ["050"]
-    assert [each.status.value for each in result.answers] == ["solved", "rejected"]

@@ -20,20 +20,6 @@ def test_the_program_keeps_its_variables_and_each_check_stops_the_machine():
     assert max(map(len, text.splitlines())) < 80
 
 
-def test_a_contour_begins_where_the_formulas_of_the_one_before_it_end():
-    chain = BLOCK + "G111 W-20. A170. K-10. B140.\n"
-    text = contoursolve.expand(chain, post="linuxcnc", **LX3).text
-    assert "#100" in text[text.index("(G111 W-20.") :]
-
-
-def test_scratch_variables_are_those_that_are_named_and_that_the_program_does_not_use():
-    text = contoursolve.expand("#141=3.\n" + BLOCK, post="fanuc", scratch="#140-#160", **LX3).text
-    assert {*re.findall(r"#(\d+)=", text)} == {"141", "100", "3000", "140", "142", "143"}
-    assert text.count("#141=") == 1
-    with pytest.raises(ValueError, match="is no range of variables"):
-        contoursolve.expand(BLOCK, post="fanuc", scratch="140", **LX3)
-
-
 CHANGED = "#100=95.\n#101=40.\nG0 X#101 Z0.\n#101=50.\nG111 X#100 A180. K-30. B120.\n"
 FREE = "#100=95.\nG0 X40. Z0.\nG111 X#100 A180. B120. (contoursolve: length of line 1 = 30)\n"
 WITHOUT = BLOCK.replace("#100=95.\n", "")
@@ -70,18 +56,6 @@ def test_the_sign_of_a_word_is_a_case_of_its_own():
     assert re.search(r"o\d+ if \[#100 (LT|GT) ", written)
 
 
-@pytest.mark.parametrize(
-    ("post", "shown"),
-    [
-        ("haas", "THEN #3000=101 (P DOES NOT FIT)"),
-        ("sinumerik", "R100=95.\nG0 X40. Z0.\n;G111 X#100"),
-        ("sinumerik", 'SETAL(65000,"P DOES NOT FIT")'),
-    ],
-)
-def test_other_controls_have_other_words(post, shown):
-    assert shown in contoursolve.expand(BLOCK, post=post, **LX3).text
-
-
 def test_klartext_has_the_contour_and_the_rest_is_left():
     expansion = contoursolve.expand(BLOCK, post="klartext", keep_going=True, **LX3)
     assert [each.lines for each in expansion.summary.left] == [(2,)]
@@ -97,13 +71,6 @@ def command(*arguments: str) -> tuple[int, str]:
 
 
 WORDS = ("--control", "yasnac-lx3", "--start", "X40. Z0.", "--block")
-
-
-def test_the_command_writes_formulas_of_a_block_with_values_for_example():
-    status, text = command("--post", "linuxcnc", "--let", "#1=95.", *WORDS, "G111 X#1 A180. K-30. B120. P5. Q5.")
-    assert status == 0
-    assert "(abort, P DOES NOT FIT)" in text
-    assert "1 contour expanded" in text
 
 
 @pytest.mark.parametrize(

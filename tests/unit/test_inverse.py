@@ -1,20 +1,19 @@
 """The inverse question: which values of a word bring a point where it is wanted."""
 
 import json
+from functools import partial
 from itertools import pairwise
 from random import Random
 
+import calling
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from msgspec.structs import replace
 from test_family import ALL, filled
 
 import contoursolve
-from contoursolve import list_solutions
-from contoursolve.cli import main
 from contoursolve.families import FamilyError, Way, family, feasible, find_word, inverse, spec_of, tolerance_for
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
@@ -72,101 +71,6 @@ def goal_of(point, answer, axes=(0, 1)):
     return f"{point} {' '.join(words)}"
 
 
-@pytest.mark.parametrize(("name", "word", "point"), [*WORDS, *FREE])
-def test_the_value_with_which_a_point_was_computed_is_found_again(name, word, point):
-    """Of words, facts and start points: the value of a random single solve is among those that are found."""
-    block, options, ranges = ALL[name]
-    low, high = ranges.get(word, (0, 360))
-    rng, compared = np.random.default_rng(len(name + word)), 0
-    for value in np.round(rng.uniform(low, high, 60), 3).tolist():
-        answer = solved(name, word, value)
-        if answer.contour is None or place_of(point, answer.contour) is None or compared == 2:
-            continue
-        aside = solved(name, word, round(value + 0.003, 3))
-        if aside.contour is None:
-            continue
-        here, there = (place_of(point, each.contour) for each in (answer, aside))
-        axes = tuple(axis for axis in (0, 1) if abs(here[axis] - there[axis]) > 1e-6)
-        if not axes:
-            continue
-        compared += 1
-        for goal in (goal_of(point, answer, axes[:1]), goal_of(point, answer)):
-            found = find_word(block, word, goal, within=(low, high), **options)
-            near = [hit for hit in found.hits if abs(hit.value - value) <= 1e-6 * max(1, abs(value))]
-            assert near, (goal, value, found.hits)
-            assert max(near[0].away, near[0].rounded_away) <= 1e-9
-            assert near[0].certificate is not None or (name, word, point) in FREE
-    assert compared
-
-
-@pytest.mark.parametrize(("name", "word", "point"), WORDS)
-def test_no_value_is_missed_that_a_fine_grid_shows(name, word, point):
-    """Between neighbours on a grid a coordinate passes its goal, or the distance has a least value."""
-    block, options, ranges = ALL[name]
-    low, high = ranges.get(word, (0, 360))
-    values = np.round(np.linspace(low, high, 1501), 6)
-    grid = family(block, vary={word: values}, **options)
-    answer = next(each for value in values if (each := solved(name, word, round(value, 3))).contour is not None)
-    letters, diameters = answer.plane.axes, answer.plane.diameters
-    names = [f"{'corner 2.end' if point == 'end' else point}.{letter}" for letter in letters]
-    if np.nanmax(grid[names[0]]) - np.nanmin(grid[names[0]]) < 1e-6:
-        letters, diameters, names = letters[::-1], diameters[::-1], names[::-1]  # the word moves the other coordinate
-    one, two = (grid[each] for each in names)
-    rng = np.random.default_rng(len(name + word))
-    scale = [(1 + is_diameter) / float(answer.unit.in_mm) for is_diameter in diameters]
-    known = np.flatnonzero(~np.isnan(one + two))
-    for row in rng.choice(known, 2):
-        want = one[row] + 0.0123
-        found = find_word(block, word, f"{point} {letters[0]}{float(want * scale[0])!r}", within=(low, high), **options)
-        off = one - want
-        passes = np.flatnonzero((off[1:] * off[:-1] < 0) & (np.abs(np.diff(off)) < 1))
-        for place in passes:
-            inside = [hit for hit in found.hits if values[place] - 1e-9 <= hit.value <= values[place + 1] + 1e-9]
-            assert len(inside) == 1, (values[place], found.hits)
-        assert found.is_complete
-        assert all(hit.away <= 1e-9 for hit in found.hits)
-        goal = f"{point} {letters[0]}{float(want * scale[0])!r} {letters[1]}{float((two[row] + 1.234) * scale[1])!r}"
-        found = find_word(block, word, goal, within=(low, high), **options)
-        away = np.hypot(off, two - two[row] - 1.234)
-        least = [
-            place for place in range(1, values.size - 1) if away[place] < min(away[place - 1], away[place + 1]) - 1e-9
-        ]
-        step = values[1] - values[0]
-        for place in least:
-            near = [hit for hit in found.hits if abs(hit.value - values[place]) <= step]
-            assert near, (goal, values[place], found.hits)
-            assert min(hit.away for hit in near) <= away[place] + 1e-9
-        assert min(hit.away for hit in found.hits) <= np.nanmin(away) + 1e-9
-
-
-def test_the_solver_of_facts_finds_the_same_values():
-    """Asked for by `?`, with a fact in place of the goal: another way through the equations."""
-    block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 {} Q-1"
-    found = find_word(block.format(",A171.87"), ",A", "P1 X30.", within=(100, 200))
-    asked = contoursolve.solve(block.format(",A?"), facts=["X of P1 = 30."]).answers[0]
-    expected = [each.value for listed in list_solutions(asked).solutions for each in listed.asked]
-    assert [hit.value for hit in found.hits] == pytest.approx(sorted(expected), abs=1e-9)
-    assert len(expected) == 2
-
-
-@pytest.mark.parametrize(
-    ("word", "goal"),
-    [("K", "corner 1.end Z-40."), ("straight part of line 2", "corner 1.begin Z-20."), ("X", "corner 1.center X90.")],
-)
-def test_words_and_facts_are_found_where_there_is_no_closed_form(word, goal):
-    block, facts = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
-    found = find_word(block, word, goal, start=START, facts=facts)
-    (hit,) = found.hits
-    assert found.is_complete
-    assert hit.away <= 1e-9
-    assert hit.rounded_away <= 0.001
-    text, *stated = hit.block.split("\n")
-    again = contoursolve.solve(text, start=START, facts=stated).answers[0].contour
-    point, _, want = goal.rpartition(" ")
-    at = place_of(point, again)[0] if want[0] == "Z" else 2 * place_of(point, again)[1]
-    assert at == pytest.approx(float(want[1:]), abs=0.002)
-
-
 @pytest.mark.parametrize(("within", "turns"), [(None, [0]), ((-400, 400), [-1, 0]), ((-171, 188), [])])
 def test_an_angle_that_is_asked_for_is_looked_for_in_its_range(within, turns):
     """The direction of 188.794 degrees is that of -171.206 degrees, too."""
@@ -182,14 +86,6 @@ def test_a_block_that_leaves_something_open_has_no_answer():
     assert (asked.hits, asked.remark.partition("; ")[0]) == ((), "K does not move end in this direction")
     with pytest.raises(FamilyError, match="no range"):
         find_word(BLOCK, "A", "end Z-50.", start=START, facts=["length of line 1 = 30"], within=(200, 100))
-
-
-def test_the_block_to_write_has_the_value_in_least_increments():
-    (hit,) = find_word(BLOCK, "A", "end Z-50.", start=START).hits
-    assert (hit.rounded, hit.block) == (179.314, "G111 X100. A179.314 K-30. B120. P5. Q5.")
-    again = contoursolve.solve(hit.block, start=START).answers[0].contour
-    assert hit.rounded_away == pytest.approx(abs(again.end[0] + 50), abs=1e-12)
-    assert 0 < hit.rounded_away < 0.001
 
 
 def test_a_value_at_an_end_is_rounded_to_the_side_with_a_contour():
@@ -216,32 +112,7 @@ def test_a_goal_that_makes_no_sense_is_refused(word, goal, message):
         find_word(BLOCK, word, goal, start=START)
 
 
-def test_of_a_point_that_the_word_does_not_move_the_words_are_named_that_do():
-    found = find_word(BLOCK, "P", "end Z-50.", start=START)
-    assert (found.hits, found.remark) == ((), "P does not move end in this direction; X, A, K, B and Q do")
-    status, output, errors = run("--word", "P", "--bring", "end Z-50.")
-    assert (status, found.remark in output, errors) == (1, True, "")
-    data = json.loads(run("--word", "P", "--bring", "end Z-50.", "--format", "json")[1])
-    assert (data["values"], data["remark"]) == ([], found.remark)
-    there = find_word(BLOCK, "A", "end X100.", start=START)
-    assert ([hit.value for hit in there.hits], there.is_complete) == ([180.0], False)
-    assert there.remark == "A does not move end in this direction; X does"
-
-
-def run(*arguments):
-    done = CliRunner().invoke(main, ["find", "--block", BLOCK, "--start", START, *map(str, arguments)])
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
-    return done.exit_code, done.stdout, done.stderr
-
-
-def test_a_goal_is_read_as_the_control_reads_words():
-    on_lathe = [find_word(BLOCK, "A", goal, start=START).hits for goal in ("end Z-50.", "end Z-50000")]
-    assert on_lathe[0] == on_lathe[1]
-    on_mill = [
-        find_word("G1 X30 ,A45", ",A", goal, start="X50 Y0", control="nct-99m").hits for goal in ("end Y20.", "end Y20")
-    ]
-    assert on_mill[0] == on_mill[1]
-    assert on_mill[0][0].point == pytest.approx((30, 20))
+run = partial(calling.run, "find", "--block", BLOCK, "--start", START)
 
 
 def test_the_status_of_the_command_says_whether_there_is_a_value():
@@ -274,18 +145,6 @@ LOST = [
     (STEEP, "X79.129 Z29.941", "B", None, 177.522),
     (STEEP, "X79.129 Z29.941", "X", None, -1.129),
 ]
-
-
-@pytest.mark.parametrize(("block", "start", "word", "goal", "value"), LOST)
-def test_a_value_that_exists_is_found_to_the_last_digit(block, start, word, goal, value):
-    if goal is None:
-        answer = contoursolve.solve(block, start=start).answers[0]
-        goal = goal_of("end", answer, (1,) if word == "I" and "Z45." in block else (0,))
-    found = find_word(block, word, goal, start=start)
-    assert ([hit.value for hit in found.hits], found.doubts) == ([pytest.approx(value, abs=1e-6)], ())
-    assert found.hits[0].away <= 1e-9
-    done = CliRunner().invoke(main, ["find", "--block", block, "--start", start, "--word", word, "--bring", goal])
-    assert (done.exit_code, "1 value (proven to be all)" in done.stdout) == (0, True)
 
 
 @pytest.mark.parametrize("give", [1e-5, -1.0])

@@ -5,7 +5,6 @@ What Python does is counted in calls; what a regular expression does within one 
 which the shortest of several runs counts.
 """
 
-import random
 import re
 import time
 from collections.abc import Callable
@@ -15,7 +14,7 @@ import pytest
 from counted import calls
 from long_chains import angles, corners, klartext
 
-from contoursolve import DIALECTS, check, expand, parse, solve
+from contoursolve import DIALECTS, check, expand, parse
 
 TIMES = 8
 """How much longer the long line is than the short one."""
@@ -99,28 +98,6 @@ EVERY = [
     *(pytest.param(shape, SHORT, id=name) for name, shape in SHAPES.items()),
     *(pytest.param(shape, 10 * SHORT, id=name) for name, shape in COMMENTS.items()),
 ]
-
-
-def hold_against_length(shape: tuple[str, str, str], short: int, control: str) -> None:
-    texts = line(shape, short), line(shape, TIMES * short)
-    analyse(texts[0], control)
-    few, many = (calls(lambda text=text: analyse(text, control)) for text in texts)
-    assert many <= 1.5 * TIMES * few, texts[0]
-    little, much = (seconds(lambda text=text: read(text)) for text in texts)
-    assert much <= 3 * TIMES * little + 0.005, texts[0]
-
-
-@pytest.mark.parametrize(("shape", "short"), EVERY)
-@pytest.mark.parametrize("control", ["yasnac-lx3", "nct-99m"])
-def test_work_goes_by_the_length_of_a_line(shape, short, control):
-    hold_against_length(shape, short, control)
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_work_goes_by_the_length_of_a_line_of_any_atoms(seed):
-    draw = random.Random(seed)
-    head, unit, tail = ("".join(draw.choices(ATOMS, k=draw.choice((0, 1, 1, 2, 3)))) for _ in range(3))
-    hold_against_length((head, unit or " ", tail), SHORT, draw.choice(("yasnac-lx3", "nct-99m")))
 
 
 # Programs ------------------------------------------------------------------------------------------------------------
@@ -243,12 +220,6 @@ def test_a_chain_four_times_as_long_takes_about_four_times_the_work(name):
     assert long <= (1.5 if "increments" in name else 1.3) * 4 * short
 
 
-def led(steps: int) -> str:
-    """A program that goes to 0, 0 in so many steps, far from what follows."""
-    lines = [f"X{-10 * at}. Y{-10 * at}.\nX{-10 * at - 10}.\n" for at in range(steps, 0, -1)]
-    return f"G17 G90 G00 X{-10 * steps - 20}. Y{-10 * steps - 10}.\nG01 F500.\n{''.join(lines)}X0. Y0.\n"
-
-
 SLIPS = [
     "X40. ,R{}.\nX60. Y30. ,C2.\nX90. Y40.",
     "X40. ,C3.\nY30. ,R{}.\nX60. ,R2.\nY90.",
@@ -256,32 +227,6 @@ SLIPS = [
     "X40. Y5. ,R{0}.\nY45. ,R{0}.\nX90.",
     "X30. ,R5.\nG03 X40. Y10. R10. ,R{}.\nG01 X10.",
 ]
-
-
-@pytest.mark.parametrize("slip", SLIPS)
-@pytest.mark.parametrize("size", [2, 8, 19, 21, 30, 60])
-@pytest.mark.parametrize("control", ["fanuc-mill", "nct-99m", "mitsubishi"])
-def test_a_slip_in_a_long_chain_is_told_as_in_a_short_one(slip, size, control):
-    """With the same words marked, and the same fixes; only what lies near is solved anew for each of them."""
-
-    end = re.findall(r"[XY]-?\d+", slip)[-1][0]
-    other = "XY"[end == "X"]
-
-    def told(steps: int) -> list[object]:
-        head, behind = led(steps), "".join(f"\n{other}{200 + at}.\n{end}{200 + at}." for at in range(0, 10 * steps, 10))
-        found = solve(head + slip.format(size) + behind, control=control)
-        findings = [
-            (
-                each.code,
-                each.span.line - head.count("\n"),
-                each.span.column,
-                [fix.replacement for fix in each.fixes[:3]],
-            )
-            for each in found.diagnostics
-        ]
-        return [findings, found.answers[0].status]
-
-    assert told(30) == told(1)
 
 
 @pytest.mark.parametrize("is_ahead", [True, False])

@@ -20,7 +20,6 @@ from contoursolve.execution import (
     sinumerik,
     variables_of,
     write_term,
-    written,
 )
 from contoursolve.numeric import Apply, Constant, Indexed, Term, Variable
 
@@ -182,16 +181,6 @@ TRUE = {
 """Of 1.5 and another number, with which relations a comparison holds."""
 
 
-@pytest.mark.parametrize("function", TRUE)
-def test_a_comparison_holds_as_its_numbers_are(function):
-    """Numbers that differ by less than a part in 10 to the 12 are equal."""
-    others = {"<": (1.5 + 2e-12, 3.0), "=": (1.5, 1.5 + 1e-12, 1.5 - 1e-12), ">": (1.5 - 2e-12, -3.0)}
-    for relation, numbers in others.items():
-        for number in numbers:
-            found = evaluate(Apply(function, (Constant(1.5), Constant(number))), str)
-            assert found == (relation in TRUE[function]), (number, found)
-
-
 def test_conditions_are_combined_and_right_angles_are_exact():
     of = {"and": (0, 0, 0, 1), "or": (0, 1, 1, 1), "exclusive_or": (0, 1, 1, 0)}
     for function, expected in of.items():
@@ -200,15 +189,6 @@ def test_conditions_are_combined_and_right_angles_are_exact():
     assert [evaluate(Apply("not", (Constant(each),)), str) for each in (0.0, -2.0)] == [1, 0]
     turns = [evaluate(Apply("cosine", (Constant(90.0 * each),)), str) for each in range(-3, 6)]
     assert turns == [0, -1, 0, 1, 0, -1, 0, 1, 0]
-
-
-def test_ten_times_a_tenth_is_one():
-    tenth = Constant(0.1)
-    total = tenth
-    for _ in range(9):
-        total = Apply("add", (total, tenth))
-    assert evaluate(Apply("less", (total, Constant(1.0))), str) == 0
-    assert evaluate(Apply("truncate", (Apply("divide", (Constant(0.3), tenth)),)), str) == 3
 
 
 @pytest.mark.parametrize(
@@ -231,12 +211,6 @@ def test_ten_times_a_tenth_is_one():
 )
 def test_what_has_no_value_says_why(text, reason):
     assert evaluate(read("fanuc", text), lambda name: Unknown(f"{name}?")) == Unknown(reason)
-
-
-def test_numbers_are_written_as_a_program_has_them():
-    numbers = (95.0, -0.5, 0.1, 1e-12, -1e-12, 1e22, 1 / 3, -40.0, 123456.789)
-    texts = "95. -0.5 0.1 0. 0. 10000000000000000000000. 0.333333333 -40. 123456.789"
-    assert " ".join(map(written, numbers)) == texts
 
 
 def test_variables_by_number():
@@ -276,12 +250,6 @@ def test_variables_by_number():
 )
 def test_operators_bind_as_the_language_says(language, text, value):
     assert evaluate(read(language, text), str) == pytest.approx(value)
-
-
-@pytest.mark.parametrize("text", ["", "SIN[30", "1+", "]", "1 2"])
-def test_what_is_no_expression_leaves_the_variable_unknown(text):
-    (statement,) = LANGUAGES["fanuc"].read(f"#1={text}").statements
-    assert told(statement) == f"Forget #1 #1={text} cannot be read"
 
 
 def told(item: object) -> str:
@@ -425,24 +393,6 @@ def test_what_a_line_says(language, line, statements):
 
 
 @pytest.mark.parametrize(
-    ("language", "line", "values"),
-    [
-        ("fanuc", "G1 X{#100}Z{-[#1+2.]} ,A{-#3} F.2 (X#5)", "#100; negate(add(#1, 2)); negate(#3)"),
-        ("sinumerik", "G1X={R1}Y=AC({R2+1}) ANG={-_ANG} CR=5", "R1; add(R2, 1); negate(_ANG)"),
-        ("isg", "X{100+P10} Y{[P1+2]} #ANG={V.L.A} F1000", "add(100, P10); add(P1, 2); V.L.A"),
-        ("klartext", "L X{+Q1} LEN{Q31} R{QL2}", "Q1; Q31; QL2"),
-    ],
-)
-def test_formulas_of_words_have_their_places(language, line, values):
-    plain = re.sub("[{}]", "", line)
-    code = LANGUAGES[language].read(plain)
-    assert (code.rest, "; ".join(told(each.value) for each in code.words)) == (plain, values)
-    for each in reversed(code.words):
-        plain = f"{plain[: each.begin]}{{{plain[each.begin : each.end]}}}{plain[each.end :]}"
-    assert plain == line
-
-
-@pytest.mark.parametrize(
     ("language", "line", "begins", "parameters", "labels", "number"),
     [
         ("sinumerik", "%_N_L10_SPF", "L10", (), (), ""),
@@ -466,50 +416,7 @@ def test_programs_and_blocks_begin(language, line, begins, parameters, labels, n
     assert (code.begins, code.parameters, code.labels, code.number) == (begins, parameters, labels, number)
 
 
-@pytest.mark.parametrize("line", ["N1234 G1 X12.345 Y-23.456 Z1.234 F1000.", "G02X1.Y2.I3.J-4.F100", "M3 S1000 T01"])
-def test_words_say_nothing_else(line):
-    assert not LANGUAGES["fanuc"].may_say(line)
-
-
-@pytest.mark.parametrize(
-    ("language", "name", "files"),
-    [
-        ("fanuc", "100", {"O0100.nc", "O100", "0100.txt"}),
-        ("klartext", "POCKET", {"POCKET.H"}),
-        ("sinumerik", "L10", {"L10.SPF", "L10.ARC", "L10.MPF"}),
-        ("isg", "SUB.NC", {"SUB.NC"}),
-    ],
-)
-def test_files_in_which_a_subprogram_may_be(language, name, files):
-    assert files <= {*LANGUAGES[language].files(name)}
-
-
-@pytest.mark.parametrize(
-    ("language", "name", "reason"),
-    [
-        ("fanuc", "#5041", "#5041 is the machine's"),
-        ("fanuc", "#100", "#100 is set by nothing before"),
-        ("klartext", "Q108", "Q108 is the machine's"),
-        ("klartext", "QL108", "QL108 is set by nothing before"),
-        ("sinumerik", "$AA_IW[X]", "$AA_IW[X] is the machine's"),
-        ("isg", "V.E.A", "V.E.A is the machine's"),
-    ],
-)
-def test_why_a_variable_is_not_known(language, name, reason):
-    assert LANGUAGES[language].unknown(name) == reason
-
-
 PIECES = sorted({piece for row in ROWS for piece in re.findall(r"\w+|\S| ", row[1])})
-
-
-@law(st.lists(st.sampled_from(PIECES), max_size=40).map("".join) | st.text(max_size=60).filter(str.isprintable), few=6)
-def test_nothing_raises_and_columns_stay(line):
-    for language in LANGUAGES.values():
-        code = language.read(line)
-        assert len(code.rest) == len(line)
-        assert all(new in (old, " ") for old, new in zip(line, code.rest, strict=True))
-        assert all(0 <= word.begin < word.end <= len(line) for word in code.words)
-        assert language.may_say(line) or code.rest == line
 
 
 @pytest.mark.parametrize(

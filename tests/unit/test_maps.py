@@ -306,24 +306,6 @@ def test_where_every_value_is_refused_nothing_is_painted_as_solved():
 # Ranges, fans and the command -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("block", "word", "start", "told"),
-    [
-        (BLOCK, "P", START, ["P is too large for line 1: P at most 51.961 mm", "the block has 5.0000 mm"]),
-        (CIRCLE_LINE, ",A", None, []),
-        (CIRCLE_LINE, "R", None, []),
-    ],
-)
-def test_a_bar_shows_the_ranges_of_a_word_with_what_ends_them(block, word, start, told):
-    found = contoursolve.feasible(block, word, start=start)
-    picture = draw_range(found)
-    check(picture)
-    reasons = [end.reason.text for each in found.intervals for end in (each.low, each.high) if end.reason is not None]
-    assert reasons
-    shown = " ".join(labels(picture))
-    assert all(" ".join(each.split()) in shown for each in (*told, *reasons))
-
-
 def test_a_fan_shows_each_contour_and_names_where_the_outcome_changes():
     values = [120.0, 130.0, 140.0, 150.0, 160.0, 180.0, 200.0]
     answers = [contoursolve.solve(BLOCK.replace("A180.", f"A{value}"), start=START).answers[0] for value in values]

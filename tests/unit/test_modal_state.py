@@ -2,9 +2,7 @@
 
 import pytest
 
-from contoursolve import DIALECTS, Result, parse, solve
-from contoursolve.geometry import Length
-from contoursolve.reading import contours_of, reach_of
+from contoursolve import Result, solve
 
 CONTOUR = "G111 A180. K-30. B120. X200."
 PAIR = "G3 I-50 J0\nG1 X-50 Y42.857 ,A171.87 Q-1"
@@ -145,58 +143,6 @@ MILL = {
 }
 
 
-@pytest.mark.parametrize("name", MILL)
-def test_milling_contour_starts_where_the_blocks_before_it_lead(name):
-    before, x, y, line = MILL[name]
-    result = solve(f"{before}\nG3 I-50 J0\nG1 X-90 Y30 ,A171.87 Q-1", control="nct-99m")
-    check(result, {"X": x, "Y": y}, line)
-
-
-@pytest.mark.parametrize(("plane", "axes"), [("G17", "XY"), ("G18", "ZX"), ("G19", "YZ")])
-def test_planes_have_their_own_axes(plane, axes):
-    first, second = axes
-    before = f"G41 G0 X1 Y2 Z3\n{plane} G3 {chr(ord(first) - 15)}-50"
-    result = solve(f"{before}\nG1 {first}-90 {second}30 ,A170 Q-1", control="nct-99m")
-    assert start_of(result) == {axis: {"X": 1, "Y": 2, "Z": 3}[axis] for axis in axes}
-
-
-@pytest.mark.parametrize(
-    ("program", "is_told"),
-    [
-        (f"{HERE}\n/G01 X50.\n{CONTOUR}", True),
-        (f"{HERE}\n/G01 X50.\nG00 X40.\n{CONTOUR}", False),
-        (f"{HERE}\n/G01 X50.\nG00 U2.\n{CONTOUR}", True),
-        (f"{HERE}\n/M08\n{CONTOUR}", False),
-        (f"{HERE}\n/{CONTOUR}\nG111 A180. K-30. B90. X220.", True),
-    ],
-)
-def test_start_set_by_a_block_that_may_be_skipped_is_told(program, is_told):
-    codes = {each.code: each.severity.value for each in solve(program).diagnostics}
-    assert codes == ({"start-skippable": "info"} if is_told else {})
-
-
-def test_g111_is_not_modal_and_leaves_the_motion_before_it_in_force():
-    text = f"G90 X35. Z-20.\nG00 X40. Z0.\n{CONTOUR}\nX210.\nG111 A180. K-30. B90. X220."
-    assert [each.status.value for each in solve(text).answers] == ["solved", "solved"]
-    assert start_of(solve(text))["X"] == 105
-
-
-@pytest.mark.parametrize(
-    ("modes", "is_solved"),
-    [("G41", True), ("G42\nG1 X40", True), ("G41\nG40", False), ("G40\nG42", True), ("", False)],
-)
-def test_compensation_lasts_until_it_changes(modes, is_solved):
-    result = solve(f"{modes}\nG17 G0 X50 Y0\n{PAIR}", control="nct-99m")
-    assert (result.answers[0].contour is not None) == is_solved
-
-
-def test_second_block_of_a_pair_is_absolute_even_under_g91():
-    """Sheet of the NCT 99M, facts 7 and 8: end points of over-defined blocks are G90."""
-    absolute = solve(f"G17 G41 G0 X50 Y0\n{PAIR}").answers[0].contour
-    assert solve(f"G17 G41 G0 X50 Y0\nG91 {PAIR}").answers[0].contour == absolute
-    assert solve("G17 G41 G0 X50 Y0\nG91 G3 X-100 I-50\nG1 X-50 Y42.857 ,A171.87 Q-1").answers[0].contour == absolute
-
-
 CHAIN = "G17 G90 G0 X0 Y0\nM8\nG1 X30 ,C5\n\nX40 Y40 ,R3\n(A COMMENT)\nX80\nG0 X0 Y0"
 FOUND = {
     "alone, before one block": ("yasnac-lx3", f"{CONTOUR}\nM30", [(1, 1)]),
@@ -204,16 +150,3 @@ FOUND = {
     "three blocks with others between": ("nct-99m", CHAIN, [(3, 7)]),
     "two chains": ("nct-99m", f"{CHAIN}\nG1 X5 ,R1\nY9 ,R1\nX1\nM30", [(3, 7), (9, 11)]),
 }
-
-
-@pytest.mark.parametrize("name", FOUND)
-def test_each_contour_is_found_once_and_reaches_to_its_last_block(name):
-    control, text, expected = FOUND[name]
-    dialect, blocks = DIALECTS[control], parse(text).blocks
-    found = contours_of(blocks, dialect.find, dialect.modes, dialect.initial_state(Length.MM))
-    contours = [contour for contour, _ in found]
-    assert [(each.blocks[0].line, each.blocks[-1].line) for each in contours] == expected
-    for contour, (first, last) in zip(contours, expected, strict=True):
-        assert reach_of(contour, blocks, first - 1) == last - first + 1
-        assert reach_of(contour, blocks[first - 1 :]) == last - first + 1
-        assert reach_of(contour, blocks[first - 1 : last] * 9) == last - first + 1, "as a loop runs them"

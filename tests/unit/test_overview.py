@@ -1,14 +1,12 @@
 """The picture of a whole program: its part around the axis, how large it is, and what cannot be seen without a word."""
 
-import re
-from math import hypot
 from pathlib import Path
 
 import pytest
 from test_pictures import check, labels, strokes
 
 import contoursolve
-from contoursolve.pictures import Role, Theme, draw_answer, draw_result
+from contoursolve.pictures import Role, draw_answer, draw_result
 
 SHAFT = Path(__file__).parents[2] / "notebooks" / "programs" / "shaft.nc"
 SMALL = """G00 X400. Z5.
@@ -24,39 +22,6 @@ M30"""
 
 def spots(stroke):
     return [stroke.start, *(step if isinstance(step, tuple) else step.end for step in stroke.steps)]
-
-
-def test_a_bar_says_how_large_the_drawing_is():
-    picture = draw_result(contoursolve.solve_file(SHAFT))
-    (told,) = (re.fullmatch(r"(\S+) mm", text).group(1) for text in labels(picture) if text.endswith(" mm"))
-    bars = [item for item in strokes(picture.sheet.around, Role.INK) if item.width == 1.6]
-    lengths = [abs(item.steps[0][0] - item.start[0]) for item in bars]
-    assert max(lengths) == pytest.approx(float(told) * picture.sheet.placement.view.scale)
-    inches = contoursolve.solve("G20 G00 X2. Z0.\nG111 X4. A180. K-1. B120.\nG111 A180. K-1. B90. X5.")
-    assert [text for text in labels(draw_result(inches)) if text.endswith(" inch")] == ["0.5 inch"]
-
-
-def test_a_turned_part_has_both_halves_and_its_diameters():
-    result = contoursolve.solve_file(SHAFT)
-    whole, half = (draw_result(result, is_whole=is_whole) for is_whole in (True, False))
-    assert draw_result(result).svg == whole.svg
-    for picture in (whole, half):
-        check(picture)
-        assert {text for text in labels(picture) if text.startswith("Ø")} == {"Ø18", "Ø30", "Ø60", "Ø80", "Ø84", "Ø90"}
-    axis = whole.sheet.placement.view.place((0.0, 0.0))[1]
-    others = [each for each in strokes(whole.sheet.drawing, Role.MUTED) if each.width == 1.4]
-    assert [each.dash for each in others] == [(), ()], "the outside and the bore"
-    assert not [each for each in strokes(half.sheet.drawing, Role.MUTED) if each.width == 1.4]
-    ends = {spot for each in strokes(whole.sheet.drawing, Role.INK) for spot in spots(each)}
-    assert all(min(hypot(x - u, y + v - 2 * axis) for u, v in ends) < 1e-6 for each in others for x, y in spots(each))
-    assert half.height < whole.height
-
-
-def test_the_other_half_is_left_out_where_it_would_make_contours_small():
-    far = "G00 X400. Z0.\nG111 X420. A180. K-10. B120.\nG111 A180. K-5. B90. X430."
-    result = contoursolve.solve(far, control="yasnac-lx3")
-    whole, half, chosen = (draw_result(result, is_whole=is_whole).svg for is_whole in (True, False, None))
-    assert chosen == half != whole
 
 
 def test_a_contour_without_a_path_has_its_message():
@@ -109,13 +74,3 @@ Z-60.
 N60 X64.
 G70 P10 Q60
 M30"""
-
-
-def test_dashed_lines_lead_from_the_start_of_a_cycle_to_its_profile_and_back():
-    picture = draw_result(contoursolve.solve(PROFILE, control="fanuc-lathe"), theme=Theme.PAGE)
-    assert "G71, program line 3; G70, program line 13" in labels(picture)
-    place = picture.sheet.placement.view.place
-    ways = [each for each in strokes(picture.sheet.drawing, Role.RAPID) if each.dash]
-    expected = [((-60.0, 32.0), (2.0, 32.0)), ((2.0, 32.0), (2.0, 8.0))]
-    assert [spots(each) for each in ways] == [[pytest.approx(place(at)) for at in way] for way in expected]
-    assert "G71, program line 3: dashed lines lead to its profile and back." in picture.svg

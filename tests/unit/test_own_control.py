@@ -9,10 +9,9 @@ import pytest
 from click.testing import CliRunner
 
 import contoursolve
-from contoursolve import DIALECTS, SettingError
+from contoursolve import DIALECTS
 from contoursolve.__main__ import commands
 from contoursolve.controls import GEOMETRY_RULES, NCT_99M
-from contoursolve.postprocess import POSTS
 from contoursolve.program import FollowKeywords, SolveOptions
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import NoteKind, RefusalKind
@@ -111,25 +110,6 @@ def test_an_executor_takes_a_control_whose_functions_can_be_sent():
             contoursolve.family(line, start="X0 Y0", vary=values, control=nameless, executor=executor)
 
 
-def test_expand_takes_a_control_and_a_target_as_their_tables():
-    theirs = contoursolve.expand(PAIR, control=MINE, post=replace(POSTS["linuxcnc"], name="theirs"))
-    assert theirs.control == "mine"
-    assert theirs.text == contoursolve.expand(PAIR, post="linuxcnc").text
-
-
-def test_settings_speak_of_the_control_by_its_name():
-    chosen = contoursolve.solve(PAIR, control=MINE, settings={"mine.circle-circle-q": "right-is-negative"})
-    assert chosen.settings == {"circle-circle-q": "right-is-negative"}
-    with pytest.raises(SettingError, match=r"mine\.circle-circle-q"):
-        contoursolve.solve(PAIR, settings={"mine.circle-circle-q": "right-is-negative"})
-
-
-def test_a_program_without_a_contour_is_told_what_shows_one_there():
-    control = replace(MINE, contours="lines with ,A")
-    (found,) = contoursolve.check("G0 X0 Y0", control=control)
-    assert "of mine: lines with ,A" in found.help
-
-
 # On the command line --------------------------------------------------------------------------------------
 
 LINE = ("--block", "G1 X30 ,A45", "--start", "X0 Y0")
@@ -147,8 +127,6 @@ COMMANDS = {
     "sensitivity": ("sensitivity", *LINE),
     "explain": ("explain", "3017"),
 }
-OF_THEIR_OWN = {"report", "verify", "rules", "facts", "lsp", "write", "serve"}
-"""Tested below, or without a control."""
 
 
 @pytest.fixture
@@ -165,10 +143,6 @@ def run(tmp_path, monkeypatch):
         return done.exit_code, done.output
 
     return run_
-
-
-def test_every_command_is_tested_with_tables_of_its_own():
-    assert COMMANDS.keys() | OF_THEIR_OWN == set(commands().list_commands(None))
 
 
 def test_a_sketch_is_written_for_the_tables_of_a_module(run, tmp_path):
@@ -226,20 +200,6 @@ def test_verify_checks_forms_that_are_not_built_in(run, block, status):
     for each in (wrong, *(result.replace(f'"{name}": [\n     3', f'"{name}": [\n     4') for name in ("end", "P1"))):
         Path("r.json").write_text(each, encoding="utf-8")
         assert run("verify", "p.nc", "r.json", *theirs)[0] == (0 if each == result else 1)
-
-
-def test_diff_reads_new_as_the_control_named_for_old_unless_new_has_words_of_another(run):
-    mine = ("--control", "tables_without_signs:MINE")
-    Path("tables_without_signs.py").write_text(
-        "import dataclasses, test_own_control as own\nMINE = dataclasses.replace(own.MINE, signs=lambda _: ())\n"
-    )
-    status, output = run("diff", "p.nc", "p.nc", *mine)
-    assert (status, output.count("p.nc (mine)")) == (0, 2)
-    Path("taper.nc").write_text("G00 X40. Z0.\nG111 X100. A180. K-30. B120.")
-    for control in (mine, ("--control", "nct-99m")):
-        assert "taper.nc (yasnac-lx3)" in run("diff", "p.nc", "taper.nc", *control)[1]
-    assert "p.nc (nct-99m)" in run("diff", "taper.nc", "p.nc", "--control", "yasnac-lx3")[1]
-    assert "p.nc (nct-99m)" in run("diff", "taper.nc", "p.nc", "--control", "linuxcnc")[1]
 
 
 @pytest.mark.parametrize(

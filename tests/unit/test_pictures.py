@@ -4,7 +4,6 @@ import math
 import os
 import random
 import re
-import struct
 import subprocess
 import sys
 from pathlib import Path
@@ -13,7 +12,6 @@ from xml.etree import ElementTree
 import pytest
 from click.testing import CliRunner
 from fuzzing import CONTROLS, examples, mutate
-from test_rules import WRONG
 
 import contoursolve
 from contoursolve.__main__ import commands
@@ -31,7 +29,6 @@ from contoursolve.pictures import (
     draw_answer,
     draw_result,
 )
-from contoursolve.try_edits import try_example
 
 PROGRAMS = sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))
 SHAFT = next(path for path in PROGRAMS if path.stem == "shaft")
@@ -265,49 +262,6 @@ def check_drawing(answer):
             assert covered * math.hypot(c - a, d - b) / 200 < 70, text
 
 
-@pytest.mark.parametrize("name", KINDS)
-def test_every_kind_of_contour_is_drawn_where_it_is_with_each_text_in_its_state(name):
-    answer = answer_of(name)
-    check_drawing(answer)
-    found = {}
-    for text in texts(draw_answer(answer).sheet.drawing):
-        found.setdefault(text.runs[-1].role.value, []).append(text.words)
-    found.pop("muted", None)
-    assert {role: " | ".join(words) for role, words in found.items()} == SHOWN[name]
-    for theme in Theme:
-        tree = check(draw_answer(answer, theme=theme))
-        shown = " ".join("".join(each.itertext()) for each in tree.iter(f"{SVG}text"))
-        assert all(word.text.strip() in shown for word in answer.claim.words.values())
-
-
-@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
-def test_pictures_of_all_programs_in_the_repository_are_drawn(path):
-    result = contoursolve.solve_file(path)
-    check(draw_result(result))
-    for answer in result.answers:
-        check(draw_answer(answer))
-        check_drawing(answer)
-
-
-@pytest.mark.parametrize(("dialect", "rule", "program", "is_right"), WRONG[::2])
-def test_what_a_rule_refuses_is_drawn_and_the_words_of_an_error_have_one_colour(dialect, rule, program, is_right):
-    result = try_example(dialect, rule, program)
-    check(draw_result(result))
-    for answer in result.answers:
-        check(draw_answer(answer))
-        check_drawing(answer)
-        # The block stands above the drawing; what was probably meant stands beside it.
-        runs = [run for text in draw_answer(answer).sheet.around if hasattr(text, "runs") for run in text.runs]
-        red = {run.text for run in runs if run.is_underlined}
-        seen = {run.text for run in runs if run.role is not Role.IGNORED}
-        words = [word for block in answer.claim.blocks for word in block.words]
-        for finding in (each for each in answer.diagnostics if each.is_error):
-            spans = {label.span for label in finding.labels if "probably" not in label.text}
-            about = [word.text for word in words if word.span in spans]
-            if all(sum(each.text == text for each in words) == 1 and "\n" not in text for text in about):
-                assert len({text in red for text in about if text in seen}) <= 1, finding
-
-
 def random_block(draw: random.Random) -> tuple[str, str]:
     """Any words of G111 at any size, and a start point."""
     size = 10.0 ** draw.uniform(-3, 5)
@@ -379,26 +333,6 @@ def test_a_description_tells_the_path_or_what_prevents_one():
     )
 
 
-def test_what_is_free_has_arrows_and_other_completions_that_were_solved():
-    drawing = draw_answer(answer_of("free")).sheet.drawing
-    assert len(strokes(drawing, Role.GHOST)) == 3
-    arrows = [stroke for stroke in strokes(drawing, Role.FREE) if not stroke.dash]
-    assert {round(stroke.start[1] - stroke.steps[0][1], 6) for stroke in arrows} == {0.0}  # along Z
-
-
-@pytest.mark.parametrize("angle", ["A0.", "A360.", "A1."])
-def test_an_angle_of_0_has_an_arrow_beside_the_line(angle):
-    (answer,) = contoursolve.solve(f"G111 X100. {angle} K30. B60. P5.", start=START).answers
-    sheet = draw_answer(answer).sheet
-    (text,) = [item for item in texts(sheet.drawing) if item.words == angle]
-    own = [item for item in sheet.drawing if getattr(item, "role", None) is Role.GIVEN and item.about == text.about]
-    (arrow,) = [item for item in own if hasattr(item, "corners")]
-    (line,) = strokes(own)
-    assert arrow.corners[0] == line.steps[0]
-    assert line.steps[0][0] > line.start[0] + 20
-    assert 5 < abs(line.start[1] - sheet.placement.view.place(answer.contour.start)[1]) < 15  # off the path
-
-
 @pytest.mark.parametrize(
     ("block", "in_block", "drawn"),
     [
@@ -429,19 +363,6 @@ def test_what_is_at_fault_is_marked_and_not_what_disagrees_with_it(block, in_blo
     )
     assert "".join(sorted(lines)) == "".join(sorted(in_block))  # one that is read in part is in two
     assert inside == drawn
-
-
-@pytest.mark.parametrize(("more", "rules", "role"), [
-    ("", "enforce", Role.CANDIDATE), ("", "off", Role.CANDIDATE),
-    (" Q-1", "enforce", Role.INK), (" Q-1", "off", Role.INK),
-])  # fmt: skip
-def test_contours_between_which_nothing_chooses_look_alike_whatever_else_is_wrong(more, rules, role):
-    text = f"G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87{more}"
-    (answer,) = contoursolve.solve(text, control="nct-99m", rules=rules).answers
-    drawing = draw_answer(answer).sheet.drawing
-    assert {stroke.role for stroke in strokes(drawing) if stroke.width > 2} == {role}
-    named = {"P1  Q1  X-30 Y40", "P1  Q-1  X40 Y30"} if role is Role.CANDIDATE else {"P1  Q-1  X40 Y30"}
-    assert {text.words for text in texts(drawing) if text.words.startswith("P1")} == named
 
 
 def test_a_crowded_drawing_says_what_it_leaves_out():
@@ -507,18 +428,6 @@ def test_states_are_told_apart_without_colour_and_several_pictures_stand_in_one_
     assert len(names) == len(set(names))
 
 
-def test_a_page_can_colour_its_pictures_and_a_file_needs_no_style_sheet():
-    page, file = (draw_answer(answer_of("solved"), theme=theme).svg for theme in (Theme.PAGE, Theme.DARK))
-    (name,) = re.findall(r'^<svg[^>]* id="([^"]+)"', page)
-    assert f"#{name} .f-ink{{fill:var(--cs-ink,{LIGHT_COLORS[Role.INK]})}}" in page
-    assert f"@media (prefers-color-scheme:dark){{#{name} .s-paper" in page
-    assert not re.search("<style|class=|var", file)
-    assert DARK_COLORS[Role.PAPER] in file
-    # Where style sheets are taken out, a page has the light picture.
-    plain = re.sub(r'<style>.*?</style>| (?:class|data-[a-z]+)="[^"]*"', "", page)
-    assert re.sub(name, "", plain) == re.sub("cs-[0-9a-f]{12}", "", draw_answer(answer_of("solved")).svg)
-
-
 def test_text_of_a_program_is_escaped():
     text = f"G111 X100. A180. K-30. B120. P5. {HOSTILE}"
     (answer,) = contoursolve.solve(text, start=START, facts=["line 2 passes through (Z-47.3205 X100.)"]).answers
@@ -546,20 +455,6 @@ def test_the_same_contour_gives_the_same_bytes_in_every_process_and_an_svg_needs
     assert found == draw_result(contoursolve.solve_file(SHAFT)).svg.encode()
 
 
-@pytest.mark.parametrize("dpi", [48, 96, 200])
-def test_a_png_has_the_size_that_is_asked_for(dpi):
-    picture = draw_answer(answer_of("solved"))
-    data = picture.png(dpi)
-    assert data == picture.png(dpi)
-    assert data.startswith(b"\x89PNG")
-    size = struct.unpack(">II", data[16:24])
-    assert size == pytest.approx((picture.width * dpi / 96, picture.height * dpi / 96), abs=1)
-    assert b"tIME" not in data
-    place = data.index(b"pHYs") + 4
-    assert struct.unpack(">IIB", data[place : place + 9]) == (round(dpi / 0.0254), round(dpi / 0.0254), 1)
-    assert picture.title.encode() in data[: data.index(b"IDAT")]
-
-
 def test_a_png_that_cannot_be_made_is_refused(monkeypatch, tmp_path):
     picture = draw_answer(answer_of("solved"))
     for wrong in (0, -1, 1e9, float("nan")):
@@ -584,34 +479,6 @@ def test_contours_that_begin_at_one_place_share_a_label_beside_the_path():
     words = labels(draw_result(contoursolve.solve_file(path)))
     assert "unusual.nc: 4 contours (4 solved)" in words
     assert [word for word in words if "line" in word] == ["1, 2, 3, 4  lines 5, 8, 11, 14"]
-
-
-def test_a_program_without_a_contour_says_what_is_wrong_with_it():
-    result = contoursolve.solve("G00 X40. Z0.\nG01 X50. F0.2\nG02 X50. Z0. R10.", control="yasnac-lx3")
-    picture = draw_result(result)
-    check(picture)
-    assert labels(picture)[1:2] == ["The program has no contour."]
-    assert not picture.sheet.drawing
-
-
-def test_moves_that_lead_to_a_contour_are_in_the_picture_of_its_program():
-    text = "G00 X60. Z5.\nG01 X40. F0.2\nZ0.\n" + BLOCK + "\nG01 Z-90.\nG00 X80.\n" + BLOCK.replace("X100.", "X150.")
-    picture = draw_result(contoursolve.solve(text, control="yasnac-lx3"))
-    place = picture.sheet.placement.view.place
-    moves = {(stroke.role, stroke.start, stroke.steps) for stroke in strokes(picture.sheet.drawing) if stroke.width > 1}
-    for role, start, end in (
-        (Role.INK, (5.0, 20.0), (0.0, 20.0)),  # Z0.
-        (Role.INK, (-50.20725942163690, 50.0), (-90.0, 50.0)),
-        (Role.RAPID, (-90.0, 50.0), (-90.0, 40.0)),
-    ):
-        own = [(begin, steps) for kind, begin, steps in moves if kind is role]
-        assert any(
-            begin == pytest.approx(place(start)) and steps[0] == pytest.approx(place(end)) for begin, steps in own
-        )
-    # Two contours; X40., Z0. and Z-90.; nobody knows where the rapid to X60. begins.
-    widths = [stroke.role for stroke in strokes(picture.sheet.drawing) if stroke.width > 1]
-    assert (widths.count(Role.INK), widths.count(Role.RAPID)) == (5, 1)
-    assert {"feed move", "rapid move"} <= set(labels(picture))
 
 
 # Sketches ---------------------------------------------------------------------------------------------------------

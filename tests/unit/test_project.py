@@ -1,6 +1,5 @@
 """What stands beside the package: the workflow, the hook of pre-commit and the citation agree with it."""
 
-import json
 import re
 import shutil
 import subprocess
@@ -138,23 +137,3 @@ def test_the_hook_runs_a_command_that_exists_on_files_of_programs():
     assert [bool(re.search(hook["files"], name)) for name in (*taken, *left)] == [True] * len(taken) + [False] * len(
         left
     )
-
-
-def test_the_page_of_editors_starts_a_command_that_exists_for_the_files_of_the_hook():
-    page = (ROOT / "docs" / "editors.md").read_text(encoding="utf-8")
-    found = dict(re.findall(r"<!-- ([\w.-]+) -->\n```\w+\n(.*?)```", page, re.DOTALL))
-    helix, kate = tomllib.loads(found["helix"]), json.loads(found["kate"])["servers"]["gcode"]
-    server = helix["language-server"]["contoursolve"]
-    assert [server["command"], *server["args"]] == kate["command"] == ["contoursolve", "lsp"]
-    assert server["config"] == kate["settings"] == {"contoursolve": {"inlayHints": True}}
-    assert "lsp" in commands().list_commands(Context(commands()))
-
-    (hook,) = read_yaml(".pre-commit-hooks.yaml")
-    (endings,) = re.findall(r"\(([\w|]+)\)\$", hook["files"])
-    told = {*endings.split("|")} - {"gcode"}
-    assert {each.lower() for each in helix["language"][0]["file-types"]} == told
-    (names,) = re.findall(r'\("([\w ]+)"\):gmatch', found["neovim"])
-    assert {*names.split()} == told
-    (pattern,) = re.findall(r"\*\.\{([\w,]+)\}", found["neovim-0.7"])
-    assert {each.lower() for each in pattern.split(",")} == told
-    assert {*re.findall(r"\w+(?=\\\\[|)])", found["emacs"])} == told

@@ -66,25 +66,6 @@ def test_what_each_control_makes_of_a_program_that_they_read_differently_is_told
     assert [line[: len(start)] for line, start in zip(lines, told, strict=False)] == told
 
 
-def test_all_lathes_refuse_two_corners_in_one_block():
-    codes = [each.code for each in check("G00 X40. Z2.\nG01 X30. ,C1. Z-20. ,R2. F0.2\nX50.\nM30")]
-    assert {"fanuc-two-corners", "control-alike"} <= {*codes}
-
-
-def test_a_program_that_shows_no_control_names_those_that_take_its_word():
-    (told,) = check("G18 G21\nG0 X0.2 Z3.\nG1 X3.0 Z-1.0\nG1 Z-4.0\nG1 X10 A0.3\nG1 X8.5 Z-22.5\nM2")
-    assert told.code == "control-unknown"
-    assert (
-        "with haas-lathe, mitsubishi and cnc-pilot, A0.3 is a word of a contour; with --control nct-99m: A0.3 has no"
-        in told.message
-    )
-
-
-def test_the_start_point_decides_whether_controls_read_alike():
-    found = solve("G01 Z-20. ,R2.\nX60.", start="X40. Z0.")
-    assert (found.control, [each.status.value for each in found.answers]) == ("fanuc-lathe", ["solved"])
-
-
 def test_an_edit_may_make_controls_read_differently():
     opened = OpenProgram(MILLED)
     assert opened.dialect.name == "nct-99m"
@@ -95,51 +76,4 @@ def test_an_edit_may_make_controls_read_differently():
     assert [each.code for each in findings_of(opened)] == ["control-alike"]
 
 
-@pytest.mark.parametrize(
-    "program",
-    [
-        # Polar interpolation on a lathe.
-        "O0046\nG21 G40 G99\nT0909\nG00 X60. Z2. C0\nG112\nG01 G41 X30. C0 F120.\nC8.66\nX-15.\nG40 X60.\nG113\nM30",
-        # A circular pocket on a mill.
-        "O1\nG17 G90 G54\nG00 X0 Y0\nG12 Z-1.2 I0.3 K1.5 Q0.3 F10. D1\nG00 Z1.\nM30",
-        # A taper by a turning cycle, and a thread.
-        "G00 X40. Z2.\nG90 X30. Z-20. R-2. F0.2\nX28.\nG92 X20. Z-10. R1. F2.\nM30",
-    ],
-)
-def test_codes_that_mean_something_else_on_other_controls_are_no_contour(program):
-    assert [(each.code, each.severity.value) for each in check(program)] == [("no-contour", "info")]
-
-
 GROOVE = "N04 G54 G95\nN10 G90 G0 X820 Z90\nN15 G90 G1 X800.9 Z1.5 F30\nN20 G1 Z-8.4 RND=0.8\nN25 X770\nN30 Z-20\nM17"
-
-
-def test_a_sinumerik_program_that_moves_x_and_z_alone_is_read_as_one_for_a_lathe():
-    for control in (None, "siemens-840d", "siemens-808d"):
-        found = solve(GROOVE, control=control)
-        (answer,) = found.answers
-        assert (answer.plane.axes, answer.contour.end) == (("Z", "X"), pytest.approx((-8.4, 385.0)))
-        assert [each.code for each in found.diagnostics] == ["machine-taken"]
-    lathe = solve(GROOVE, settings={"siemens-840d.machine": "lathe"})
-    assert (lathe.diagnostics, lathe.answers) == ((), solve(GROOVE).answers)
-    assert expand(GROOVE).text == expand(GROOVE, settings={"siemens-840d.machine": "lathe"}).text
-
-
-@pytest.mark.parametrize(
-    ("program", "settings"),
-    [
-        (GROOVE, {"siemens-840d.machine": "mill"}),
-        (GROOVE.replace("G54", "G17 G54"), {}),
-        (GROOVE.replace("X820", "X820 Y=R1"), {}),
-    ],
-)
-def test_a_program_of_a_mill_is_not_taken_for_one_of_a_lathe(program, settings):
-    codes = {each.code for each in check(program, settings=settings)}
-    assert "siemens-outside-plane" in codes
-    assert "machine-taken" not in codes
-
-
-def test_an_edit_may_make_a_lathe_a_mill():
-    opened = OpenProgram(GROOVE, control="siemens-840d")
-    assert [each.code for each in findings_of(opened)] == ["machine-taken"]
-    opened.replace(GROOVE.replace("N30 Z-20", "N30 Y-20"))
-    assert "machine-taken" not in {each.code for each in findings_of(opened)}

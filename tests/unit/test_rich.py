@@ -10,12 +10,10 @@ from xml.etree import ElementTree
 
 import pandas
 import pytest
-from click.testing import CliRunner
 from fuzzing import CONTROLS, examples, mutate
 
 import contoursolve
-from contoursolve import DIALECTS, Status, families, status_text
-from contoursolve.cli import main
+from contoursolve import DIALECTS, families
 from contoursolve.solving import ArcSegment
 
 LARGEST = 400_000
@@ -118,34 +116,6 @@ def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they
             assert again._repr_mimebundle_() == result._repr_mimebundle_()
 
 
-UNUSUAL = {
-    Status.SOLVED: (WHOLE, "enforce"),
-    Status.REJECTED: ("G111 X100. A180. B120.", "enforce"),
-    Status.UNDERDETERMINED: ("G111 X100. A180. B120. K?", "enforce"),
-    Status.CONFLICTING: ("G111 X100. A180. K-30. B120. Z-60.", "off"),
-    Status.OVERDETERMINED: ("G111 A135. I10. K-10. B180. Z-40.", "off"),
-    Status.NO_SOLUTION: ("G111 X100. A180. K-30. B120. P60.", "enforce"),
-    Status.AMBIGUOUS: ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87", "off"),
-}
-
-
-@pytest.mark.parametrize("status", UNUSUAL, ids=lambda status: status.value)
-def test_a_contour_of_each_status_has_a_picture_and_a_table_beside_it(status):
-    text, rules = UNUSUAL[status]
-    start = None if "G17" in text else "X40. Z0."
-    result = contoursolve.solve(text, start=start, rules=rules)
-    (answer,) = result.answers
-    assert answer.status is status
-    for record in (result, answer):
-        page = check(record._repr_mimebundle_(), has_picture=True)
-        assert {"figure", "img", "table", "caption"} <= set(page.tags)
-        shown = "".join(page.words)
-        assert status_text(status) in shown
-        assert all(finding.message in shown for finding in answer.diagnostics)
-    if answer.diagnosis:
-        check(answer.diagnosis._repr_mimebundle_())
-
-
 def test_a_record_that_is_printed_is_the_text_that_a_notebook_shows():
     result = contoursolve.solve(BROKEN, start="X60. Z-55.")
     (answer,) = result.answers
@@ -231,13 +201,6 @@ ASKED = {
 }
 
 
-@pytest.mark.parametrize("name", ASKED)
-def test_the_text_is_what_the_terminal_prints(name):
-    printed = CliRunner().invoke(main, [*ASKED[name], "--block", WHOLE, "--start", "X40. Z0."]).output
-    ask = QUESTIONS.get(name, lambda block, options: contoursolve.solve(block, name="<block>", **options))
-    assert ask(WHOLE, {"start": "X40. Z0."})._repr_mimebundle_()[TEXT] == printed.rstrip()
-
-
 def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkeypatch):
     answer = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0]
 
@@ -276,12 +239,6 @@ print(*formatter.format(result)[0])
 def test_ipython_asks_for_all_kinds_and_a_terminal_for_text():
     done = subprocess.run([sys.executable, "-c", SHELL], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == [f"{SVG} {HTML} {TEXT}", TEXT]
-
-
-def test_only_the_wanted_kinds_are_given():
-    result = contoursolve.solve(WHOLE, start="X40. Z0.")
-    assert list(result._repr_mimebundle_(include={TEXT})) == [TEXT]
-    assert list(result._repr_mimebundle_(exclude={HTML})) == [TEXT, SVG]
 
 
 def test_the_table_of_a_path_becomes_a_data_frame_with_units_in_its_names():

@@ -12,16 +12,6 @@ ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "tests" / "sketches").glob("*.toml"))
 
 
-@pytest.mark.parametrize("file", EXAMPLES, ids=lambda file: file.stem)
-@pytest.mark.parametrize("as_json", [False, True])
-def test_a_sketch_is_written_as_it_was_read(file, as_json):
-    sketch = contoursolve.read_sketch(file.read_text(encoding="utf-8"))
-    text = write_sketch(sketch, as_json=as_json)
-    again = contoursolve.read_sketch(text)
-    assert again == sketch
-    assert write_sketch(again, as_json=as_json) == text
-
-
 def test_numbers_keep_their_digits():
     text = (
         'sketch = 1\npart = "milled"\n\n[[element]]\nkind = "line"\nX = 40.50\nY = -0.1000000000000000001\nLEN = "?"\n'
@@ -47,6 +37,7 @@ _LINE = _PART + '[[element]]\nkind = "line"\n'
         (_LINE + 'X = "2.5.1"', 'element 1: X is "2.5.1"; write a number, such as 12.5 or "12,5", or "?"'),
         (_LINE + "X = nan", 'element 1: X is NaN; write a number, such as 12.5 or "12,5", or "?"'),
         (_LINE + "X = 2020-01-01", 'element 1: X is "2020-01-01"; write a number, such as 12.5 or "12,5", or "?"'),
+        (_LINE + f'X = "2.{"0" * 39}"', f'element 1: X is "2.{"0" * 37}...; write a number, such as 12.5 or "12,5", or "?"'),
         (_LINE + "X = true", 'element 1: X is true; write a number, such as 12.5 or "12,5", or "?"'),
         (_LINE + "X = 1e9", 'element 1: X is 1000000000, which is larger than a control can travel'),
         (

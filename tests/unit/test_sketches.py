@@ -10,8 +10,6 @@ import pytest
 from msgspec.structs import replace
 
 import contoursolve
-from contoursolve.diagnostics import Span
-from contoursolve.sketches import as_program
 
 EXAMPLES = Path(__file__).parents[1] / "sketches"
 
@@ -47,19 +45,6 @@ def changed(whole: contoursolve.ContourSketch, number: int, **fields: object) ->
 
 def states(found) -> dict[str, str]:
     return {each.name: each.state.value for each in found.elements}
-
-
-@pytest.mark.parametrize("name", sorted(ENDS))
-def test_what_a_drawing_gives_is_solved(name):
-    found = contoursolve.solve_sketch(sketch(name))
-    element, end = ENDS[name]
-    assert found.is_finished
-    assert found.missing == ""
-    at = next(each.segment.end for each in found.elements if each.name == element)
-    assert at == pytest.approx(end, abs=1e-4)
-    is_guessed = len(found.solutions) > 1
-    assert ("guessed" in states(found).values()) is is_guessed
-    assert {*states(found).values()} <= {"known", "guessed"}
 
 
 def test_an_end_may_be_as_far_as_another_line():
@@ -101,13 +86,6 @@ def test_a_contradiction_is_told_with_its_amount(name, number, fields, status, c
     assert not any("program line" in each.message + each.help for each in found.findings)
 
 
-def test_what_is_said_twice_is_told():
-    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 3, LEN="28.284"))
-    assert found.status == "overdetermined"
-    assert found.is_finished
-    assert [(each.code, each.fields) for each in found.findings] == [("drawing-redundant", ((3, "LEN"),))]
-
-
 def test_fixes_are_changes_of_fields():
     found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 3, LEN=30), with_ranges=True)
     fixes = [fix for each in found.findings for fix in each.fixes]
@@ -115,14 +93,6 @@ def test_fixes_are_changes_of_fields():
     for fix in fixes:
         elements = [fix.elements.get(number, each) for number, each in enumerate(found.sketch.elements, 1)]
         assert contoursolve.solve_sketch(replace(found.sketch, elements=tuple(elements))).is_finished
-
-
-def test_a_corner_waits_for_the_next_element():
-    corner = contoursolve.SketchCorner("rounding", Decimal(6))
-    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 4, corner=corner))
-    assert found.missing.startswith("corner 4 needs an element after it")
-    assert not found.is_finished
-    assert states(found)["line 4"] == "known"
 
 
 def test_ways_and_entries_of_what_is_missing():
@@ -162,25 +132,6 @@ def test_a_guess_chooses_and_is_no_dimension(name):
     assert unused.remarks == ("the guess is not used: what is given has one solution",)
 
 
-def test_a_guess_of_the_centre_chooses_between_arcs_with_the_same_ends():
-    words = [{"X": 10, "Y": 0}, {"X": 30, "Y": 10, "R": 20}]
-    line, arc = ({name: Decimal(value) for name, value in each.items()} for each in words)
-    elements = contoursolve.SketchElement("line", line), contoursolve.SketchElement("arc", arc, "ccw")
-    bare = contoursolve.ContourSketch("milled", elements, {"X": Decimal(0), "Y": Decimal(0)})
-    # Half the chord is sqrt(125), and the centre lies sqrt(275) beside its middle, across it.
-    centers = [(20 - side * 10 * 2.2**0.5 / 2, 5 + side * 20 * 2.2**0.5 / 2) for side in (1, -1)]
-    found = contoursolve.solve_sketch(bare)
-    for solution, center in zip(found.solutions, centers, strict=True):
-        number, place = solution.guess
-        assert (number, [float(each) for each in place.values()]) == (2, pytest.approx(center, abs=1e-4))
-        for guess in (place, {"CCX": place["CCX"] + 5}):
-            again = contoursolve.solve_sketch(
-                contoursolve.read_sketch(contoursolve.write_sketch(changed(bare, number, guess=guess)))
-            )
-            assert again.elements[1].segment.center == pytest.approx(center, abs=1e-6)
-            assert again.elements[1].state.value == "guessed"
-
-
 @pytest.mark.parametrize(("name", "count"), [(name, count) for name in ENDS for count in range(1, 6)])
 def test_every_state_of_typing_has_an_answer(name, count):
     whole = sketch(name)
@@ -199,25 +150,6 @@ def test_a_sketch_without_elements_or_a_start_says_so(name):
     whole = sketch(name)
     assert contoursolve.solve_sketch(replace(whole, elements=())).elements == ()
     assert contoursolve.solve_sketch(replace(whole, start={})).missing.startswith("where it begins is missing")
-
-
-@pytest.mark.boundary
-@pytest.mark.parametrize("name", ENDS)
-def test_a_place_of_the_program_is_that_of_a_field_or_of_the_kind_of_its_element(name):
-    program, count = as_program(sketch(name)), len(sketch(name).elements)
-    for field, span in program.places.items():
-        ends = [Span(span.line, column, column) for column in (span.column, span.end_column - 1)]
-        assert [program.field_at(each) for each in ends] == [field, field]
-    lines = [program.field_at(Span(line, 1, 2)) for line in (0, 1, count, count + 1)]
-    assert lines == [None, (1, "kind"), (count, "kind"), None]
-
-
-@pytest.mark.parametrize("name", ENDS)
-def test_the_order_of_fields_changes_nothing(name):
-    whole = sketch(name)
-    turned = [replace(each, words=dict([*each.words.items()][::-1])) for each in whole.elements]
-    other = contoursolve.solve_sketch(replace(whole, elements=tuple(turned)))
-    assert other.elements == contoursolve.solve_sketch(whole).elements
 
 
 @pytest.mark.parametrize(
@@ -288,26 +220,6 @@ def test_what_an_arc_lacks_is_no_error_and_names_the_arc():
     assert [(each.number, each.field) for each in found.entries] == [(2, "turn"), (3, "turn")]
     assert not [each for each in found.findings if each.severity.value == "error"]
     assert found.elements[0].state.value == "known"
-
-
-@pytest.mark.parametrize(
-    ("x", "gap", "there"), [(20, 30.0, "Z-30.000 mm X20.000 mm"), (60, 36.056, "Z-30.000 mm X60.000 mm")]
-)
-def test_a_closed_contour_that_ends_elsewhere_is_told_once(x, gap, there):
-    ends = ({"Z": 0, "X": 60}, {"Z": -30, "X": 60}, {"Z": -30, "X": x})
-    elements = tuple(
-        contoursolve.SketchElement("line", {n: Decimal(v) for n, v in each.items()})
-        for each in ends[: 2 if x == 60 else 3]
-    )
-    start = {"Z": Decimal(0), "X": Decimal(20)}
-    found = contoursolve.solve_sketch(contoursolve.ContourSketch("turned", elements, start, closed=True))
-    errors = [each for each in found.findings if each.severity.value == "error"]
-    assert [each.message for each in errors] == [f"the contour ends at {there}, {gap:.3f} mm from where it begins"]
-    assert (0, "closed") in errors[0].fields
-    assert found.elements[-1].off_mm == pytest.approx(gap, abs=1e-3)
-    svg = contoursolve.draw_sketch(found).svg
-    assert "CLSD" not in svg
-    assert "some entries contradict the rest" in svg
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,8 @@ import re
 import pytest
 from click.testing import CliRunner
 from examples_fanuc import FL_G5, FM_G1, FM_G3
-from examples_heidenhain import PROGRAMS
 
-from contoursolve import DIALECTS, Status, check, expand, solve, solve_file
+from contoursolve import DIALECTS, Status, expand, solve, solve_file
 from contoursolve.cli import main
 from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.output.document import to_json
@@ -36,73 +35,11 @@ def run(command: str, *words: object) -> tuple[int, str]:
 # The same contours, written out and called ---------------------------------------------------------------------------
 
 
-def parametrised(lines: list[str], words: str, name: str, sign: str) -> tuple[list[str], list[str]]:
-    """Lines with variables for the numbers of some words, and what sets these."""
-    given = list[str]()
-
-    def put(found: re.Match[str]) -> str:
-        given.append(f"{name}{101 + len(given)} = {found[2]}")
-        return found[1] + sign + name + str(100 + len(given))
-
-    return [re.sub(words, put, line) for line in lines], given
-
-
-@pytest.mark.parametrize("name", PROGRAMS)
-@pytest.mark.parametrize("has_parameters", [False, True])
-def test_free_contours_in_a_label(name, has_parameters):
-    first, *lines, last = PROGRAMS[name].splitlines()
-    body = [re.sub(r" M30$", "", line) for line in lines]
-    # A reference to another block (PAR 11, RX 13) is no length.
-    given = list[str]()
-    if has_parameters:
-        body, given = parametrised(body, r"((?<![IR])[XY]|\bAN|\bLEN ?)([-+]?\d+\.?\d*)(?![\w.])", "Q", "+")
-    text = "\n".join([first, *given, "CALL LBL 7", "L Z+100 R0 FMAX M30", "LBL 7", *body, "LBL 0", last])
-    own = paths(text, KLARTEXT)
-    assert own == paths(PROGRAMS[name], KLARTEXT) != []
-    contour = text.replace("CALL LBL 7", "L X-20 Y-20 R0 FMAX\nCYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 LABEL7\nCYCL CALL")
-    assert paths(contour, KLARTEXT) == own
-
-
 EXAMPLES = {
     "FL-G5": (LATHE, FL_G5, r"N10 [\s\S]*?(?=N80)"),
     "FM-G1": (MILL, FM_G1, r"G01 X50\.[\s\S]*"),
     "FM-G3": (MILL, FM_G3, r"N5 Y0[\s\S]*?(?=G00 Z50)"),
 }
-
-
-@pytest.mark.parametrize("name", EXAMPLES)
-@pytest.mark.parametrize("has_parameters", [False, True])
-def test_direct_drawing_in_a_subprogram(name, has_parameters):
-    control, text, contour = EXAMPLES[name]
-    body = re.search(contour, text)[0].strip().splitlines()
-    before = text[: re.search(contour, text).start()].replace("%\n", "")
-    lines, given = parametrised(body, r"((?<![A-Z,])[XYZ]|,[ACR])([-+]?\d+\.?\d*)", "#", "")
-    lines = lines if has_parameters else body
-    called = "\n".join([*given, before.strip(), "M98 P777", "M30", "O777", *lines, "M99"])
-    assert paths(called, control) == paths(text, control)
-    kept, inline = (expand(called, control=control, inline=each, comments=False) for each in (False, True))
-    assert kept.summary.replaced == inline.summary.replaced > 0
-    assert ",R" not in kept.text + inline.text
-    assert ("M98" in kept.text, "M98" in inline.text) == (True, False)
-
-
-def test_direct_drawing_in_a_profile():
-    head, body, end = re.fullmatch(r"([\s\S]*?)(N10[\s\S]*?)(N80[\s\S]*)", FL_G5).groups()
-    cycle = f"{head}G71 U2. R1.\nG71 P9 Q70 U.5 W.1\nN9 G00 X16.\nG01 Z0\n{body}G70 P9 Q70\n{end}"
-    assert paths(cycle, LATHE) == paths(FL_G5, LATHE)
-
-
-def test_values_that_are_stated_hold():
-    text = "#100=1.\nG00 X#100 Z0.\nG01 X#101 ,A120."
-    assert paths(text, LATHE, variables={"#100": 40.0, "#101": 60.0}) == paths(f"G00 X40. Z0.\n{TAPER}", LATHE)
-
-
-def test_words_beside_a_contour_keep_their_formulas():
-    text = "R1=50 R2=0.5\nL7\nL7\nM30\n%_N_L7_SPF\nG17 G0 X0 Y0\nG1 X=R1 Y10 F=R2*2 CHF=SQRT(R1-46)\nX80 Y50 F200\nM17"
-    written = "G01 X48.95 Y9.79 F=R2*2\nG01 X50.642 Y10.856\nG01 X80 Y50 F200"
-    begin, _, end = text.partition("G1 X=R1")
-    expected = begin + written + end[end.index("\nM17") :]
-    assert expand(text, control=SINUMERIK, comments=False).text == expected
 
 
 def test_calls_that_are_written_out_leave_each_block_number_once():
@@ -129,16 +66,6 @@ def test_calls_that_are_written_out_leave_each_block_number_once():
     assert told in {each.reason for each in twice.summary.left}
 
 
-def test_labels_that_nothing_names_any_more_are_not_written():
-    head, end = "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 F100\n", "8 L Z+100 R0 FMAX M30\n"
-    middle = '3 L X+10 Y+0\n4 FL X+20 AN+10\n5 {}\n6 LBL "END"\n7 CALL LBL 7\n'
-    text = f"{head}2 LBL 2\n{middle}{end}9 LBL 7\n10 FL X+30 AN+10\n11 LBL 0\n12 END PGM A MM\n"
-    once, again = "3 L X+10 Y+0\n4 L X+20 Y+1.763\n", "L X+10 Y+0\nL X+20 Y+1.763\n"
-    for line, more in (("CALL LBL 2 REP 1", again), ('FN 9: IF +1 EQU +1 GOTO LBL "END"', "")):
-        inline = expand(text.format(line), control=KLARTEXT, inline=True, comments=False)
-        assert inline.text == f"{head}{once}{more}L X+30 Y+3.527\n{end}12 END PGM A MM\n"
-
-
 @pytest.mark.parametrize(("value", "place", "cut"), [("1", 50, "G01 X50. F.2\n"), ("2", 40, "")])
 def test_words_behind_then_run_if_the_condition_holds(value, place, cut):
     text = f"#100={value}\nG00 X40. Z0.\nIF [#100 EQ 1] THEN G01 X50. F.2\nG01 Z-20. ,R1.\nX60."
@@ -150,40 +77,6 @@ def test_words_behind_then_run_if_the_condition_holds(value, place, cut):
 
 
 # Files ---------------------------------------------------------------------------------------------------------------
-
-
-def test_subprograms_in_files(tmp_path):
-    (tmp_path / "main.nc").write_text("G00 X40. Z0.\nM98 P100\nM98 P200\nG01 X80. ,A120.\nM30")
-    (tmp_path / "O0100.nc").write_text(f"O0100\n{TAPER}\nM99")
-    (tmp_path / "other").mkdir()
-    (tmp_path / "other" / "o200").write_text("O0200\nG01 X70. ,A0.\nM99")
-    codes = [("subprogram-solved", 2), ("subprogram-refused", 3), ("position-unknown", 4), ("contour-waits", 4)]
-    alone, found = (
-        solve_file(tmp_path / "main.nc", control=LATHE, folders=each) for each in ([], [tmp_path / "other"])
-    )
-    assert [(each.code, each.span.line) for each in found.diagnostics] == codes
-    assert [(each.code, each.span.line) for each in alone.diagnostics] == codes[::2]
-    lacking = (
-        "M98 P200 calls 200, which is not in this file; neither is O0200.nc beside it: name its folder with --path"
-    )
-    assert lacking in alone.diagnostics[1].message
-    assert "--path" in run("check", tmp_path / "main.nc", "--control", LATHE)[1]
-
-
-@pytest.mark.parametrize(
-    ("control", "text", "start"),
-    [
-        (LATHE, f"#1=0\nG00 X40. Z0.\nM30\nO8\n{TAPER}\nM99", "X50. Z0."),
-        (SINUMERIK, "%_N_M_MPF\nG17 G0 X40 Y0\nM30\n%_N_L8_SPF\nG1 X60 ANG=20\nM17", "X50 Y0"),
-    ],
-)
-def test_what_nothing_calls_begins_where_start_says(control, text, start, tmp_path):
-    result = solve(text, control=control)
-    assert [each.status for each in result.answers] == [Status.UNDERDETERMINED]
-    assert "--start" in result.diagnostics[0].message
-    (tmp_path / "main.nc").write_text(text)
-    status, output = run("solve", tmp_path / "main.nc", "--control", control, "--start", start)
-    assert status == 0, output
 
 
 def test_decisions_in_another_file_are_made_as_well(tmp_path):
@@ -288,16 +181,6 @@ def test_words_behind_then_move_the_part_that_does_not_run(value, starts):
     assert [each.start.values[1] for each in answers] == starts
 
 
-def test_what_is_wrong_in_a_part_that_does_not_run_stops_nothing():
-    text = BRANCHES[LATHE][0].format(1).replace("X50. ,A110.", "X50. Z-40. ,A110.")
-    (finding,) = solve(text, control=LATHE).diagnostics
-    assert (finding.code, finding.severity.value) == ("words-conflict", "warning")
-    assert finding.notes[0] == "the program passes over this line, so that this is a warning only"
-    assert solve(text.replace("#100=1", "#100=2"), control=LATHE).diagnostics[0].severity.value == "error"
-    behind = "G00 X40. Z0.\nGOTO 9\nG01 X60. ,A120.\nN9 M30"
-    assert [each.severity.value for each in solve(behind, control=LATHE).diagnostics] == ["warning"]
-
-
 # Loops and jumps -----------------------------------------------------------------------------------------------------
 
 STEP = "G1 X=IC(10) RND=1\nY=IC(10)"
@@ -352,13 +235,6 @@ def test_jumps_out_of_and_into_loops_of_macro_b():
     told = "program line 2 jumps into the loop that program line 4 begins: how often that runs then is not known"
     assert not_followed(into) == [(2, told)]
     assert {each.status for each in into.answers} == {Status.UNDERDETERMINED}
-
-
-def test_a_loop_that_counts_in_a_local_variable_ends():
-    loop = "#2=0\nWHILE[#2 LT #1]DO1\n#2=#2+1.\nG1 X[#2*10.] ,R1. F1.\nY[#2*10.]\nEND1"
-    result = solve(f"G0 X0. Y0.\nG65 P9 A3.\nM30\nO9\n{loop}\nM99", control=MILL)
-    assert [each.contour.end for each in result.answers] == [(10, 10), (20, 20), (30, 30)]
-    assert not result.diagnostics
 
 
 @pytest.mark.parametrize(
@@ -444,45 +320,11 @@ def test_what_is_not_followed_is_told_in_its_line(control, text, line, told):
     assert {each for _, each in found} <= blocks
 
 
-UNKNOWN = "the start point is not known in "
 TOO_LARGE = "corner 1 does not fit: ,R5. is 5.000 mm, at most 1.000 mm fits on line 2"
-EITHER = "X40. (program line 1) or X45. (program line 3); program line 2 decides: #900 is set by nothing before"
 CALLED = (
     "called in program line 2: from Z0.0000 X40.0000 mm solved; called in program line 4: from Z0.0000 X58.0000 mm "
 )
-DIFFER = f"what runs here is not the same every time; {CALLED}{TOO_LARGE}"
 BACK = "the profile of G71 turns back along X on its way to Z-25.7735 X30.0000 mm (program line 4)"
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        (
-            f"G00 X40. Z#5041\n{TAPER}",
-            [("position-unknown", 2, f"{UNKNOWN}Z: Z#5041 depends on a variable (program line 1)")],
-        ),
-        (
-            f"G00 X40. Z0.\nIF [#900 EQ 1] GOTO 5\nG00 X45.\nN5 {TAPER}",
-            [("position-unknown", 4, f"{UNKNOWN}X: {EITHER}")],
-        ),
-        (
-            "G00 X40. Z0.\nM98 P1\nG00 X58. Z0.\nM98 P1\nM30\nO1\nG01 Z-20. ,R5.\nX60.\nM99",
-            [("fanuc-corner-too-large", 7, TOO_LARGE), ("calls-differ", 7, DIFFER)],
-        ),
-        (
-            "G00 X60. Z2.\nG71 P1 Q2 U.5\nN1 G00 X20.\nG01 Z-20. ,R3.\nX40. ,A120.\nX30.\nN2 Z-60.",
-            [("profile-turns-back", 2, f"{BACK}; G71 cuts profiles that go one way along X")],
-        ),
-        # A corner ends at a call.
-        (
-            "G00 X40. Z0.\nG01 Z-20. ,R5.\nM98 P1\nG00 X60. Z0.\nG01 X70. ,A120.\nM30\nO1\nG01 X80. Z-30.\nM99",
-            [("fanuc-corner-without-next", 2, ",R5.: a corner needs an element after it, and none follows")],
-        ),
-    ],
-)
-def test_what_is_told(text, told):
-    found = solve(text, control=LATHE).diagnostics
-    assert [(each.code, each.span.line, each.message) for each in found] == told
 
 
 def test_a_loop_that_ends_by_what_nobody_knows_is_not_said_to_run_for_ever():
@@ -513,24 +355,6 @@ def test_an_end_and_a_call_in_one_block_is_told_whatever_their_order(control):
         assert {each.contour for each in one.answers} == {None}
         inline = expand(text.format(f"{end} {call}"), control=control, inline=True, keep_going=True)
         assert f"{end} {call}" in inline.text
-
-
-@pytest.mark.parametrize(
-    ("control", "program", "line", "names"),
-    [
-        (MILL, "O7002\nG90 G17\nG00 X0 Y0\nG01 X#24 F200 ,R#18\nY40.\nX0\nM99", 4, ("#24", "X#24 and ,R#18")),
-        (SINUMERIK, "G17 G90 G0 X0 Y0\nG1 X=R1 RND=R2\nY40\nX20\nM17", 2, ("R1", "X=R1 and RND=R2")),
-    ],
-)
-def test_what_a_program_that_others_call_sets_nowhere_is_an_argument(control, program, line, names):
-    main_program = program.replace("M99", "M30").replace("M17", "M30")
-    told = [
-        ("not-checked", "info", f"not checked: {names[0]} is an argument of this program, and each call gives it"),
-        ("value-variable", "error", f"{names[1]} depend on a variable, whose value is not known here"),
-    ]
-    for text, expected in zip((program, main_program), told, strict=True):
-        (found,) = check(text, control=control)
-        assert (found.span.line, found.code, found.severity.value, found.message) == (line, *expected)
 
 
 UNDECIDED = {
@@ -565,21 +389,3 @@ def test_a_jump_that_cannot_be_decided_is_not_written_out(name, keeps_going):
     advice = "delete the block, or its /" if line.startswith("/") else "state its value by --let"
     assert (inline.text, left.lines) == (None, (3,))
     assert re.fullmatch(rf"{re.escape(line)} cannot be decided: .+; {advice}, or leave out --inline", left.reason)
-
-
-def test_a_jump_that_a_stated_value_decides_is_written_out():
-    control, text, line = UNDECIDED["goto"]
-    for value, is_taken in ((1, True), (2, False)):
-        inline = expand(text.format(line), control=control, inline=True, variables={"#500": value}, comments=False)
-        assert ("X38." in inline.text) is not is_taken
-        assert "GOTO" not in inline.text
-
-
-def test_the_command_names_the_line_and_the_file_of_such_a_jump_and_writes_nothing(tmp_path):
-    (tmp_path / "main.nc").write_text("G17 G90 G0 X0. Y0.\nG1 F200\nM98 P5\nM30")
-    (tmp_path / "O0005.nc").write_text("O5\nX38.\nIF[#500 EQ 1]GOTO9\nY10. ,R5.\nX80.\nN9 M99")
-    words = ["expand", "--inline", "--keep-going", "--control", "fanuc-mill", str(tmp_path / "main.nc")]
-    done = CliRunner().invoke(main, words)
-    told = "program line 3: IF[#500 EQ 1]GOTO9, line 3 of O0005.nc, cannot be decided: #500 is set by nothing before"
-    assert (done.exit_code, done.stdout, told in done.stderr) == (1, "", True), done.stderr
-    assert done.stderr.endswith("\nnothing was written\n")

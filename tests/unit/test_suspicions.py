@@ -41,32 +41,11 @@ def test_what_is_hardly_meant_is_a_warning_with_what_was_meant(control, text, li
     assert not check(text, control=control, settings={f"{control}.suspicions": "off"})
 
 
-def test_a_long_program_is_told_the_same():
-    """Where contours that are alike are solved together, each is looked at as if it were alone."""
-    alike = "G00 X40. Z0.\nG111 A180. K-30. B120. X100.\nG01 Z-60.\n"
-    found = check(alike * 30 + BACK + alike * 5, control="yasnac-lx3")
-    assert [(each.code, each.span.line) for each in found] == [("suspected", 92)]
-
-
 @pytest.mark.parametrize("right", RIGHT)
 def test_right_programs_are_told_nothing(right):
     named = settings(right["control"], right)
     found = check("\n".join(right["program"]), control=right["control"], settings=named)
     assert [each for each in found if each.severity is not Severity.INFO] == []
-
-
-@pytest.mark.parametrize(
-    ("control", "text"),
-    [
-        ("fanuc-mill", FILLETS.replace("X40. ,R4.", "X40. ,R6.")),
-        ("fanuc-mill", FILLETS.replace("X40. ,R4.", "X40.")),
-        ("siemens-840d", CONES.replace("X70 ANG=150", "X70 ANG=165")),
-        ("siemens-840d", CONES.replace("ANG=120", "ANG=135")),
-    ],
-    ids=["another size", "two sharp corners", "tapers that differ", "no complement"],
-)
-def test_drawings_that_have_several_kinds_are_not_suspected(control, text):
-    assert not check(text, control=control)
 
 
 def test_a_suspicion_is_no_error_and_is_switched_off_in_three_ways(tmp_path, monkeypatch):

@@ -47,15 +47,3 @@ def test_a_family_is_a_stream_of_arrow():
     table = pyarrow.table(family)
     assert table.num_rows == 2
     assert table.equals(family.to_arrow())
-
-
-@pytest.mark.needs("pyarrow")
-@pytest.mark.parametrize("package", ["pandas", "polars"])
-def test_a_family_is_a_frame_of_pandas_and_of_polars(package):
-    module = pytest.importorskip(package)
-    family = contoursolve.family(SHAFT, start=START, vary={"A": [170.0, 180.0], "P": [5.0, 90.0]})
-    frame = family.to_arrow().to_pandas() if package == "pandas" else module.DataFrame(family)
-    assert tuple(frame.columns) == family.names
-    assert list(frame["status"]) == ["solved", "no-solution"] * 2
-    assert frame["V2.Z"][0] == family["V2.Z"][0, 0]
-    assert [str(each) if isinstance(each, str) else None for each in frame["reason"]] == [None, "corner-too-large"] * 2

@@ -1,13 +1,13 @@
 """Which word moves a point most: derivatives, tolerances and rounding, held against solving again."""
 
 import json
-from math import radians, tan
+from functools import partial
 
+import calling
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
-import contoursolve
 from contoursolve.cli import main
 from contoursolve.families import FamilyError, family, sensitivity, tolerances
 
@@ -30,34 +30,6 @@ def test_a_million_draws_are_as_far_off_as_the_tolerances_say():
         assert values.max() <= found.limits.high[axis] + 1e-9
     assert found.limits.high[0] - found.place[0] == pytest.approx(found.spread[0].worst, rel=0.01)
     assert [each.word for each in found.effects[:2]] == ["Q", "B"]
-
-
-def test_rounding_is_solved_again_beside_its_linear_estimate():
-    effects = {each.word: each for each in tolerances(BLOCK, start=START).effects}
-    angle = effects["B"]
-    assert (angle.rounded, angle.increment) == (121.234, 0.001)
-    texts = (BLOCK, BLOCK.replace("2345", "234"))
-    ends = [contoursolve.solve(text, start=START).answers[0].contour.end for text in texts]
-    assert angle.by_rounding == pytest.approx(np.hypot(*np.subtract(*ends)), abs=1e-12)
-    assert angle.by_rounding == pytest.approx(angle.by_rounding_linear, rel=1e-3)
-    assert effects["K"].by_rounding == 0
-    assert effects["K"].by_half == pytest.approx(abs(effects["K"].slope[0]) * 0.0005, rel=1e-3)
-    assert effects["X"].by_half == pytest.approx(np.hypot(*effects["X"].slope) * 0.0005, rel=1e-3)
-
-
-def test_tolerances_beyond_which_there_is_no_contour_are_told():
-    """The largest rounding is K / tan(30): 51.79 for K-29.9, 52.13 for K-30.1."""
-    found = tolerances("G111 X100. A180. K-30. B120. P51.9", {"P": 0.2, "K": 0.1}, start=START)
-    assert (found.limits.count, found.limits.without) == (4, 1)
-    (missing,) = found.limits.missing
-    assert (missing.count, missing.values) == (1, {"P": pytest.approx(52.1), "K": pytest.approx(-29.9)})
-    assert "at most 51.788 mm fits" in missing.message
-
-
-def test_no_combination_of_the_limits_may_have_a_contour():
-    limits = tolerances(BLOCK, {"A": 999_000}, start=START).limits
-    assert (limits.count, limits.without) == (2, 2)
-    assert np.isnan([*limits.low, *limits.high]).all()
 
 
 @pytest.mark.parametrize(
@@ -86,33 +58,7 @@ FACTS = [
 ]
 
 
-@pytest.mark.parametrize(("block", "start", "facts"), FACTS)
-def test_derivatives_of_equations_without_a_closed_form_are_central_differences(block, start, facts):
-    slopes = sensitivity(block, start=start, facts=facts).slopes
-    step, compared = 1e-4, 0
-    program = contoursolve.parse(block)
-    for word in next(iter(slopes.values())):
-        line, _, address = word.rpartition(":")
-        if " " in word:
-            value = float(next(fact for fact in facts if fact.startswith(word)).partition("=")[2])
-        else:
-            same = [each for each in program.blocks if not line or each.line == int(line)]
-            value = float(next(each.find(address) for each in same if each.find(address)).number)
-        found = family(block, vary={word: [value - step, value + step]}, start=start, facts=facts)
-        if set(found.summary()) != {contoursolve.Status.SOLVED}:
-            continue
-        compared += 1
-        for name, by_word in slopes.items():
-            if name in found.names:
-                difference = np.diff(found[name])[0] / (2 * step)
-                assert abs(by_word[word] - difference) <= 1e-5 * max(1.0, abs(difference)), (name, word)
-    assert compared >= 2
-
-
-def run(*arguments):
-    done = CliRunner().invoke(main, ["sensitivity", "--block", BLOCK, "--start", START, *map(str, arguments)])
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
-    return done.exit_code, done.stdout, done.stderr
+run = partial(calling.run, "sensitivity", "--block", BLOCK, "--start", START)
 
 
 def test_the_command_prints_the_words_in_order():
@@ -136,61 +82,6 @@ def test_limits_without_a_contour_are_told_before_what_the_tolerances_come_to():
     assert lines[0].startswith("no contour at 1 of 2 combinations of the limits, at P -15: P-15.0 is negative")
     assert lines[1].startswith("no contour at 1 of 2 combinations of the limits, at P 65: corner 1 does not fit")
     assert lines[2].startswith("off by at worst")
-
-
-def test_in_an_inch_program_every_number_is_in_inches_and_says_so():
-    """The tolerance of P moves the centre of its rounding by tan(30) of itself along Z, and by itself along X."""
-    block = "G111 X4. A180. K-1.2 B120. P.2 Q.2"
-    found = tolerances(block, {"P": 0.01}, point="corner 1.center", start="X1.6 Z0.", units="inch")
-    (effect,) = [each for each in found.effects if each.word == "P"]
-    assert (effect.unit, effect.increment, effect.slope) == (
-        "inch",
-        0.0001,
-        pytest.approx((25.4 * tan(radians(30)), 25.4)),
-    )
-    words = ["--block", block, "--start", "X1.6 Z0.", "--units", "inch"]
-    about = ["--point", "corner 1.center", "--tolerance", "P=0.01"]
-    title, _, row, *others = CliRunner().invoke(main, ["sensitivity", *words, *about]).output.splitlines()
-    assert " in; moved by each word" in title
-    cells = row.split("  ")
-    assert [each.strip() for each in cells if each] == [
-        *("P", "0.20000 in", "0.57735 in/in", "2.00000 in/in", "0.01 in"),
-        *("0.01155 in", "0.00006 in"),
-    ]
-    assert "off by at worst Z 0.00577 in, X dia 0.02000 in" in others[-2]
-    assert not any("mm" in line for line in (title, row, *others))
-
-
-def test_a_number_without_a_point_means_what_the_control_reads():
-    least = tolerances("G111 X100000 A175000 K-30000 B121234 P5000 Q5000", {"K": 0.02}, start=START)
-    same = tolerances("G111 X100. A175. K-30. B121.234 P5. Q5.", {"K": 0.02}, start=START)
-    for one, other in zip(least.effects, same.effects, strict=True):
-        assert (one.word, one.stated, one.by_half, one.rounded) == (
-            other.word,
-            other.stated,
-            other.by_half,
-            other.rounded,
-        )
-        assert one.slope == pytest.approx(other.slope)
-    assert least.limits == same.limits
-
-
-def test_a_zero_without_a_point_moves_the_point_as_one_with_a_point():
-    slopes = []
-    for zero in ("I0", "I0."):
-        found = tolerances(f"G111 X100. A180. K-30. B120. {zero}", start="X40. Z0.")
-        slopes += [each.slope[0] for each in found.effects if each.word == "I"]
-    assert slopes == pytest.approx([tan(radians(30))] * 2)
-
-
-def test_a_word_that_stands_before_the_contour_too_is_the_one_of_the_contour():
-    chain = "G1 ,A197.103 ,R2\nG3 X20 Y30 I20 J-10 R40 Q-1"
-    allowed = {",A": 0.1, "X": 0.01}
-    found = tolerances(f"G17 G90 G42 G0 X100 Y20\n{chain}", allowed, control="nct-99m")
-    alone = tolerances(chain, allowed, start="G17 G90 G42 X100 Y20", control="nct-99m")
-    assert found.effects == alone.effects
-    assert found.limits == alone.limits
-    assert {each.word: each.tolerance for each in found.effects if each.tolerance} == allowed
 
 
 def test_a_half_circle_has_no_derivative_by_its_radius():

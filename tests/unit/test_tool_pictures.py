@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from contoursolve.cli import main
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import begin
-from contoursolve.pictures import DARK_COLORS, LIGHT_COLORS, Role
+from contoursolve.pictures import LIGHT_COLORS, Role
 
 SVG = "{http://www.w3.org/2000/svg}"
 TAPER = "G00 X20. Z2.\nG01 G42 X20. Z0. F0.2\nZ-10.\nX30. Z-20.\nZ-30.\nG40 X40."
@@ -66,51 +66,11 @@ def _end(kind: str, numbers: str) -> tuple[float, ...]:
     return (*found[-2:], found[0]) if kind == "A" else tuple(found)
 
 
-def scale_of(drawn: Drawn) -> tuple[float, float, float]:
-    """Pixels in a mm, and where the origin is on the page, from the ends of the path of the tool alone."""
-    (track,), tool = drawn.strokes(Role.TRACK), drawn.contours[-1]["tool"]
-    places = [tool["start"], *(each["end"] for each in tool["elements"])]
-    assert len(track) == len(places)
-    low, high = (pick(range(len(places)), key=lambda number: places[number][0]) for pick in (min, max))
-    scale = (track[high][0] - track[low][0]) / (places[high][0] - places[low][0])
-    across, down = track[low][0] - scale * places[low][0], track[low][1] + scale * places[low][1]
-    for spot, (first, second), element in zip(track, places, [None, *tool["elements"]], strict=True):
-        assert dist(spot[:2], (across + scale * first, down - scale * second)) < 0.02
-        assert len(spot) == (3 if element and element["kind"] == "arc" else 2)
-        assert len(spot) == 2 or abs(spot[2] - scale * element["radius"]) < 0.02
-    return scale, across, down
-
-
 def circles(drawn: Drawn, role: Role, scale: float, across: float, down: float) -> list[tuple[float, float, float]]:
     """The centres and the radii (mm) of the whole circles in the colour of a role."""
     found = [each for each in drawn.strokes(role) if len(each) == 3 and each[0] == each[2][:2] and len(each[1]) == 3]
     middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2, b[2]) for a, b, _ in found]
     return [((x - across) / scale, (down - y) / scale, radius / scale) for x, y, radius in middles]
-
-
-@pytest.mark.parametrize("name", RIGHT)
-def test_the_path_of_the_tool_is_that_of_the_json_and_the_tool_stands_on_it(name, tmp_path):
-    drawn = Drawn(tmp_path, *RIGHT[name])
-    scale, across, down = scale_of(drawn)
-    contour = drawn.contours[-1]
-    tool, vertices = contour["tool"], [each["end"] for each in contour["elements"]]
-    signs = {3: (-1, -1), 2: (-1, 1), None: (0, 0)}[tool["tip"]]
-    found = circles(drawn, Role.TOOL, scale, across, down)
-    path = [tool["start"], *(each["end"] for each in tool["elements"])]
-    assert len(found) == {"taper": 2, "bore": 1, "pocket": 2, "intersect": 2}[name]
-    for x, y, radius in found:
-        assert abs(radius - tool["radius"]) < 0.005
-        tip = x + signs[0] * radius, y + signs[1] * radius
-        assert min(dist(tip, place) for place in path) < 0.01
-    # What stays lies beyond the tool, towards the corner.
-    center = found[-1][:2]
-    corner = min(vertices, key=lambda place: dist(place, center))
-    for stroke in drawn.strokes(Role.REST):
-        for spot in stroke if len(stroke) == 2 else ():
-            place = (spot[0] - across) / scale, (down - spot[1]) / scale
-            if dist(place, corner) < tool["radius"]:
-                assert tool["radius"] * 0.997 - 0.01 <= dist(place, center) <= dist(corner, center) + 0.01
-    assert bool(drawn.strokes(Role.REST)) is (name != "bore")
 
 
 @pytest.mark.parametrize(
@@ -143,42 +103,6 @@ def test_what_does_not_fit_is_red_at_its_place_with_the_amount(tmp_path, text, w
     assert told in texts
     assert any(each.startswith("error: ") for each in texts)
     assert bool(drawn.strokes(Role.REST)) is stays
-
-
-def test_without_compensation_the_part_that_comes_out_is_drawn_over_it(tmp_path):
-    """The tip of an R0.8 nose runs along a fillet R3 and an arc R4 (sheet: they become R3.8 and R3.2)."""
-    text = (
-        "G00 X16. Z2.\nG01 Z0.\nX20. Z-2.\nZ-8.\nG02 X26. Z-11. R3.\nG01 X28.\nG03 X36. Z-15. R4.\nG01 Z-30.\nG00 X50."
-    )
-    drawn = Drawn(tmp_path, text, (*NOSE, "--side", "right"))
-    scale, *_ = scale_of(drawn)
-    (ghost,) = drawn.strokes(Role.GHOST)
-    radii = [each[2] / scale for each in ghost if len(each) == 3]
-    assert [round(each, 2) for each in radii if each > 1] == [3.8, 3.2]
-    assert not Drawn(tmp_path, text.replace("G01 Z0.", "G01 G42 Z0."), NOSE).strokes(Role.GHOST)
-
-
-def test_without_a_tool_nothing_of_it_is_drawn(tmp_path):
-    (tmp_path / "a.nc").write_text(BORE)
-    for theme in ("light", "page"):
-        call(
-            "plot", tmp_path / "a.nc", "-o", tmp_path / "a.svg", "--force", "--control", "fanuc-lathe", "--theme", theme
-        )
-        svg = (tmp_path / "a.svg").read_text()
-        assert "cs-track" not in svg
-        assert LIGHT_COLORS[Role.TRACK] not in svg
-    call("report", tmp_path / "a.nc", "-o", tmp_path / "a.html", *LATHE)
-    assert "--cs-track" not in (tmp_path / "a.html").read_text()
-
-
-def test_a_report_has_the_path_of_the_tool_in_its_pictures(tmp_path):
-    (tmp_path / "a.nc").write_text(BORE)
-    asked = ("--control", *RIGHT["bore"][1])
-    assert "1 contour solved, no problems" in call("report", tmp_path / "a.nc", "-o", tmp_path / "a.html", *asked)
-    page = (tmp_path / "a.html").read_text()
-    assert page.count('class="s-track"') >= 2
-    assert f"--cs-track: {DARK_COLORS[Role.TRACK]};" in page
-    assert "<dd>nose R0.4, tip 2, left of the contour</dd>" in page
 
 
 def test_a_drawing_for_cad_has_the_path_of_the_tool_on_its_layer(tmp_path):

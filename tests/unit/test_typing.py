@@ -50,18 +50,6 @@ def test_the_first_fix_is_what_a_colleague_would_name(text):
     assert first.replacement in MEANT[text]
 
 
-def test_what_hardly_anybody_means_comes_last_and_says_so():
-    first, *others = fixes_of(solve(LATHE + "G111 A180. K-30. B120. W47.32", control="yasnac-lx3"))
-    assert first.description.startswith("write W-47.32 for W47.32 (a lost minus sign)")
-    assert not any("across the spindle axis" in fix.description for fix in others[:2])
-
-
-def test_r_of_g111_is_told_what_its_roundings_are():
-    (finding,) = solve(LATHE + "G111 X100. A180. K-30. B120. R5.").diagnostics
-    assert finding.message == "R5.: G111 has no R; roundings are P and Q"
-    assert finding.help.startswith("write P5. or Q5.;")
-
-
 # Help and fixes --------------------------------------------------------------------------------------------
 
 ASKED = re.compile(r"write (,?[A-FH-Z]-?\d[\d.]*+|-?\d[\d.]*+ deg)(?! if that is meant)")

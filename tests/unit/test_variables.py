@@ -1,8 +1,7 @@
 """A contour with a variable is a family: for which values it exists, and commands that take the variable as a word."""
 
-from math import cos, radians, tan
+from math import cos, radians
 
-import numpy
 import pytest
 from click.testing import CliRunner
 from hypothesis import given, strategies as st
@@ -50,19 +49,6 @@ def test_what_is_said_of_a_value_holds_for_it(value):
     assert answer.contour == typed.contour
 
 
-def test_commands_about_families_take_a_variable_as_a_word():
-    found = contoursolve.feasible(BLOCK, "#100", **ONE)
-    assert [round(each.low.value, 4) for each in found.intervals] == [50.0]
-    table = contoursolve.family(BLOCK, vary={"#100": [45.0, 95.0]}, **ONE)
-    assert [code == 0 for code in table.columns["status"]] == [False, True]
-    plain = contoursolve.family(
-        BLOCK.replace("X#100", "X1.").replace("#101", "5."), vary={"X": [95.0]}, start="X40. Z0."
-    )
-    assert numpy.allclose(table.columns["V2.Z"][1], plain.columns["V2.Z"][0])
-    hits = contoursolve.find_word(BLOCK.replace(" Q#101", ""), "#100", "end Z-45.", start="X40. Z0.").hits
-    assert [each.value for each in hits] == [pytest.approx(2 * (20 + 15 * tan(radians(60))), abs=1e-6)]
-
-
 @pytest.mark.parametrize(
     ("block", "told"),
     [
@@ -94,32 +80,7 @@ def test_the_explorer_takes_values_of_variables():
 
 
 MACRO_B = ("fanuc-lathe", "fanuc-mill", "haas-lathe", "haas-mill", "mitsubishi", "nct-99m", "yasnac-lx3")
-DEFAULTED = """G00 X0. {axis}0.
-G65 P7002 X60. R5.
-G00 X0. {axis}0.
-G65 P7002 X60.
-M30
-O7002
-{test}
-{block}
-M99"""
-TESTS = (
-    "IF[#18 NE #0]GOTO10\n#18=3.\nN10",
-    "IF [#0 NE #18] GOTO 10\nIF [#18 EQ #0] THEN #18=3.\nN10",
-    "#100=#18\nIF[#100 EQ #0]THEN #18=3.",
-)
 BLOCKS = {"X": "G01 X#24 ,R#18 F1.\n{axis}-40.", "G111": "G111 X#24 A180. K-30. B120. P#18"}
-
-
-@pytest.mark.parametrize("control", MACRO_B)
-@pytest.mark.parametrize("test", TESTS)
-def test_an_argument_that_is_not_given_is_empty(control, test):
-    axis = "Z" if control.endswith(("lathe", "lx3")) else "Y"
-    block = BLOCKS["G111" if control == "yasnac-lx3" else "X"].format(axis=axis)
-    result = contoursolve.solve(DEFAULTED.format(axis=axis, test=test, block=block), control=control)
-    radii = [[each.radius for each in answer.contour.elements if hasattr(each, "radius")] for answer in result.answers]
-    assert [round(each, 6) for each, *_ in radii] == [5, 3]
-    assert not [each for each in result.diagnostics if each.is_error]
 
 
 COMPARED = {
@@ -161,30 +122,6 @@ def test_formulas_with_the_empty_variable_are_those_with_0():
     assert one.summary.replaced == 1
 
 
-NESTED = {
-    "#": ("[]", "G0 X0. {axis}0.\n{block}\n{axis}50.", "#{}"),
-    "siemens": ("()", "G17 G90 G0 X0 Y0\nG1 X={} RND=2\nY50", "R{}"),
-    "isg": ("[]", "G17 G90 G0 X0 Y0\nG1 X{} #RND=2\nY50", "P{}"),
-    "cnc": ("{}", "G0 X0 Z0\nG1 X{} B-2\nG1 Z-50", "V{}"),
-    "heidenhain": ("()", "Q99 = {}\nL X+0 Y+0 R0 F100\nFL X+Q99 AN+20", "Q{}"),
-}
-
-
-@pytest.mark.parametrize("control", DIALECTS)
-@pytest.mark.parametrize("levels", [1, 3, 4, 5, 10])
-def test_every_level_of_brackets_around_an_unset_variable_is_told_alike(control, levels):
-    brackets, text, name = NESTED.get(control.partition("-")[0], NESTED["#"])
-    term = name.format(levels + 1)
-    for level in range(levels, 0, -1):
-        term = f"{brackets[0]}{name.format(level)}+{term}{brackets[1]}"
-    if text is NESTED["#"][1]:
-        axis = "Z" if control.endswith(("lathe", "lx3")) else "Y"
-        block = "G111 X{} A180. K-30. B120." if control == "yasnac-lx3" else "G1 X{} ,R2. F1."
-        text = text.format(axis=axis, block=block)
-    told = {each.code for each in contoursolve.check(text.format(term), control=control) if each.is_error}
-    assert told == {VARIABLE if control == "heidenhain" else "value-variable"}
-
-
 @pytest.mark.parametrize(
     ("control", "name", "told"),
     [
@@ -206,12 +143,6 @@ def test_a_value_of_what_is_no_variable_is_told(control, name, told):
 
 
 NAMES = {"fanuc-mill": ("#1", "#<depth>"), "siemens-840d": ("R1", "_ANG", "A[2]", "$AN"), "isg": ("P1", "V.L.B")}
-
-
-@pytest.mark.parametrize("control", NAMES)
-def test_values_of_variables_of_every_kind_are_taken(control):
-    variables = dict.fromkeys(NAMES[control], 1.0)
-    assert {each.code for each in contoursolve.check("G0 X0", control=control, variables=variables)} == {"no-contour"}
 
 
 @pytest.mark.parametrize("command", ["solve", "range"])

@@ -156,18 +156,6 @@ def test_a_word_that_is_not_meant_is_told_with_what_it_was_meant_to_be(control, 
     assert said in (finding.message[: len(said)], finding.help[: len(said)])
 
 
-@pytest.mark.parametrize(
-    ("control", "text"),
-    [
-        (KLARTEXT, "1 L X+0 Y+0 R0 FMAX\n2 FL AN+30 LEN20\n3 FL X+60 Y+40\n4 L Y+80"),
-        (KLARTEXT, "1 L X+0 Y+0 R0 FMAX\n2 FL X+60 Y+0 AN+0\n3 CHF 5\n4 FL Y+40 AN+90"),
-        (SINUMERIK, MILL + "G2 X60 Y0 CR=50\nG1 Y40 CHR=5\nX20"),
-    ],
-)
-def test_words_where_they_belong_are_no_errors(control, text):
-    assert not any(each.is_error for each in findings(control, text))
-
-
 @pytest.mark.parametrize("words", ["A+5", "IC+30", "U+3 V+2", "A+3 C+9 M13", "TX+0.5 TY+0.1"])
 def test_axes_that_turn_stand_beside_moves_that_a_corner_joins(words):
     text = f"1 L X+0 Y+0 R0 FMAX\n2 L X+60 {words} F200\n3 RND R5\n4 L Y+40 {words}"
@@ -175,21 +163,6 @@ def test_axes_that_turn_stand_beside_moves_that_a_corner_joins(words):
     assert (result.diagnostics, result.answers[0].contour.end) == ((), (60.0, 40.0))
     free = f"1 L X+0 Y+0 R0 FMAX\n2 FL X+60 AN+0 {words}"
     assert any(each.code == "heidenhain-word-unknown" for each in findings(KLARTEXT, free))
-
-
-@pytest.mark.parametrize(
-    ("control", "words"),
-    [
-        (SINUMERIK, "SPOS=90 M3=4 S2=500 C=DC(90) Q1=5 B2=4 D1 T2 H3 LIMS=2000 FB=100 OVR=50 DRESS=1 A3=1 ADIS=.1"),
-        (ISG, "S500 T1 D2 M3 H1 C90 A5 E200 #FRC=50"),
-        (MITSUBISHI, "S500 T1 D2 M3 H1 B90. U5."),
-        ("fanuc-mill", "S500 T1 D2 M3 H1 B90. V3. U5."),
-        ("fanuc-lathe", "S500 T0101 M3 Y5. B9."),
-        (YASNAC, "S500 T0101 M3 C90."),
-    ],
-)
-def test_words_beside_the_path_are_known(control, words):
-    assert not findings(control, BESIDE[control].format(words))
 
 
 def test_a_machine_builder_s_words_are_a_setting():
@@ -200,46 +173,11 @@ def test_a_machine_builder_s_words_are_a_setting():
         findings(SINUMERIK, text, settings={"siemens-840d.words": "a b"})
 
 
-@pytest.mark.parametrize("command", ["TC", "TOOLCHG(1)", "N5 tc", "LUB_ON T5", 'SAY_IT("A",2) M8'])
-def test_a_machine_builder_s_commands_are_the_same_setting(command):
-    text = f"G17 G90\n{command}\nG0 X0 Y0\nG1 X60 F200\n{command}\nY40 RND=5\nX20"
-    told = [each.message for each in findings(SINUMERIK, text) if each.is_error]
-    assert len(told) == 1
-    assert "or state with --set siemens-840d.words=" in told[0]
-    settings = {"siemens-840d.words": "TC,TOOLCHG,lub_on,SAY_IT"}
-    assert not findings(SINUMERIK, text, settings=settings)
-    assert contoursolve.expand(text, control=SINUMERIK, settings=settings).text.count(command) == 2
-
-
-@pytest.mark.parametrize("call", ["CYCLE83(1,2,3)", "HOLES1(1,2)", "L10", 'EXTCALL "DRILL"'])
-def test_a_cycle_is_no_command_that_moves_nothing(call):
-    found = findings(SINUMERIK, f"{MILL}G1 X5 Y5\n{call}\nG1 Y60 RND=3\nX20")
-    assert {each.code for each in found} == {"position-unknown"}
-    assert ".words" not in found[0].message
-
-
-def test_a_declared_variable_is_no_word():
-    text = BESIDE[SINUMERIK].format("RN=8")
-    assert not findings(SINUMERIK, f"DEF REAL RN\n{text}")
-    assert not findings(SINUMERIK, f"R1=5\n{BESIDE[SINUMERIK].format('R2=8')}")
-
-
 # What contoursolve does not read ----------------------------------------------------------------------------------
 
 
 def told(found):
     return [(each.code, each.severity.value, each.message) for each in found]
-
-
-@pytest.mark.parametrize(
-    ("block", "name"),
-    [("CIP X40 Y40 I1=50 J1=20", "CIP"), ("ASPLINE X40 Y40", "ASPLINE"), ("INVCW X40 Y40 I1 J2", "INVCW")],
-)
-def test_what_ends_at_its_coordinates_is_told_and_the_end_is_used(block, name):
-    result = contoursolve.solve(f"{MILL}G1 X5 Y5\n{block}\nG1 Y60 RND=3\nX20", control=SINUMERIK)
-    assert told(result.diagnostics) == [("not-read", "info", f"contoursolve does not read {name} yet")]
-    (answer,) = result.answers
-    assert (answer.status, answer.contour.start) == (Status.SOLVED, (40.0, 40.0))
 
 
 @pytest.mark.parametrize(
@@ -258,34 +196,6 @@ def test_a_contour_that_needs_it_is_refused_with_its_name_alone(lines, name):
     assert {each.code for each in errors} == {"not-read"}
     assert f"contoursolve does not read {name} yet" in {each.message for each in errors}
     assert not any(each.fixes for each in found)
-
-
-@pytest.mark.parametrize("control", ["fanuc-mill", "nct-99m", MITSUBISHI])
-def test_behind_a_contour_that_ends_by_itself_it_refuses_nothing(control):
-    result = contoursolve.solve(f"{MILL}G1 X30. ,R5.\nX40. Y40.\nG54.1 P3", control=control)
-    assert told(result.diagnostics) == [("not-read", "info", "contoursolve does not read G54.1 yet")]
-    assert result.answers[0].status is Status.SOLVED
-
-
-@pytest.mark.parametrize(
-    ("control", "block", "name"),
-    [
-        (SINUMERIK, "AP=30 RP=40", "AP"),
-        (SINUMERIK, "POS[X]=20", "POS[X]"),
-        (SINUMERIK, "X1=20", "X1"),
-        (SINUMERIK, "TRANSMIT", "TRANSMIT"),
-        ("fanuc-mill", "G66 P100 A5.", "G66"),
-        ("fanuc-mill", "M97 P100", "M97"),
-        ("fanuc-mill", "G12.1", "G12.1"),
-        (YASNAC, "M97 P100", "M97"),
-    ],
-)
-def test_behind_what_ends_elsewhere_nothing_is_known(control, block, name):
-    start = "G00 X40. Z0.\n" if control == YASNAC else f"{MILL}G1 X5. Y5.\n"
-    rest = {YASNAC: "G111 A180. K-30. B120.", SINUMERIK: "Y60 RND=3\nX20"}.get(control, "Y60. ,R3.\nX20.")
-    found = findings(control, f"{start}{block}\n{rest}")
-    assert f"contoursolve does not read {name} yet" in {each.message for each in found if not each.is_error}
-    assert "position-unknown" in {each.code for each in found}
 
 
 @pytest.mark.parametrize(
@@ -319,15 +229,6 @@ def test_ways_that_meet_know_whether_a_modal_call_is_in_force(decides):
     assert {each.code for each in findings(SINUMERIK, text)} == {"not-read", "position-unknown"}
 
 
-@pytest.mark.parametrize("code", ["G02.2", "G03.2", "G2.3", "G02.4"])
-def test_curves_of_a_special_kind_are_no_arcs(code):
-    text = f"{MILL}G1 X5. Y5.\n{code} X50. Y20. I5. J5. R2.\nG1 X60. ,R2.\nY40."
-    (finding,) = findings("fanuc-mill", text)
-    assert (finding.code, finding.severity) == ("not-read", Severity.INFO)
-    (first, *_) = findings("fanuc-mill", f"{MILL}G1 X5. Y5.\nX60. ,R2.\n{code} X50. Y20. I5. J5. R2.")
-    assert (first.code, first.severity, first.fixes) == ("not-read", Severity.ERROR, ())
-
-
 QUIET = """
 WAITS(2)|WAITM(1,1,2)|CYCLE832(0.01,1)|FGROUP(X,Y)|GET(C)|RELEASE(C)|GROUP_BEGIN(0,"A",0,0)|GROUP_END(0,0)
 G96 S100 LIMS=2000 SCC[X]|WRITE(ERR,"LOG","A")|SETMS(1)|SOFT|STOPRE|SPOS[2]=0|G01 G53 F=0.15|G4 F1
@@ -351,13 +252,6 @@ def test_r_behind_an_arc_of_sinumerik_is_its_radius():
     assert any("the radius of an arc is CR" in each.message for each in found)
 
 
-def test_the_head_of_a_simulator_is_no_call():
-    head = '{   Maschine: "DMU 50"\n{ Werkzeug T5 }\n  {CALL ABC\n'
-    text = "G17 G90 G0 X0 Y0\nG1 X60 F200\nY40 RND=5\nX20\nM30"
-    assert not findings(SINUMERIK, head + text, strict=True)
-    assert any(each.is_error for each in findings(SINUMERIK, text.replace("X60", "X60 {")))
-
-
 @pytest.mark.parametrize("block", ["Y40 RND=CORNER", "Y=CORNER RND=2", "Y40 RND=2*CORNER"])
 def test_an_argument_of_a_subprogram_is_one_note(block):
     text = f"PROC POCKET(REAL DEPTH, REAL CORNER)\nG17 G90 G0 X0 Y0\nG1 X60 F200\n{block}\nX20\nM17"
@@ -365,33 +259,6 @@ def test_an_argument_of_a_subprogram_is_one_note(block):
     assert (finding.code, finding.severity) == ("not-checked", Severity.INFO)
     assert "CORNER is an argument of POCKET" in finding.message
     assert not findings(SINUMERIK, text, variables={"CORNER": 3.0})
-
-
-def test_a_beside_comma_a_is_an_axis_on_mitsubishi():
-    result = contoursolve.solve(MILL + "G01 X40. A30. ,A45.\nX60. Y50.", control=MITSUBISHI)
-    assert (result.diagnostics, result.answers[0].contour.end) == ((), (40.0, pytest.approx(40.0)))
-
-
-def test_a_function_of_klartext_without_a_blank_before_its_number_is_no_misspelt_word():
-    lines = ("FN15: PRINT Q1/Q2", "FN0: Q1 = 5", "LBL10", "CYCL DEF7.0", "L X+60 R0")
-    text = "\n".join(["0 BEGIN PGM A MM", *(f"{at} {each}" for at, each in enumerate(lines, 1)), "9 END PGM A MM"])
-    assert {each.code for each in contoursolve.check(text, control="heidenhain")} == {"no-contour"}
-
-
-@pytest.mark.parametrize(
-    ("control", "spindle"),
-    [
-        (MITSUBISHI, "S1=500"),
-        (MITSUBISHI, "s2 = 500"),
-        ("fanuc-mill", "S1=500"),
-        (ISG, "S[1]=500"),
-        (ISG, "S[2] = 500"),
-    ],
-)
-def test_the_speed_of_one_of_several_spindles_is_no_stray_character(control, spindle):
-    assert findings(control, BESIDE[control].format(spindle)) == ()
-    plain = contoursolve.solve(BESIDE[control].format(""), control=control).answers[-1].contour
-    assert contoursolve.solve(BESIDE[control].format(spindle), control=control).answers[-1].contour.end == plain.end
 
 
 def test_a_variable_or_a_program_of_one_letter_is_one():
@@ -418,42 +285,3 @@ def test_a_synchronous_action_of_sinumerik_runs_beside_the_program(action, known
         assert result.answers[0].lines == (2, 4)
     else:
         assert any("moves an axis beside the program" in each.message for each in result.diagnostics if each.is_error)
-
-
-@pytest.mark.parametrize(
-    ("pole", "code", "behind"),
-    [
-        ("FPOL X+5", "heidenhain-pole-half", "FL PR+20 PA+30\nFL X+50 Y+20"),
-        ("FPOL", "heidenhain-pole-empty", "FL PR+20 PA+30\nFL X+50 Y+20"),
-        ("FPOL", "heidenhain-pole-empty", "FL X+20 Y+0\nFL X+50 Y+20"),
-        ("FPOL Y+5", "heidenhain-pole-half", "L X+20 Y+0\nL X+50 Y+20"),
-        ("FPOL", "heidenhain-pole-empty", "CC X+1 Y+1\nL X+20 Y+0"),
-        ("FPOL X+5", "heidenhain-pole-half", "L Z+50 R0 FMAX M30"),
-        ("FPOL", "heidenhain-pole-empty", "L X+20 Y+0\nRND R5\nL X+20 Y+30"),
-    ],
-)
-@pytest.mark.parametrize("start", ["L X+0 Y+0 R0 FMAX\n", ""])
-def test_a_pole_without_both_coordinates_is_told_wherever_it_stands(start, pole, code, behind):
-    text = f"BEGIN PGM A MM\n{start}{pole}\n{behind}\nEND PGM A MM"
-    found = contoursolve.check(text, control="heidenhain")
-    told = [each for each in found if each.is_error and each.code != "position-unknown"]
-    assert [(each.code, each.span.line) for each in told] == [(code, 2 + bool(start))]
-    # What the polar words lack is the pole, and nothing else.
-    lacking = [each.message for each in found if each.code == "words-missing"]
-    stated = "add X and Y" if pole == "FPOL" else "add Y"
-    assert all(f"{stated} in program line" in each and "PR+20 and PA+30 say nothing" in each for each in lacking)
-
-
-@pytest.mark.parametrize("beside", ["", "G04 P500\n"])
-@pytest.mark.parametrize(
-    ("control", "text"),
-    [
-        ("fanuc-mill", "G17 G90 G00 X0 Y0\nG01 X30. ,C5.\n{}G310 X40. Y40."),
-        ("nct-99m", "G17 G90 G0 X0 Y0\nG1 X30. ,C10.\n{}G310 X40. Y40."),
-        ("siemens-840d", "G18 DIAMON G0 X20 Z0\nG1 X40 RND=2\n{}G310 Z-50"),
-        ("mitsubishi", "G00 X20. Z0.\nG01 Z-20. ,R3.\n{}G310 X60. ,A120."),
-    ],
-)
-def test_a_code_that_the_control_has_not_is_told_once_behind_a_corner(control, text, beside):
-    found = contoursolve.check(text.format(beside), control=control)
-    assert [each.code for each in found if "G310" in each.message] == ["code-unknown"]

@@ -1,8 +1,6 @@
 """Where it is not known which way a program takes: both are followed, and where they meet only what both agree on is
 known; a corner finds its neighbour on each of them."""
 
-import re
-
 import pytest
 
 from contoursolve import OpenProgram, expand, solve
@@ -230,51 +228,6 @@ X30
 M30"""
 
 
-def test_a_corner_finds_its_neighbour_in_the_next_pass_of_a_loop():
-    result = solve(S1, control=SIEMENS)
-    (answer,) = result.answers
-    assert not result.diagnostics
-    assert len(answer.contour.elements) == 25
-    flat = [
-        line.format(*(each - 8 * n for each in (-5, -7, -9, -11)))
-        for n in range(3)
-        for line in ("X20 Z{0} RND=0.6\nX17 Z{1} RND=0.4\nX17 Z{2} RND=0.4\nX20 Z{3} RND=0.6",)
-    ]
-    text = "\n".join(["G18 G90 DIAMOF\nG0 X30 Z2\nG1 X20 F0.2", *flat, "X20 Z-40\nX30\nM30"])
-    assert ends(answer) == ends(solve(text, control=SIEMENS).answers[0])
-    assert "its blocks run several times" in expand(S1, control=SIEMENS, keep_going=True).text
-    inline, plain = (expand(each, control=SIEMENS, inline=True, comments=False).text for each in (S1, text))
-    assert inline.replace(" G", "G").split("\n")[3:] == plain.split("\n")[3:]
-    fanuc = "#1=0\nG00 X40. Z0.\nWHILE[#1 LT 3]DO1\nG01 X[50.+#1*10.] ,R1.\nZ-[10.+#1*10.] ,R1.\n#1=#1+1\nEND1\nX90."
-    (answer,) = solve(fanuc, control=LATHE).answers
-    assert (answer.status, answer.lines) == (Status.SOLVED, (4, 5, 4, 5, 4, 5, 8))
-
-
-def test_a_way_that_leaves_a_subprogram_meets_the_other_behind_the_call():
-    text = "G00 X40. Z0.\nM98 P1\n{}G01 Z-20. ,R1.\nX60.\nM30\nO1\nIF[#599 EQ 1]GOTO9\nG00 X50.\nN9 M99"
-    (finding,) = solve(text.format(""), control=LATHE).diagnostics
-    assert "X40. (program line 1) or X50. (program line 8)" in finding.message
-    assert solve(text.format("G00 X40.\n"), control=LATHE).answers[0].status is Status.SOLVED
-    early = "G00 X40. Z0.\nIF[#599 EQ 1]GOTO99\nG00 X50.\nGOTO8\nN99 M30\nN8 G01 Z-20. ,R1.\nX60.\nM30"
-    assert ends(solve(early, control=LATHE).answers[0])[0] == (-19.0, 25.0)
-
-
-def test_a_corner_in_lines_that_do_not_run_finds_its_neighbour_in_those_that_do():
-    for value in (0, 1):
-        result = solve(re.sub(r"\bK\b", "KIND", B10), control=SIEMENS, variables={"KIND": value})
-        assert [each.lines for each in result.answers] == [(6, 10), (8, 10)]
-        assert not result.diagnostics
-    text = "#3=1\nG00 X50. Z2.\nIF[#3 EQ 1]GOTO 5\nG01 Z-10. ,R1.\nN5 G01 X60. Z-12.\nM30"
-    assert [each.status for each in solve(text, control=LATHE).answers] == [Status.SOLVED]
-
-
-@pytest.mark.parametrize("repeat", ["REPEAT AA P=2", "REPEAT AA BB P=2"])
-def test_a_corner_finds_its_neighbour_in_lines_that_are_repeated(repeat):
-    text = f"G17 G90 G0 X0 Y0\nG1 F200\nAA:\nG1 X=IC(10) RND=1\nY=IC(10) RND=1\nBB:\n{repeat}\nX=IC(10)\nM30"
-    (answer,) = solve(text, control=SIEMENS).answers
-    assert (answer.status, len(answer.contour.elements)) == (Status.SOLVED, 13)
-
-
 @pytest.mark.parametrize("places", [(20, 30, 20), (20, 20, 30), (30, 20, 20), (20, 30, 40), (20, 20, 20)])
 def test_all_ways_of_case_meet(places):
     """The tool is where all ways that CASE opens end alike, else it is not known."""
@@ -343,40 +296,6 @@ def test_a_jump_in_doubt_to_an_unknown_block_or_none_is_told(control, text, told
     assert told in [(each.code, each.span.line) for each in result.diagnostics]
     assert (answer.contour.start if answer.contour else None) == start
     assert start or any("not known in X and Y" in each.message for each in answer.diagnostics)
-
-
-O_WORDS = (
-    ("O100 IF [#5042 GT 5.]", "O100 ELSE", "O100 ENDIF"),
-    ("o100 while [#1 lt 3]", "#1=[#1+1]", "o100 endwhile"),
-    ("N7 o<kont> sub", "N8 o<kont> endsub", "N9 o<kont> call [5] [6]"),
-    ("o#5 repeat [3]", "o#5 continue", "o#5 endrepeat"),
-)
-
-
-@pytest.mark.parametrize("words", O_WORDS)
-@pytest.mark.parametrize(
-    "control", [MILL, LATHE, "haas-mill", "mitsubishi", "nct-99m", "yasnac-lx3", SIEMENS, "isg", "heidenhain"]
-)
-def test_o_words_of_linuxcnc_are_named_and_nothing_is_known_behind_them(control, words):
-    first, move, contour = {
-        LATHE: ("G0 X40. Z0.", "G0 X42.", "G1 Z-30. ,R5. F.2\nX80."),
-        "yasnac-lx3": ("G0 X40. Z0.", "G0 X42.", "G111 A180. K-10. B90. X60."),
-        SIEMENS: ("G17 G90 G0 X0 Y0", "X42", "G1 Y30 RND=5 F200\nX80"),
-        "isg": ("G17 G90 G0 X0 Y0", "X42", "G1 Y30 #RND=5 F200\nX80"),
-        "heidenhain": ("L X+0 Y+0 R0 F100", "L X+42", "L Y+30\nRND R5\nL X+80"),
-    }.get(control, ("G17 G90 G0 X0. Y0.", "X42.", "G1 Y30. ,R5. F200\nX80."))
-    result = solve("\n".join([first, words[0], move, words[1], words[2], contour]), control=control)
-    assert result.answers[-1].status is Status.UNDERDETERMINED
-    named = {each.span.line for each in result.diagnostics if each.code == "not-read"}
-    assert {2, 5} <= named
-    (finding,) = (each for each in result.diagnostics if each.is_error)
-    assert (finding.code, words[2].split(" [")[0].removeprefix("N9 ") in finding.message) == ("position-unknown", True)
-
-
-def test_if_of_macro_b_behind_the_number_of_a_program_is_no_o_word():
-    text = "O0100 IF[#1 EQ 0]GOTO5\nG17 G90\nN5 G0 X0. Y0.\nG17 G90 G1 X10. ,R2. F200\nY20.\nM30"
-    (answer,) = solve(text, control=MILL).answers
-    assert answer.status is Status.SOLVED
 
 
 KLARTEXT = "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 FMAX\n{}2 FN 9: IF +Q1 EQU +1 GOTO LBL 5\n{}\nLBL 5\n{}\n9 END PGM A MM"
