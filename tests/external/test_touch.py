@@ -163,8 +163,10 @@ def test_all_handles_follow_the_arrow_keys(desk):
         desk.page.keyboard.press("Shift+ArrowLeft")
         desk.page.wait_for_timeout(900)
         assert desk.text != before, text
-        desk.page.keyboard.press("Control+z")
-        desk.settle()
+        for _ in range(3):  # one step, or one for each press where they come slowly
+            if desk.text != before:
+                desk.page.keyboard.press("Control+z")
+                desk.settle()
         assert desk.text == before
     desk.check()
 

@@ -37,7 +37,7 @@ _LINE = _PART + '[[element]]\nkind = "line"\n'
         (_LINE + 'X = "2.5.1"', 'element 1: X is "2.5.1"; write a number, such as 12.5 or "12,5", or "?"'),
         (_LINE + "X = nan", 'element 1: X is NaN; write a number, such as 12.5 or "12,5", or "?"'),
         (_LINE + "X = 2020-01-01", 'element 1: X is "2020-01-01"; write a number, such as 12.5 or "12,5", or "?"'),
-        (_LINE + f'X = "2.{"0" * 39}"', f'element 1: X is "2.{"0" * 37}...; write a number, such as 12.5 or "12,5", or "?"'),
+        (_LINE + f'X = "2.{"0" * 39}"', 'element 1: X is "2.' + "0" * 37 + '...; write a number, such'),
         (_LINE + "X = true", 'element 1: X is true; write a number, such as 12.5 or "12,5", or "?"'),
         (_LINE + "X = 1e9", 'element 1: X is 1000000000, which is larger than a control can travel'),
         (
