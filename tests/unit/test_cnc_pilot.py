@@ -1,6 +1,6 @@
 """CNC PILOT: what must be said of wrong programs, its settings, and its sections. Its worked examples are vectors."""
 
-from math import degrees, radians
+from math import degrees, hypot, radians, tan
 from random import Random
 
 import pytest
@@ -94,3 +94,22 @@ def bow(random: Random) -> Step:
 
 
 OPEN = "X? Z?"
+
+
+def test_the_centre_of_an_arc_counts_from_an_end_that_is_computed():
+    line = "FERTIGTEIL\nG0 X40 Z0\nG1 X50 A20 B0\n{}\nBEARBEITUNG\nENDE"
+    by_steps = path(solve(line.format("G2 X70 Z-30 I15 K-1.9828"), control="cnc-pilot"))
+    begin = -5 / tan(radians(20))
+    assert by_steps[:2] == pytest.approx([begin, 50])
+    assert by_steps[2:] == pytest.approx([2, hypot(15, 1.9828), begin - 1.9828, 80, -30, 70])
+    # Without its end, the line has two; near or far, the distances from the centre agree.
+    for near, first in ((0, -28.2915), (1, -54.8968)):
+        chosen = path(
+            solve(
+                line.format(f"G1 A5 B0 Q{near}\nG2 X58 Z-52 I10 K-10").replace("G1 X50 A20 B0\n", ""),
+                control="cnc-pilot",
+            )
+        )
+        z, x = chosen[:2]
+        assert (z, (x - 40) / 2) == pytest.approx((first, -z * tan(radians(5))), abs=1e-4)
+        assert hypot(z - 10 + 52, x / 2 + 10 - 29) == pytest.approx(hypot(10, 10))
