@@ -74,6 +74,9 @@ def _alternatives(profile: Profile, enumeration: Enumeration) -> Alternatives:
     stated = frozenset(fact for fact in spare_of(system) if fact.is_ray)
     if stated and not enumeration.found:
         enumeration = enumerate_solutions(profile, system, stated)
+    if not enumeration.found and (exact := _exact_first(system)) is not None:
+        again = enumerate_solutions(profile, exact)
+        system, enumeration = (exact, again) if again.found else (system, enumeration)
     with ball.precision(ball.WORKING):
         prover = Prover(system, groups_of(system), ground_of(profile))
         items = [_alternative(profile, system, prover, found) for found in enumeration.found]
@@ -83,6 +86,19 @@ def _alternatives(profile: Profile, enumeration: Enumeration) -> Alternatives:
     # What the form chooses by itself is no alternative for a user.
     items = [item for item in items if _agrees(item, [choice for choice in profile.choices if not choice.given])]
     return Alternatives(tuple(_named(items, profile)), doubts, enumeration.within)
+
+
+def _exact_first(system: System) -> System | None:
+    """The system with a basis of what holds exactly and of words, where some of the former is beside its basis; None
+    for nowhere. Where words say something twice and differ by rounding, a word is what is not needed, never that an arc
+    begins where it touches. Of the words, the one that leaves the smallest groups to solve comes last."""
+    if all(fact.given for fact in spare_of(system)):
+        return None
+    own = sorted(system.facts, key=lambda fact: bool(fact.given))
+    tied = [system.facts[index] for index in analyse(system).tied]
+    orders = [system.keep((*(each for each in own if each is not fact), fact)) for fact in tied if fact.given]
+    sizes = [sorted((len(group.unknowns) for group in groups_of(each)), reverse=True) for each in orders]
+    return orders[sizes.index(min(sizes))] if orders else None
 
 
 def choose(alternatives: Alternatives, choices: tuple[Choice, ...]) -> tuple[Alternative, ...]:
