@@ -6,6 +6,7 @@ from .evaluate import (
 )
 from .events import (
     EventKind as EventKind,
+    Follower as Follower,
     ProgramEvent as ProgramEvent,
 )
 from .fanuc import (

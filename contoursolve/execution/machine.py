@@ -3,12 +3,14 @@
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import chain
+from typing import Any
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.execution.evaluate import written
-from contoursolve.execution.events import EventKind, ProgramEvent
+from contoursolve.execution.events import EventKind, Follower, ProgramEvent
 from contoursolve.execution.macro_language import (
     ARGUMENT,
     SKIP_SWITCH,
@@ -116,15 +118,32 @@ class _Branch(Struct):
     is_undecided: bool = False
 
 
-class _Head(Struct):
-    """A line to which a jump or a loop may come back: under which mark and with which values it was reached, how often
-    it was run again, and the last line to which a way has left since."""
+class _State(Struct):
+    """What is known at a place: the values of variables, those of each frame, and what whoever follows knows beside.
+    `reason` decides between the ways that come there."""
 
-    mark: int
-    values: Mapping[str, Known]
-    own: Mapping[str, Known] | None
+    values: dict[str, Known]
+    own: list[dict[str, Known] | None]
+    beside: Any
+    reason: str = ""
+
+    def copy(self) -> "_State":
+        """Another one that changes by itself."""
+        own = [None if each is None else dict(each) for each in self.own]
+        return _State(dict(self.values), own, self.beside, self.reason)
+
+
+class _Head(Struct):
+    """A line to which a jump or a loop may come back: what was known and how much was found when it was reached, how
+    often it was run again, the last line to which a way has left since, and whether ways have come into it that were
+    kept before."""
+
+    number: int
+    known: _State
+    found: int
     passes: int = 0
     farthest: float = -1
+    is_aside: bool = False
 
 
 class _Taken(Struct, frozen=True):
@@ -168,21 +187,31 @@ class _Frame(Struct):
     one."""
     is_again: bool = False
     """Whether its next line runs again, nobody knows how often."""
+    entry: Any = None
+    """What whoever follows knew where it was called, if all is as it was there when it ends."""
 
     def go_to(self, index: int) -> None:
         """Go on at a line: what the line that runs still says is left out."""
         self.at, self.rest = index, []
 
     def copy(self) -> "_Frame":
-        """Another one that runs on by itself."""
+        """Another one that runs on by itself, with the same local variables."""
         return replace(
             self,
-            own=None if self.own is None else dict(self.own),
             loops=[replace(each) for each in self.loops],
             branches=[replace(each) for each in self.branches],
             rest=[*self.rest],
             heads={at: replace(each) for at, each in self.heads.items()},
         )
+
+    def meet(self, other: "_Frame") -> None:
+        """Take in another one that has come to the same place."""
+        if len(other.branches) < len(self.branches):
+            self.branches = other.branches
+        for at, head in self.heads.items():
+            same = other.heads.get(at)
+            head.farthest = max(head.farthest, -1 if same is None else same.farthest)
+            head.is_aside = head.is_aside or (same is not None and same.is_aside)
 
     @property
     def place(self) -> Place:
@@ -195,13 +224,11 @@ class _Frame(Struct):
 
 
 class _Way(Struct):
-    """A way through the program that waits: what runs there, the values of variables, under which marks it is kept what
-    is known, and what decides between it and others."""
+    """A way through the program that waits: what runs there, what is known, and how many were kept before."""
 
     frames: list[_Frame]
-    values: dict[str, Known]
-    marks: tuple[int, ...]
-    reason: str
+    known: _State
+    number: int
 
 
 _BEHIND = ((float("inf"), 0.0),)
@@ -250,8 +277,13 @@ class Machine:
         self._steps, self._limit = 0, limit or Limit()
         self._waiting: dict[Place, _Way] = {}
         """The ways that wait."""
-        self._kept_ways, self._decided = 0, ""
-        """How many ways have been kept, and what decided last between the one that runs and others."""
+        self._kept, self._decided = 0, ""
+        """How many ways and heads have been kept, and what decided last between the way that runs and others."""
+        self.found: list[Any] = []
+        """What has been found by whoever follows."""
+        self._follower = Follower()
+        self._beside: Any = None
+        """What he knows here."""
         self._named: set[tuple[str, int]] = set()
         """By file and index: lines to which jumps lead that stay as they are written."""
         self._passed: set[int] = set()
@@ -263,8 +295,6 @@ class Machine:
         self._marks, self._here, self._is_marking = 0, 0, False
         """How many marks there are, the one under which it is kept what is known here, and whether the next block has
         it."""
-        self.settled: int | None = None
-        """The mark to which what runs came back last, where whoever follows says that nothing new follows there."""
         self.passed_over: set[int] = set()
         """The lines of the main file that do not run, because of what was decided."""
         self.finishes = False
@@ -274,6 +304,26 @@ class Machine:
         passed over there."""
         self._has_to_decide = False
         """Whether it ends where nobody knows what is decided."""
+
+    def follow(self, ran: Iterable[Block | ProgramEvent], follower: Follower) -> Iterator[Any]:
+        """Let somebody follow what runs; all that he finds, one by one, and None for a block that waits to be read."""
+        self._follower, self._beside, blocks = follower, follower.begin(None), list[Block]()
+        for each in chain(ran, (None,)):
+            if isinstance(each, Block):
+                blocks.append(each)
+                yield None
+                continue
+            for found in self._read(blocks, each):
+                self.found.append(found)
+                yield found
+            blocks = []
+            if each is not None and each.kind.loses:
+                self._beside = follower.lose(self._beside, each.reason, each.line)
+            elif each is not None and each.kind is EventKind.FRESH:
+                self._beside = follower.begin(each)
+
+    def _read(self, blocks: Sequence[Block], event: ProgramEvent | None) -> Iterator[Any]:
+        self._beside = yield from self._follower.read(self._beside, blocks, event)
 
     def run_alone(self) -> Iterator[Block | ProgramEvent]:
         """The blocks of the main program and of what it calls, as one program without calls and jumps. What is set to a
@@ -495,7 +545,7 @@ class Machine:
         """Run the words of the next line of a frame; what it says besides waits in `rest`."""
         index = frame.here = frame.at
         if index in frame.source.heads and not frame.is_again:
-            yield self._begin_head(frame, index)
+            yield from self._begin_head(frame, index)
         frame.is_again = False
         is_new = frame.source is self.main and index not in self._visited
         if frame.source is self.main:
@@ -533,7 +583,7 @@ class Machine:
             yield block
             yield ProgramEvent(EventKind.LOST, line, truth.reason)
         elif isinstance(truth, Unknown):
-            yield self._part(frame, truth.reason, lambda other: other.rest.clear())
+            yield from self._part(frame, truth.reason, lambda other: other.rest.clear())
             frame.rest = [*when.then]
             yield from self._run_words(frame, block, code)
         elif truth or (index in self._untaken and not self._is_reached):
@@ -674,60 +724,72 @@ class Machine:
         told = f"{block.text.strip()}{where} cannot be decided: {reason}; {advice}"
         raise _UndecidedError(self._line(frame, frame.here), told)
 
-    def _part(self, frame: _Frame, reason: str, change: Callable[[_Frame], object]) -> ProgramEvent:
+    def _part(self, frame: _Frame, reason: str, change: Callable[[_Frame], object]) -> Iterator[ProgramEvent]:
         """Keep another way, which goes on where a change of what runs now puts it."""
-        frames = [*(each.copy() for each in self._frames[:-1]), frame.copy()]
+        line = self._line(frame, frame.here)
+        self._decided = f"program line {line} decides: {reason}"
+        yield ProgramEvent(EventKind.PART, line, self._decided)
+        frames = [each.copy() for each in self._frames]
         change(frames[-1])
         place = frames[-1].rest[0].target if frames[-1].rest and isinstance(frames[-1].rest[0], _Taken) else None
         _leave_to(frame, frames[-1].at if place is None else place)
-        self._kept_ways += 1
-        line = self._line(frame, frame.here)
-        told = self._decided = f"program line {line} decides: {reason}"
-        self._wait(_Way(frames, dict(self.variables.values), (self._kept_ways,), told))
-        return ProgramEvent(EventKind.PART, line, told, self._kept_ways)
+        self._wait(frames, self._state())
 
-    def _wait(self, way: _Way) -> None:
-        """Let a way wait until those that have come less far are there as well."""
-        place = _place(way.frames)
+    def _state(self) -> _State:
+        """What is known here."""
+        return _State(self.variables.values, [each.own for each in self._frames], self._beside, self._decided).copy()
+
+    def _know(self, known: _State) -> None:
+        """Go on with what is known."""
+        self.variables.values, self._beside, self._decided = known.values, known.beside, known.reason
+        for frame, own in zip(self._frames, known.own, strict=True):
+            frame.own = own
+
+    def _join(self, one: _State, other: _State, reason: str) -> _State:
+        """What is known where two ways meet."""
+        own = [
+            None if ours is None or theirs is None else self.variables.join(ours, theirs, reason)
+            for ours, theirs in zip(one.own, other.own, strict=True)
+        ]
+        values = self.variables.join(one.values, other.values, reason)
+        return _State(values, own, self._follower.join((one.beside, other.beside), reason), one.reason or other.reason)
+
+    def _wait(self, frames: list[_Frame], known: _State) -> None:
+        """Let a way wait until those that have come less far are there as well; it meets one that waits there."""
+        self._kept += 1
+        place, number = _place(frames), self._kept
         other = self._waiting.get(place)
-        self._waiting[place] = way if other is None else self._join(other, way)
-
-    def _join(self, one: _Way, other: _Way) -> _Way:
-        """Two ways that have come to the same place: what they know in common."""
-        why = one.reason or other.reason
-        for ours, theirs in zip(one.frames, other.frames, strict=True):
-            if ours.own is not None and theirs.own is not None:
-                ours.own = self.variables.join(ours.own, theirs.own, why)
-            if len(theirs.branches) < len(ours.branches):
-                ours.branches = theirs.branches
-            for at, head in ours.heads.items():
-                head.farthest = max(head.farthest, theirs.heads[at].farthest if at in theirs.heads else -1)
-        values = self.variables.join(one.values, other.values, why)
-        return _Way(one.frames, values, (*one.marks, *other.marks), why)
+        if other is not None:
+            why = other.known.reason or known.reason
+            known, number = self._join(other.known, known, why), other.number
+            for ours, theirs in zip(other.frames, frames, strict=True):
+                ours.meet(theirs)
+                if ours.entry is not theirs.entry:
+                    ours.entry = self._follower.join((ours.entry, theirs.entry), why)
+            frames = other.frames
+        self._waiting[place] = _Way(frames, known, number)
 
     def _meet(self) -> Iterator[ProgramEvent]:
         """Go on with the way that has come least far, together with all others that are there."""
         if not self._waiting or (self._frames and _place(self._frames) < min(self._waiting)):
             return
+        yield ProgramEvent(EventKind.MEET)
         if self._frames:
-            self._kept_ways += 1
-            yield ProgramEvent(EventKind.PAUSE, self._next_line(), mark=self._kept_ways)
-            self._wait(_Way(self._frames, self.variables.values, (self._kept_ways,), self._decided))
+            self._wait(self._frames, self._state())
         way = self._waiting.pop(min(self._waiting))
-        self._frames, self.variables.values, self._decided = way.frames, way.values, way.reason
+        self._frames = way.frames
+        self._know(way.known)
         self._go_on()
-        yield ProgramEvent(EventKind.MEET, self._next_line(), way.reason, ways=way.marks)
+        for head in (each for frame in self._frames for each in frame.heads.values()):
+            head.is_aside = head.is_aside or way.number < head.number
 
-    def _next_line(self) -> int:
-        """The line of the main file at which the next line runs."""
-        frame = self._frames[-1]
-        return self._line(frame, min(frame.at, frame.last))
-
-    def _begin_head(self, frame: _Frame, index: int) -> ProgramEvent:
+    def _begin_head(self, frame: _Frame, index: int) -> Iterator[ProgramEvent]:
         """Keep what is known on a line to which a jump or a loop may come back."""
-        self._kept_ways += 1
-        frame.heads[index] = _Head(self._kept_ways, dict(self.variables.values), frame.own and dict(frame.own))
-        return ProgramEvent(EventKind.HEAD, self._line(frame, index), mark=self._kept_ways)
+        if not self._has_to_decide:
+            # What is written out runs once.
+            yield ProgramEvent(EventKind.HEAD, self._line(frame, index))
+        self._kept += 1
+        frame.heads[index] = _Head(self._kept, self._state(), len(self.found))
 
     def _run_again(self, frame: _Frame, first: int, reason: str) -> Iterator[Block | ProgramEvent]:
         """Go back to a line, nobody knows how often, until nothing new follows; then go on behind the one that runs."""
@@ -738,20 +800,29 @@ class Machine:
             self.variables.lose(self._assigned_in(frame, first, frame.here), reason)
             yield ProgramEvent(EventKind.LOST, line, reason)
             return
-        values = self.variables.join(head.values, self.variables.values, told)
-        own = None if frame.own is None else self.variables.join(head.own or {}, frame.own, told)
+        yield ProgramEvent(EventKind.MEET)
+        both = self._join(head.known, self._state(), told)
         # The deeper a loop is in others, the less often it runs each time.
         within = sum(bool(each.reason) and each.lines.first != first for each in frame.loops)
         is_last = self._is_alone or head.passes >= max(MOST_PASSES - within, 1)
-        self.settled = None
-        yield ProgramEvent(EventKind.AGAIN, line, told, head.mark, is_last=is_last)
-        is_settled = self.settled == head.mark and (values, own) == (head.values, head.own)
+        is_same = self._follower.is_same(both.beside, head.known.beside)
+        is_settled = is_same and (both.values, both.own) == (head.known.values, head.known.own)
         if is_last or is_settled:
-            changed = [name for name, value in {**values, **(own or {})}.items() if isinstance(value, Unknown)]
+            held = {**both.values, **(both.own[-1] or {})}
+            changed = [name for name, value in held.items() if isinstance(value, Unknown)]
             self.variables.lose([*changed, *self._assigned_in(frame, first, frame.here)], reason)
+            if not is_last:
+                # What follows has run.
+                self._beside = self._follower.join((), told)
+            elif not is_same:
+                self._beside = self._follower.lose(self._beside, told, line, in_passes=True)
             return
-        self.variables.values, frame.own = values, own
-        head.values, head.own, head.passes = dict(values), own and dict(own), head.passes + 1
+        if not head.is_aside:
+            # All of it is found anew.
+            del self.found[head.found :]
+        both.reason = self._decided
+        head.known, head.passes = both.copy(), head.passes + 1
+        self._know(both)
         frame.go_to(first)
         frame.is_again = True
 
@@ -849,7 +920,7 @@ class Machine:
             if any(isinstance(each, Return | ProgramEnd) for each in when.then):
                 _leave_to(frame, float("inf"))
             then = _ends_last(when.then)
-            yield self._part(frame, truth.reason, lambda other: other.rest.__setitem__(slice(0, 0), then))
+            yield from self._part(frame, truth.reason, lambda other: other.rest.__setitem__(slice(0, 0), then))
             return
         for jump in jumps:
             yield from self._jump(frame, index, replace(jump, condition=when.condition))
@@ -896,7 +967,7 @@ class Machine:
             self._named.add((frame.source.name, target))
             yield from self._stay(frame, index)
             taken = _Taken(target, reason)
-            yield self._part(frame, reason, lambda other: other.rest.__setitem__(slice(None), [taken]))
+            yield from self._part(frame, reason, lambda other: other.rest.__setitem__(slice(None), [taken]))
         elif not self._is_alone:
             # Where it jumps, the control stops; what follows runs where it does not.
             yield ProgramEvent(EventKind.MAY_STOP, self._line(frame, index), told)
@@ -991,7 +1062,7 @@ class Machine:
         if isinstance(truth, Unknown):
             self._decide(frame, truth.reason)
             yield from self._stay(frame, index)
-            yield self._part(frame, truth.reason, partial(_begin_part, first=index, lines=lines))
+            yield from self._part(frame, truth.reason, partial(_begin_part, first=index, lines=lines))
             frame.branches.append(_Branch(lines, has_run=True, is_undecided=True))
             return
         frame.branches.append(_Branch(lines, truth))
@@ -1069,11 +1140,11 @@ class Machine:
         """Run a loop once more, of which nobody knows whether it does."""
         self._decide(frame, reason)
         if not self._is_alone and not (known is not None and known.reason):
-            yield self._begin_head(frame, lines.first)
+            yield from self._begin_head(frame, lines.first)
         if self._is_alone:
             yield from self._unclear(frame, lines.first, reason)
         _leave_loop(frame, lines)
-        yield self._part(frame, reason, lambda other: other.go_to(lines.last + 1))
+        yield from self._part(frame, reason, lambda other: other.go_to(lines.last + 1))
         frame.loops.append(_Loop(lines, reason=reason))
 
     def _count(self, frame: _Frame, loop: For, lines: LineRange, known: _Loop | None) -> Iterator[Block | ProgramEvent]:
@@ -1114,7 +1185,7 @@ class Machine:
             self._decide(frame, reason)
             yield from self._stay(frame, index)
             if isinstance(until, Unknown):
-                yield self._part(frame, reason, lambda other: _leave_loop(other, loop.lines))
+                yield from self._part(frame, reason, lambda other: _leave_loop(other, loop.lines))
             yield from self._run_again(frame, loop.lines.first, reason)
             if not frame.is_again:
                 frame.loops.remove(loop)
@@ -1171,11 +1242,13 @@ class Machine:
         own = self._arguments(call, source, first)
         begun = self._begun(line, source, first, last, own)
         caller = Caller(line, text, call.cycle, self._is_reached)
+        called = _Frame(source, first, first, last, call, (*frame.callers, caller), times, own, begun)
         if call.kind is CallKind.PROFILE:
             yield ProgramEvent(EventKind.ENTER, line, call.cycle)
+            called.entry = self._beside
             if is_behind:
                 frame.at = last + 1
-        self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own, begun))
+        self._frames.append(called)
 
     def _cannot_call(self, frame: _Frame, index: int, why: Unknown, called: str) -> Iterator[Block | ProgramEvent]:
         """A call of what is not found, and its name. That a file is not there is told where a contour depends on it,
@@ -1256,6 +1329,7 @@ class Machine:
         self._go_on()
         if frame.call is not None and frame.call.kind is CallKind.PROFILE:
             yield ProgramEvent(EventKind.LEAVE, frame.callers[-1].line, frame.call.cycle)
+            self._beside = frame.entry
 
 
 def _is_loop(call: Call | None) -> bool:

@@ -19,6 +19,8 @@ from .contour_form import (
     stated_sets as stated_sets,
 )
 from .control_flow import (
+    Paths as Paths,
+    TakenBlocks as TakenBlocks,
     Ways as Ways,
 )
 from .dialect import (
