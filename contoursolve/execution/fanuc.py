@@ -35,6 +35,7 @@ from contoursolve.execution.macro_language import (
     ProgramEnd,
     Return,
     Strange,
+    VariableScope,
     When,
 )
 from contoursolve.execution.notation import FANUC
@@ -199,6 +200,14 @@ def _unknown(name: str) -> str:
     return f"{name}{UNSET}"
 
 
+_LAST_LOCAL = 33
+
+
+def _scope(name: str) -> VariableScope:
+    is_local = name[1:].isdigit() and 1 <= int(name[1:]) <= _LAST_LOCAL
+    return VariableScope.LEVEL if is_local else VariableScope.EVERYWHERE
+
+
 _NAMES = r"#(?!0+\Z)(?:\d+|<[^<>]+>)"
 
 
@@ -214,6 +223,7 @@ def fanuc() -> MacroLanguage:
         variables=_NAMES,
         examples="#100",
         always_empty="#0",
+        scope=_scope,
         made_by=fanuc,
     )
 
@@ -233,5 +243,6 @@ def haas() -> MacroLanguage:
         variables=_NAMES,
         examples="#100",
         always_empty="#0",
+        scope=_scope,
         made_by=haas,
     )

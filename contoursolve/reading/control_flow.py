@@ -117,12 +117,23 @@ class Ways(Follower):
     def is_same(self, one: Paths, other: Paths) -> bool:
         return [*map(_known, one.ways)] == [*map(_known, other.ways)]
 
-    def lose(self, known: Paths, reason: str, line: int, *, in_passes: bool = False) -> Paths:
+    def restore(self, entry: Paths, now: Paths) -> Paths:
+        if not entry.ways:
+            return now
+        # No contour goes on beyond a call, so that the ways have met there.
+        before = entry.ways[0]
+        ways = [replace(each, state=before.state.with_place_of(each.state), lines=before.lines) for each in now.ways]
+        return replace(now, ways=ways)
+
+    def lose(self, known: Paths, reason: str, line: int, *, modes: bool = False, in_passes: bool = False) -> Paths:
         if in_passes:
             told = "the contour goes on" if any(each.unread for each in known.ways) else "it is another place"
             reason = f"{told} from pass to pass; {reason}"
         axes, span = self.modes.axes, Span(line, 1, 2)
-        return replace(known, ways=[replace(each, state=each.state.lose(axes, reason, span)) for each in known.ways])
+        states = [each.state.lose(axes, reason, span) for each in known.ways]
+        if modes:
+            states = [each.doubt(self.modes.lasting, f"{reason}{_on_line(line)}") for each in states]
+        return replace(known, ways=[replace(way, state=state) for way, state in zip(known.ways, states, strict=True)])
 
 
 class TakenBlocks(Struct, frozen=True):

@@ -201,6 +201,18 @@ class State(Struct, frozen=True):
         """The state with the position on these axes unknown."""
         return self.move({axis: Position(None, reason, span) for axis in axes})
 
+    def doubt(self, lasting: Iterable[str], reason: str) -> "State":
+        """The state in which no mode is known, nor any word that stays in force."""
+        names: list[Mode | str] = [*dict.fromkeys([*lasting, *self.memory])]
+        names += (mode for mode in Mode if mode is not Mode.DIAMETER or self.diameter is not None)
+        return replace(self, doubts=dict.fromkeys(names, reason))
+
+    def with_place_of(self, now: "State") -> "State":
+        """The state with the position of another one, and with the words that stay in force there."""
+        doubts = [each for each in self.doubts.items() if isinstance(each[0], Mode)]
+        words = [each for each in now.doubts.items() if isinstance(each[0], str)]
+        return replace(self, axes=now.axes, memory=now.memory, doubts=dict([*doubts, *words]))
+
 
 def unread_state(unit: Length) -> State:
     """The state of a program whose control is not known: there are no axes, and nothing is in force."""
