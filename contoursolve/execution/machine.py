@@ -652,7 +652,8 @@ class Machine:
             called = self.variables.values.get(_CALLED_BEHIND)
             if called is not None and any(word.address.rstrip("0123456789") in _AXES for word in ran.words):
                 reason = called.reason if isinstance(called, Unknown) else str(called)
-                yield ProgramEvent(EventKind.CALLED, self._line(frame, frame.here), reason)
+                keeps = _LOSES_MODES not in self.variables.values
+                yield ProgramEvent(EventKind.CALLED, self._line(frame, frame.here), reason, keeps_modes=keeps)
 
     def _has_strange_words(self, block: Block, code: CodeLine) -> bool:
         """Whether what looks like assignments stands among words, to variables that nobody has declared: `G1 X5 AGN=30`
@@ -916,12 +917,16 @@ class Machine:
             called = self.variables.values.pop(_CALLED_BEHIND, None)
             if called is not None:
                 reason = called.reason if isinstance(called, Unknown) else str(called)
+                keeps = self.variables.values.pop(_LOSES_MODES, None) is None
                 yield from self._stay(frame, index) if not self._says_words(frame, index) else ()
-                yield ProgramEvent(EventKind.LOST, self._line(frame, index), reason, is_told=True)
+                line = self._line(frame, index)
+                yield ProgramEvent(EventKind.LOST, line, reason, keeps_modes=keeps, is_told=True)
             return
         self.variables.lose_all(call.reason)
         self.variables.values[_CALLED_BEHIND] = call.reason
-        yield from self._unclear(frame, index, call.reason, unread=call.name)
+        if not call.keeps_modes:
+            self.variables.values[_LOSES_MODES] = call.reason
+        yield from self._unclear(frame, index, call.reason, unread=call.name, keeps_modes=call.keeps_modes)
 
     def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Block | ProgramEvent]:
         truth = self.variables.truth(when.condition)
@@ -1228,8 +1233,7 @@ class Machine:
         text = frame.source.blocks[index].text.strip()
         found = self.library.find_called(call, frame.source, index, self.main, self.variables.resolve)
         if isinstance(found, Unknown):
-            is_bare = isinstance(call.target, str) and not call.arguments and not frame.source.name
-            yield from self._cannot_call(frame, index, found, str(call.target) if is_bare else "")
+            yield from self._cannot_call(frame, index, call, found)
             return
         source, first, last = found
         if last < first:
@@ -1278,13 +1282,16 @@ class Machine:
         if own is not None:
             self.variables.levels.append(own.copy())
 
-    def _cannot_call(self, frame: _Frame, index: int, why: Unknown, called: str) -> Iterator[Block | ProgramEvent]:
-        """A call of what is not found, and its name. That a file is not there is told where a contour depends on it,
+    def _cannot_call(self, frame: _Frame, index: int, call: Call, why: Unknown) -> Iterator[Block | ProgramEvent]:
+        """A call of what is not found. That a file is not there is told where a contour depends on it,
         and that the program names what it has not in any case."""
         self.variables.lose_all(why.reason)
         if isinstance(why, Absent):
             raise _RefusedError(why.reason)
-        yield from self._unclear(frame, index, why.reason, called)
+        name = call.target if isinstance(call.target, str) else ""
+        called = "" if call.arguments or frame.source.name else name
+        keeps_modes = call.kind is CallKind.PROFILE or bool(re.fullmatch(self.language.own_cycles, name))
+        yield from self._unclear(frame, index, why.reason, called, keeps_modes=keeps_modes)
 
     def _begun(self, line: int, source: ProgramFile, first: int, last: int, own: VariableLevel | None) -> _Begun:
         """The identity of a call with its values. Raises _RefusedError for a call that runs already with the same ones:
@@ -1509,6 +1516,7 @@ def _first(values: Iterable[int | None]) -> int | None:
 
 _CALLED_BEHIND = "a call after each move"
 """Under this name it is known what a modal call does: ways that meet agree on it as on variables."""
+_LOSES_MODES = "the modes behind that call"
 _AXES = frozenset("XYZUVWABC")
 """Addresses of what moves."""
 

@@ -244,6 +244,8 @@ class ModalCall(Struct, frozen=True, tag=True):
     reason: str = ""
     name: str = ""
     """The word of the control that makes it."""
+    keeps_modes: bool = False
+    """Whether it leaves the modes as they were."""
 
 
 MacroStatement = (
@@ -323,6 +325,8 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """Where a variable is known that no program defines by its type."""
     shows_main: bool = True
     """Whether subprograms know what the main program defines."""
+    own_cycles: str = ""
+    """Pattern of names of the maker's own cycles, which leave the modes as they were; none if it is empty."""
     with_names: "Callable[[tuple[str, ...]], MacroLanguage] | None" = None
     """The same where some more names are those of commands, which call no subprogram; None where a name calls none."""
     made_by: Callable[[], "MacroLanguage"] | None = None

@@ -280,7 +280,15 @@ def _key(word: str) -> str:
     return word + _BEHIND
 
 
-_MODAL_CALL = ModalCall("contoursolve does not read MCALL yet: it calls a subprogram after each move", "MCALL")
+_OWN_CYCLES = r"(?:CYCLE\d++|HOLES\d|POCKET\d|SLOT\d|LONGHOLE|E_\w++|F_\w++)"
+"""Recalled: the maker's cycles begin with PROC NAME SAVE."""
+
+
+def _modal_call(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    reason = "contoursolve does not read MCALL yet: it calls a subprogram after each move"
+    yield ModalCall(reason, "MCALL", found["cycle"] is not None)
+
+
 SYNCHRONOUS = r"(?:IDS?[ \t]*+=[ \t]*+\d++[ \t]*+)?(?:WHEN|WHENEVER|FROM|EVERY|DO)\b"
 """Beginning of a synchronous action, which runs beside the program whenever its condition holds."""
 MOVES_BESIDE = r".*\b(?:(?:POSA?|MOV)[ \t]*+\[|DO\b.*(?<![A-Z_$\[])[XYZ][ \t]*+=?+[ \t]*+[-+.\d])"
@@ -328,7 +336,7 @@ _TABLE = (
     Spelling(_key("CASE"), _case),
     Spelling(_key(rf"CALL[ \t]++BLOCK[ \t]++(?P<first>{_LABEL})[ \t]++TO[ \t]++(?P<last>{_LABEL})"), _between),
     Spelling(_key("(?:CALL|PCALL|EXTCALL)"), _call_by_name),
-    Spelling(_key("MCALL") + "(?=[ \t]*+[A-Z]).*+", lambda *_: [_MODAL_CALL]),
+    Spelling(_key("MCALL") + rf"(?=[ \t]*+[A-Z])[ \t]*+(?P<cycle>{_OWN_CYCLES}(?!\w))?.*+", _modal_call),
     Spelling(_key("MCALL"), lambda *_: [ModalCall()]),
     Spelling(_key("RET"), _return),
     Spelling(rf"(?P<cycle>CYCLE(?:95|62))[ \t]*+(?P<given>{IN_PARENTHESES})", _profile),
@@ -389,5 +397,6 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
         _unknown,
         variables=_NAMES,
         declared=_DECLARED,
+        own_cycles=_OWN_CYCLES,
         examples="R100 or a name such as _ANG",
     )

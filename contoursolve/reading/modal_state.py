@@ -362,6 +362,7 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
             state = replace(state, diameter=code.diameter).settle(Mode.DIAMETER)
     if state.doubts:
         state = state.settle(*(mode for code in codes for mode in _SETS.get(code.effect, ())))
+        state = state.settle(*(word.address for word in block.words if word.address in modes.lasting))
     if modes.remember is not None:
         state = state.remember(modes.remember(state.memory, block))
     return with_diameters(state)
@@ -398,7 +399,9 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         state = state.lose(tuple(stated), "a new program begins", block.span)
     for word in block.words:
         if modes.is_call(word) or modes.is_unread_call(word):
-            return state.lose(modes.axes, modes.why_lost(word), word.span)
+            why = modes.why_lost(word)
+            state = state.doubt(modes.lasting, why) if modes.is_unread_call(word) else state
+            return state.lose(modes.axes, why, word.span)
     codes = codes_of(block, modes)
     for code in codes:
         if isinstance(code, Word):

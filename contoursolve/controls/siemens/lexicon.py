@@ -232,12 +232,13 @@ _ENDS, _LEXICON = frozenset({17}), _words()
 
 
 @cache
-def statements(more: tuple[str, ...] = ()) -> MacroLanguage:
+def statements(more: tuple[str, ...] = (), *, shows_main: bool = True) -> MacroLanguage:
     """Variables, jumps and calls: a name that is no word and no command calls a subprogram; `more` are further ones of
-    the machine builder."""
+    the machine builder. Subprograms may know what the main program defines."""
     names = [*SYNTAX.codes, *_LEXICON.plain_names(), *more]
-    made_by = partial(statements, more)
-    return structs.replace(sinumerik(names), declares=True, made_by=made_by, with_names=statements)
+    made_by, with_names = (partial(each, shows_main=shows_main) for each in (partial(statements, more), statements))
+    language = structs.replace(sinumerik(names), declares=True, shows_main=shows_main)
+    return structs.replace(language, made_by=made_by, with_names=with_names)
 
 
 MODES = Modes(
