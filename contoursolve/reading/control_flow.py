@@ -81,7 +81,7 @@ class Ways(Follower):
         elif event is not None:
             told = f"{event.reason}; say with --start where the tool is when it begins"
             unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
-            state = state.lose(unknown, told, Span(event.line, 1, 2))
+            state = state.lose_all(unknown, told, Span(event.line, 1, 2))
         return Paths((ControlFlowPath(state),))
 
     def read(self, known: Paths, blocks: Sequence[Block], event: ProgramEvent | None) -> Generator[Any, None, Paths]:
@@ -122,7 +122,7 @@ class Ways(Follower):
             told = "the contour goes on" if any(each.unread for each in known.ways) else "it is another place"
             reason = f"{told} from pass to pass; {reason}"
         axes, span = self.modes.axes, Span(line, 1, 2)
-        return replace(known, ways=[replace(each, state=each.state.lose(axes, reason, span)) for each in known.ways])
+        return replace(known, ways=[replace(each, state=each.state.lose_all(axes, reason, span)) for each in known.ways])
 
 
 class TakenBlocks(Struct, frozen=True):
@@ -224,6 +224,7 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
         axes=axes,
         motion=ours.motion if ours.motion == theirs.motion else motion,
         memory=memory if _memories(ours) != _memories(theirs) else ours.memory,
+        zero={name: value for name, value in ours.zero.items() if theirs.zero.get(name) == value},
         doubts=doubts,
     )
     return ControlFlowPath(with_diameters(state), one.unread, {**other.lines, **one.lines})
@@ -279,4 +280,4 @@ def _known(way: ControlFlowPath) -> object:
     """The knowledge on a way."""
     state = way.state
     places = {axis: None if at.value is None else round(at.value, 9) for axis, at in state.axes.items()}
-    return tuple(map(_key, way.unread)), places, _values(state), _memories(state), {*state.doubts}
+    return tuple(map(_key, way.unread)), places, _values(state), _memories(state), {*state.doubts}, state.zero
