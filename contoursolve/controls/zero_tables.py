@@ -26,10 +26,11 @@ class _Family(Struct, frozen=True):
     further: Decimal
     is_mill: bool
 
-    @property
-    def tools(self) -> Entry:
-        """The offsets of tools."""
-        return Entry(LENGTH, axes=("Z",)) if self.is_mill else Entry(TOOL, axes=("X", "Z"))
+    def tool(self, number: Decimal | int | None) -> Entry:
+        """The offset of a tool by its number; of a lathe, 0 shifts the work."""
+        if self.is_mill:
+            return Entry(LENGTH, axes=("Z",))
+        return Entry(TOOL, (("T", number % _GEOMETRY),) if number else None, ("X", "Z"), digits=2)
 
     def axes_at(self, place: int) -> tuple[str, ...]:
         """The axes of which one has a place among variables: a third one of a lathe may be Z."""
@@ -46,7 +47,7 @@ class _Family(Struct, frozen=True):
         elif kind == _OF_FURTHER:
             yield Entry(WORK, None if number is None else (("G", self.further), ("P", number)), axes)
         elif kind is None or kind < _OF_FURTHER:
-            yield self.tools
+            yield self.tool(number)
 
     def entries_set(self, name: str) -> Iterator[Entry]:
         """The entries of tables that a variable is; any may be one whose index is not known."""
@@ -56,12 +57,15 @@ class _Family(Struct, frozen=True):
             if 0 <= at < count:
                 by_code = (("G", _FIRST_CODE + at),) if first == _BY_CODE else (("G", self.further), ("P", at + 1))
                 yield Entry(WORK, None if first == _EXTERNAL else by_code, self.axes_at(place))
-        if any(first <= number <= last for first, last in _TOOLS):
-            yield self.tools
+        for first, last in _TOOLS:
+            if first <= number <= last:
+                yield self.tool((number - first) % (100 if last < _GEOMETRY else 1000) + 1)
         if not name:
             yield Entry(WORK)
 
 
+_GEOMETRY = 10000
+"""From here on, numbers of tool offsets mean their geometry."""
 _TOOLS = ((2001, 2999), (10001, 13999))
 """Variables of tool offsets, and of work offsets as some number them."""
 

@@ -40,11 +40,19 @@ Offset = tuple[tuple[str, Decimal | int], ...]
 
 class Entry(Struct, frozen=True):
     """An entry of a table that a block changes: its group, the offset, None where it is in force whatever is selected,
-    and its axes; none for all."""
+    and its axes; none for all. Of numbers that begin with another one, such as T0102, `digits` tells how many count."""
 
     group: str
     offset: Offset | None = None
     axes: tuple[str, ...] = ()
+    digits: int = 0
+
+    def is_in(self, zero: Mapping[str, object]) -> bool:
+        """Whether it is in force, or may be."""
+        in_force = zero.get(self.group)
+        if self.digits and isinstance(in_force, tuple):
+            in_force = tuple((address, number % 10**self.digits) for address, number in in_force)
+        return self.offset is None or in_force is None or in_force == self.offset
 
 
 Entries = Callable[[Block, tuple[str, ...]], Iterable[Entry]]
@@ -197,8 +205,7 @@ def change_entries(
     """What a change of entries of tables moves: those that are in force, or may be."""
     lost = dict[str, None]()
     for entry in entries:
-        in_force = zero.get(entry.group)
-        if entry.offset is None or in_force is None or in_force == entry.offset:
+        if entry.is_in(zero):
             lost.update(dict.fromkeys(axis for axis in entry.axes or axes if axis in axes))
     return Moved(lost, zero, f"{reason}, which is in force or may be") if lost else None
 
