@@ -109,7 +109,7 @@ class Follower:
         """Whether as much is known."""
         return True
 
-    def restore(self, _entry: Any, now: Any) -> Any:
+    def restore(self, _entry: Any, now: Any, _reason: str, _line: int) -> Any:
         """What is known where a subprogram ends that saves the modes, given what was known where it was called."""
         return now
 

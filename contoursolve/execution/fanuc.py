@@ -208,6 +208,8 @@ def _scope(name: str) -> VariableScope:
     return VariableScope.LEVEL if is_local else VariableScope.EVERYWHERE
 
 
+_MOVING = r"#(?:2\d{3}|5[23]\d\d|7\d{3}|1\d{4})"
+"""Variables of work and tool offsets: #2001 and up, #5201 and up, #7001 and up, #10001 and up."""
 _NAMES = r"#(?!0+\Z)(?:\d+|<[^<>]+>)"
 
 
@@ -221,6 +223,7 @@ def fanuc() -> MacroLanguage:
         program_files,
         _unknown,
         variables=_NAMES,
+        moving=_MOVING,
         examples="#100",
         always_empty="#0",
         scope=_scope,
@@ -241,6 +244,7 @@ def haas() -> MacroLanguage:
         program_files,
         _unknown,
         variables=_NAMES,
+        moving=_MOVING,
         examples="#100",
         always_empty="#0",
         scope=_scope,

@@ -631,9 +631,22 @@ class Machine:
                 continue
             if not isinstance(statement, Assign | Forget):
                 return code, [statement, *rest]
-            if not self.variables.assign(statement) and self._is_alone:
+            is_known = self.variables.assign(statement)
+            name = self.variables.name(statement.variable)
+            if self.language.may_move(name if isinstance(name, str) else ""):
+                # Whoever reads the blocks has to see it.
+                is_one = len(code.statements) == 1 and isinstance(name, str)
+                code = replace(code, rest=self._set_anew(name, block) if is_one else block.text)
+            elif not is_known and self._is_alone:
                 code = replace(code, rest=block.text)
         return code, []
+
+    def _set_anew(self, name: str | Unknown, block: Block) -> str:
+        """The line that sets a variable to what it holds now, with a number for the name; as it is written, if that is
+        not known."""
+        value = self.variables.value(Variable(name)) if isinstance(name, str) else None
+        head = block.text[: len(block.text) - len(block.text.lstrip())]
+        return f"{head}{name}={written(value)}" if isinstance(value, float) else block.text
 
     def _run_words(self, frame: _Frame, block: Block, code: CodeLine) -> Iterator[Block | ProgramEvent]:
         """Run the words of a line."""
@@ -893,9 +906,14 @@ class Machine:
                 told = f"which stands twice, in program lines {places}: give each its own number"
                 yield f"program line {line} names {what} {name}, {told}"
 
-    def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Block | ProgramEvent]:
+    def _do_assign(self, frame: _Frame, index: int, statement: Assign | Forget) -> Iterator[Block | ProgramEvent]:
         self.variables.assign(statement)
-        yield from ()
+        name = self.variables.name(statement.variable)
+        if self.language.may_move(name if isinstance(name, str) else ""):
+            block = frame.source.blocks[index]
+            text = self._set_anew(name, block)
+            ran = parse_block(text, block.line, block.syntax)
+            yield replace(ran, callers=frame.callers, file=frame.source.name)
 
     def _do_end(self, _frame: _Frame, _index: int, _statement: ProgramEnd) -> Iterator[Block | ProgramEvent]:
         self._frames = []
@@ -1402,8 +1420,10 @@ class Machine:
 
     def _bring_back(self, frame: _Frame) -> Iterator[ProgramEvent]:
         """Put the modes in force again that were in force where a subprogram was called."""
-        yield ProgramEvent(EventKind.BARRIER, frame.callers[-1].line)
-        self._beside = self._follower.restore(frame.entry, self._beside)
+        line = self._line(frame, frame.here)
+        yield ProgramEvent(EventKind.BARRIER, line)
+        told = f"the coordinate system is again that of {frame.callers[-1].text}, by SAVE"
+        self._beside = self._follower.restore(frame.entry, self._beside, told, line)
         self._go_on()
 
 

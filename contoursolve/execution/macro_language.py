@@ -1,5 +1,6 @@
 """Statements of a program besides words with numbers: variables, jumps, loops and calls, for every control."""
 
+import re
 from collections.abc import Callable, Mapping
 from enum import Enum
 from typing import Any
@@ -317,6 +318,8 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """Pattern of further names that a program may declare; none if it is empty."""
     examples: str = ""
     """Names of variables, for a reader: the first one has a number."""
+    moving: str = ""
+    """Pattern of variables of the machine whose values move the coordinate system; none if it is empty."""
     always_empty: str = ""
     """The variable that is always empty, where variables may be: `#0`."""
     passes_return: bool = False
@@ -331,6 +334,11 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """The same where some more names are those of commands, which call no subprogram; None where a name calls none."""
     made_by: Callable[[], "MacroLanguage"] | None = None
     """The function that makes it, by whose name it is sent to another process."""
+
+    def may_move(self, name: str) -> bool:
+        """Whether a variable of this name moves the coordinate system; any may be one whose index is not known, which
+        has no name."""
+        return bool(self.moving) and (not name or re.fullmatch(self.moving, name) is not None)
 
     def value_of(self, name: str, values: Mapping[str, Known]) -> Known:
         """The value of a variable by its name, given those of others."""

@@ -81,6 +81,17 @@ from .modal_state import (
     rows_of as rows_of,
     unread_state as unread_state,
 )
+from .moved_zero import (
+    LENGTH as LENGTH,
+    TOOL as TOOL,
+    WORK as WORK,
+    Entry as Entry,
+    Offset as Offset,
+    ZeroMove as ZeroMove,
+    ZeroRow as ZeroRow,
+    ZeroTable as ZeroTable,
+    table_of as table_of,
+)
 from .parsed_contour import (
     ParsedContour as ParsedContour,
     ReadIssue as ReadIssue,

@@ -13,7 +13,7 @@ from contoursolve.diagnostics import Span
 from contoursolve.execution import EventKind, Follower, ProgramEvent
 from contoursolve.gcode import Block
 from contoursolve.reading.lexicon import Effect
-from contoursolve.reading.modal_state import Mode, Modes, Position, State, with_diameters
+from contoursolve.reading.modal_state import Mode, Modes, Position, State, bring_back, with_diameters
 
 _SAME = Decimal("1e-9")
 """mm by which two positions differ that are one; see `contoursolve.tolerance.LENGTH`."""
@@ -81,7 +81,7 @@ class Ways(Follower):
         elif event is not None:
             told = f"{event.reason}; say with --start where the tool is when it begins"
             unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
-            state = state.lose(unknown, told, Span(event.line, 1, 2))
+            state = state.lose_all(unknown, told, Span(event.line, 1, 2))
         return Paths((ControlFlowPath(state),))
 
     def read(self, known: Paths, blocks: Sequence[Block], event: ProgramEvent | None) -> Generator[Any, None, Paths]:
@@ -117,12 +117,15 @@ class Ways(Follower):
     def is_same(self, one: Paths, other: Paths) -> bool:
         return [*map(_known, one.ways)] == [*map(_known, other.ways)]
 
-    def restore(self, entry: Paths, now: Paths) -> Paths:
+    def restore(self, entry: Paths, now: Paths, reason: str, line: int) -> Paths:
         if not entry.ways:
             return now
         # No contour goes on beyond a call, so that the ways have met there.
-        before = entry.ways[0]
-        ways = [replace(each, state=before.state.with_place_of(each.state), lines=before.lines) for each in now.ways]
+        before, span = entry.ways[0], Span(line, 1, 2)
+        ways = [
+            replace(each, state=bring_back(before.state, each.state, reason, span), lines=before.lines)
+            for each in now.ways
+        ]
         return replace(now, ways=ways)
 
     def lose(self, known: Paths, reason: str, line: int, *, modes: bool = False, in_passes: bool = False) -> Paths:
@@ -130,7 +133,7 @@ class Ways(Follower):
             told = "the contour goes on" if any(each.unread for each in known.ways) else "it is another place"
             reason = f"{told} from pass to pass; {reason}"
         axes, span = self.modes.axes, Span(line, 1, 2)
-        states = [each.state.lose(axes, reason, span) for each in known.ways]
+        states = [each.state.lose_all(axes, reason, span) for each in known.ways]
         if modes:
             states = [each.doubt(self.modes.lasting, f"{reason}{_on_line(line)}") for each in states]
         return replace(known, ways=[replace(way, state=state) for way, state in zip(known.ways, states, strict=True)])
@@ -235,6 +238,7 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
         axes=axes,
         motion=ours.motion if ours.motion == theirs.motion else motion,
         memory=memory if _memories(ours) != _memories(theirs) else ours.memory,
+        zero={name: value for name, value in ours.zero.items() if theirs.zero.get(name) == value},
         doubts=doubts,
     )
     return ControlFlowPath(with_diameters(state), one.unread, {**other.lines, **one.lines})
@@ -290,4 +294,4 @@ def _known(way: ControlFlowPath) -> object:
     """The knowledge on a way."""
     state = way.state
     places = {axis: None if at.value is None else round(at.value, 9) for axis, at in state.axes.items()}
-    return tuple(map(_key, way.unread)), places, _values(state), _memories(state), {*state.doubts}
+    return tuple(map(_key, way.unread)), places, _values(state), _memories(state), {*state.doubts}, state.zero

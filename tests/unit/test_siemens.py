@@ -166,7 +166,7 @@ def test_a_corner_that_does_not_fit_is_refused_and_what_the_control_does_is_told
         ("L10", "L10"),
         ("POCKET", "POCKET"),
         ('CYCLE95("KONTUR",2,0.1,,,0.2)', "CYCLE95"),
-        ("TRANS X10", "TRANS"),
+        ("ROT RPL=30\nG0 X0 Y0\nTRANS X10", "TRANS"),
         ("ROT RPL=30", "ROT"),
         ("G54", "G54"),
         ("G1 AP=30 RP=20", "read AP yet"),

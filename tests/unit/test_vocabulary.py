@@ -189,7 +189,9 @@ def test_axes_that_turn_stand_beside_moves_that_a_corner_joins(words):
     ],
 )
 def test_words_beside_the_path_are_known(control, words):
-    assert not findings(control, BESIDE[control].format(words))
+    # The tool that is there already.
+    head = "T0101\n" if "T0101" in words else ""
+    assert not findings(control, head + BESIDE[control].format(words))
 
 
 def test_a_machine_builder_s_words_are_a_setting():
@@ -263,8 +265,8 @@ def test_a_contour_that_needs_it_is_refused_with_its_name_alone(lines, name):
 
 @pytest.mark.parametrize("control", ["fanuc-mill", "nct-99m", MITSUBISHI])
 def test_behind_a_contour_that_ends_by_itself_it_refuses_nothing(control):
-    result = contoursolve.solve(f"{MILL}G1 X30. ,R5.\nX40. Y40.\nG54.1 P3", control=control)
-    assert told(result.diagnostics) == [("not-read", "info", "contoursolve does not read G54.1 yet")]
+    result = contoursolve.solve(f"{MILL}G1 X30. ,R5.\nX40. Y40.\nG53.1", control=control)
+    assert told(result.diagnostics) == [("not-read", "info", "contoursolve does not read G53.1 yet")]
     assert result.answers[0].status is Status.SOLVED
 
 

@@ -11,7 +11,7 @@ from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
-from contoursolve.controls.siemens.lexicon import BOOK, MODES, SYNTAX, statements
+from contoursolve.controls.siemens.lexicon import AXIAL_MODES, BOOK, MODES, SYNTAX, statements
 from contoursolve.controls.siemens.rules import RULES, RULES_REDUCING
 from contoursolve.execution import MacroLanguage
 from contoursolve.gcode import Block, Word, words_as
@@ -65,9 +65,9 @@ def _main_def(default: str) -> Setting:
 SIEMENS_840D = Dialect(
     name="siemens-840d",
     title="SINUMERIK 840D sl, 828D and ONE",
-    modes=MODES,
+    modes=AXIAL_MODES,
     plane=PLANES[17],
-    forms=forms_of(LANGUAGE, MODES),
+    forms=forms_of(LANGUAGE, AXIAL_MODES),
     rules=RULES,
     find=ChainFinder(LANGUAGE),
     signs=_signs,
