@@ -349,7 +349,9 @@ def _sum(one: object, other: object) -> Decimal | None:
 
 
 _PLAIN_SHIFT = re.compile(r"CTRANS[ \t]*+\((?P<pairs>[^()]*+)\)[ \t]*+(?:;.*+)?$", re.IGNORECASE)
-_PAIR = re.compile(r"[ \t]*+(?P<axis>[A-Z]\d?)[ \t]*+,[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))[ \t]*+", re.IGNORECASE)
+_PAIR = re.compile(
+    r"[ \t]*+(?P<axis>[A-Z]\d?)[ \t]*+,[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))[ \t]*+", re.IGNORECASE
+)
 
 
 def _formula(

@@ -45,9 +45,15 @@ def _followed(machine: Machine, dialect: Dialect, unit: Length) -> Iterator[Bloc
     def take(held: Sequence[Block], index: int, state: State, _: bool) -> TakenBlocks:
         return TakenBlocks(1, advance(state, held[index], dialect.modes))
 
-    ran, lines = list[Block | ProgramEvent](), lines_alone(machine, _refuse)
+    ran = list[Block | ProgramEvent]()
+
+    def kept() -> Iterator[Block | ProgramEvent]:
+        for each in lines_alone(machine, _refuse):
+            ran.append(each)
+            yield each
+
     ways = Ways(lambda: dialect.initial_state(unit), dialect.modes, take)
-    deque(machine.follow((each for each in lines if ran.append(each) is None), ways), 0)
+    deque(machine.follow(kept(), ways), 0)
     yield from ran
 
 
