@@ -33,7 +33,9 @@ def write_back(before: State, now: State, ran: Sequence[Block], modes: Modes) ->
     rows = [row for block in ran for row, _ in modes.zero.rows_in(block) if row.group in ("", WORK)]
     lines = zero_written_back(before.zero, now.zero, modes.zero, modes.axes, before.unit.in_mm) if rows else iter(())
     if lines is None:
-        return WrittenBack(refused="which work offset and shift are in force at the call is not known: select them before it")
+        return WrittenBack(
+            refused="which work offset and shift are in force at the call is not known: select them before it"
+        )
     others = dict.fromkeys(
         code.text
         for block in ran
