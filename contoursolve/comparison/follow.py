@@ -83,7 +83,7 @@ def follow(
         steps = follower.walk(result.program, result.answers)
     else:
         asked, machine.finishes = Request(dialect, unit, result.policy, Depth.VERDICT, result.start), finishes
-        steps = follower.run(walk(machine.run_all_alone(), asked), finishes=finishes)
+        steps = follower.run(walk((), asked, machine=machine, is_whole=True), finishes=finishes)
     return ToolPath(result.program.name, dialect.name, axes, tuple(steps), tuple(follower.ran))
 
 

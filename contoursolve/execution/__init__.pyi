@@ -6,7 +6,9 @@ from .evaluate import (
 )
 from .events import (
     EventKind as EventKind,
+    Follower as Follower,
     ProgramEvent as ProgramEvent,
+    WrittenBack as WrittenBack,
 )
 from .fanuc import (
     fanuc as fanuc,

@@ -19,6 +19,8 @@ from .contour_form import (
     stated_sets as stated_sets,
 )
 from .control_flow import (
+    Paths as Paths,
+    TakenBlocks as TakenBlocks,
     Ways as Ways,
 )
 from .dialect import (
@@ -78,6 +80,17 @@ from .modal_state import (
     positions as positions,
     rows_of as rows_of,
     unread_state as unread_state,
+)
+from .moved_zero import (
+    LENGTH as LENGTH,
+    TOOL as TOOL,
+    WORK as WORK,
+    Entry as Entry,
+    Offset as Offset,
+    ZeroMove as ZeroMove,
+    ZeroRow as ZeroRow,
+    ZeroTable as ZeroTable,
+    table_of as table_of,
 )
 from .parsed_contour import (
     ParsedContour as ParsedContour,

@@ -143,3 +143,11 @@ def heading(element: Element, at: complex) -> complex:
     if element.center is None:
         return (element.end - element.start) / abs(element.end - element.start)
     return (at - element.center) / element.radius * (1j if element.turn == "ccw" else -1j)
+
+
+def test_an_increment_from_an_unknown_start_leads_nowhere():
+    text = "G17 G90 G0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX116 Y115.4 ANG=120\nG0 X5\nG1 Y94 RND=1\nX20"
+    assert [(each.code, each.span.line) for each in siemens(text).diagnostics] == [
+        ("position-unknown", 2),
+        ("position-unknown", 5),
+    ]

@@ -16,6 +16,7 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.further import MILLS, UNREAD_CALLS, known_by_name, letters
 from contoursolve.controls.plain import CALLS, MILL_CODES, PLANES, code_rows, merge
+from contoursolve.controls.zero_tables import zero_table
 from contoursolve.diagnostics import Book
 from contoursolve.execution import fanuc
 from contoursolve.geometry import Unit
@@ -72,7 +73,13 @@ WORDS = Lexicon(
     BOOK.assumed("an address that cannot stand there stops the control"),
 )
 MODES = Modes(
-    WORDS, known_by_name(CODES_SOURCE, MILLS, CODES), AXES, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS
+    WORDS,
+    known_by_name(CODES_SOURCE, MILLS, CODES),
+    AXES,
+    CALLS,
+    language=fanuc(),
+    unread_calls=UNREAD_CALLS,
+    zero=zero_table(BOOK.assumed("work and tool offsets, as on Fanuc"), AXES),
 )
 
 UNCOMPENSATED, UNCOMPENSATED_FREE = "@uncompensated", "@uncompensated-free"
