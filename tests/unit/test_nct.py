@@ -293,7 +293,7 @@ def test_increments_of_a_contour_without_a_path_are_no_coordinates():
     assert second.start.values == (5, 25)
     first, second = solve("G17 G90 G0 X10 Y10 Z3\nG91 G1 X15 ,C50\nX10\nG90 Y50 ,A30").answers
     assert first.contour is None
-    assert second.start.values == (None, None)
+    assert second.start.values == (35, 10)
 
 
 # Grades, places, alarms, and what is assumed --------------------------------------------------------------------
