@@ -183,6 +183,8 @@ class Fanuc(Interpreter):
         elif code == "G53":
             self.leave([*named])
         else:
+            if not self.modes.is_absolute:
+                raise Stopped("G92 in increments, of which the facts say nothing")
             here = self.position()
             for axis, value in named.items():
                 self.others[axis] = self.others[axis] + here[AXES.index(axis)] - value

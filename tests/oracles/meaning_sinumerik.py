@@ -208,7 +208,7 @@ class Sinumerik(Interpreter):
                 fine = total.get(axis, none) - coarse.get(axis, none)
                 total[axis] = one + fine if name == "G58" else coarse.get(axis, none) + one
                 coarse[axis] = one if name == "G58" else coarse.get(axis, none)
-            frame = Frame(total, coarse, is_plain=False)
+            frame = Frame(total, coarse, is_plain=frame.is_plain and name == "G58")
         elif name in ("G58", "G59"):
             frame = Frame({axis: lost(self.line) for axis in AXES}, {}, frame.matrix, is_plain=False)
         else:

@@ -47,8 +47,9 @@ def judged(text: str, control: str) -> Iterator[Verdict]:
         if lines:
             told[lines].append(answer)
         covered |= {*lines}
+    refused = {line for lines, answers in told.items() for line in lines if answers[0].status.value != "solved"}
     for lines, answers in told.items():
-        yield from _of_contour(lines, answers, [*_runs_of(lines, ways)])
+        yield from _of_contour(lines, answers, [*_runs_of(lines, ways, refused)])
     wanted = {move.line for way in ways for move in way if move.corner or move.angle}
     if wanted - covered:
         causes = [each for each in result.diagnostics if each.code.endswith(UNKNOWN) or each.severity.value == "error"]
@@ -56,12 +57,12 @@ def judged(text: str, control: str) -> Iterator[Verdict]:
         yield Verdict("unknown" if causes else "missing", tuple(sorted(wanted - covered)), cause)
 
 
-def _runs_of(lines: tuple[int, ...], ways: list[list[Move]]) -> Iterator[list[Move]]:
-    """The moves on these lines each time when they run in a row, behind no corner."""
+def _runs_of(lines: tuple[int, ...], ways: list[list[Move]], refused: set[int]) -> Iterator[list[Move]]:
+    """The moves on these lines each time when they run in a row, behind no corner but one that is refused."""
     for way in ways:
         for at in range(len(way) - len(lines) + 1):
             part = way[at : at + len(lines)]
-            goes_on = at > 0 and way[at - 1].corner is not None and way[at - 1].motion >= 0
+            goes_on = at > 0 and way[at - 1].corner is not None and way[at - 1].line not in refused
             if tuple(move.line for move in part) == lines and not goes_on:
                 yield part
 
