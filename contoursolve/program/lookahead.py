@@ -72,10 +72,11 @@ class Lookahead:
 
 class View(Sequence[Block]):
     """The blocks from a place on; plain lines are read into words when somebody looks at them. `reach` is how many were
-    looked at; one that is not there counts, too."""
+    looked at; one that is not there counts, too. If they `end_at_call`, others run behind the last one, at which
+    nobody looks."""
 
-    def __init__(self, held: Sequence[Line], index: int) -> None:
-        self.held, self.first, self.reach = held, index, 0
+    def __init__(self, held: Sequence[Line], index: int, *, end_at_call: bool = False) -> None:
+        self.held, self.first, self.reach, self.end_at_call = held, index, 0, end_at_call
         self.blocks: list[Block] = []
         self.rest = each_block(held, index)
 

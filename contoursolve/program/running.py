@@ -65,6 +65,7 @@ class _KeptStep(Struct, frozen=True):
     behind: Cursor
     reach: int
     blocks: Sequence[Block] = ()
+    ends_at_call: bool = False
     here: Cursor | None = None
     learned: Learned = Learned((), ())
 
@@ -92,6 +93,8 @@ class KeptSteps:
         here: Cursor,
         answers: AnswersInPasses,
         make: Callable[[], _KeptStep | None],
+        *,
+        ends_at_call: bool,
     ) -> _KeptStep | None:
         """The step at a block: that of the last run where it holds, else the one that is made."""
         block = held[index]
@@ -103,6 +106,7 @@ class KeptSteps:
             found is None
             or found.here != here
             or found.blocks != held[index : index + found.reach]
+            or (found.reach > len(held) - index and found.ends_at_call is not ends_at_call)
             or not answers.recall(found.learned)
         ):
             answers.begin()
@@ -135,6 +139,8 @@ class Running(Ways):
             kept.begin(examination.asked)
         self._last: tuple[Sequence[Block], int] | None = None
         """The blocks that were read last, and the index behind what was taken of them."""
+        self._is_at_call = False
+        """Whether a call or a return comes behind the blocks that are read."""
         self._lines, self.goes_beyond = lines, lines is None
         self.walk = self._go()
 
@@ -150,6 +156,7 @@ class Running(Ways):
         return (each for each in self.walk if each is not None)
 
     def read(self, known: Paths, blocks: Sequence[Block], event: ProgramEvent | None) -> Generator[Any, None, Paths]:
+        self._is_at_call = event is not None and event.kind is EventKind.BARRIER
         known = yield from super().read(known, blocks, event)
         if event is not None and event.kind is EventKind.LEAVE:
             # Where the profile of a cycle ended.
@@ -166,7 +173,8 @@ class Running(Ways):
         here = replace(self.cursor, state=state, ahead=self.cursor.ahead if goes_on else ())
         make = partial(self._step, blocks, index, here, is_open=is_open)
         answers = cast("AnswersInPasses", self.examination.answers)
-        taken = make() if self.kept is None else self.kept.take(blocks, index, here, answers, make)
+        kept, is_at_call = self.kept, self._is_at_call
+        taken = make() if kept is None else kept.take(blocks, index, here, answers, make, ends_at_call=is_at_call)
         if taken is None:
             return None
         self._last, self.cursor = (blocks, index + taken.lines), taken.behind
@@ -177,13 +185,13 @@ class Running(Ways):
         taken = self.examination.pass_block(held, index, here)
         if taken is not None:
             return _KeptStep(taken.step, taken.lines, taken.behind(), 1 + NEAR)
-        view = View(held, index)
+        view = View(held, index, end_at_call=self._is_at_call)
         found = self.examination.find(view, here.state)
         if is_open and view.reach > len(held) - index:
             return None
         taken = self.examination.take(view, found, here)
         behind = taken.behind()
-        return _KeptStep(taken.step, taken.lines, behind, view.reach)
+        return _KeptStep(taken.step, taken.lines, behind, view.reach, ends_at_call=self._is_at_call)
 
 
 def steps_written_out(

@@ -151,3 +151,14 @@ def test_an_increment_from_an_unknown_start_leads_nowhere():
         ("position-unknown", 2),
         ("position-unknown", 5),
     ]
+
+
+def test_where_a_corner_is_not_made_the_words_of_the_end_still_say_where_it_is():
+    head, tail = "G18 G90 DIAMON G54\nG0 X16 Z0\nG1 X20\nZ-25 RND=9\nX30 CHR=1\nZ-40\n", "X40 ANG=150\nM30"
+    wrong, last = solve(head + tail, control="siemens-840d").answers
+    assert wrong.contour is None
+    assert last.start.values == (-40, 15)
+    # An increment of a line that has no start has no end, either.
+    unknown = "G17 G90 G54\nG0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX100 Y100 ANG=120\nG1 X10 RND=2\nY10\nM30"
+    first, second = solve(unknown, control="siemens-840d").answers
+    assert first.start.values == second.start.values == (None, None)

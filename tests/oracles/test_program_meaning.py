@@ -1,0 +1,111 @@
+"""What a program means before its geometry begins: starts and paths are those of small reference interpreters, or are
+said to be unknown; and what is written anew moves as before."""
+
+import pytest
+from drawn_meanings import drawn
+from meaning_core import Stopped
+from meaning_path import CONTROLS, Hard, Open, path_of, runs
+from program_meaning import PRODUCT, judged
+
+from contoursolve import expand
+
+EACH = 5
+"""Programs of a case."""
+
+AS_WRITTEN = 0.002
+"""mm by which two paths may differ that are written to 0.001."""
+
+SHOWN = {
+    # The start of the only contour and its first corner, as the manuals read these programs, in our own numbers.
+    "a formal parameter is a variable of its own": (
+        "DEF REAL AA=15|G0 X0 Y0|SUB5(20)|G1 X=AA RND=2|Y20|M30|PROC SUB5(REAL AA)|AA=AA+10|RET",
+        (0, 15),
+    ),
+    "DEF in a subprogram is known there alone": (
+        "DEF REAL AA=15|G0 X0 Y0|SUB6|G1 X=AA RND=2|Y20|M30|PROC SUB6|DEF REAL AA|AA=40|RET",
+        (0, 15),
+    ),
+    "VAR is by reference, through two levels": (
+        (
+            "DEF REAL ZZ=15|G0 X0 Y0|SUB7(ZZ)|G1 X=ZZ RND=2|Y20|M30|PROC SUB7(VAR REAL AA)|SUB8(AA)|RET|"
+            "PROC SUB8(VAR REAL BB)|BB=BB+15|RET"
+        ),
+        (0, 30),
+    ),
+    "INT rounds": ("DEF INT ZZ=22.6|G0 X0 Y0|G1 X=ZZ RND=2|Y20|M30", (0, 23)),
+    "SAVE brings back G90": (
+        "G0 X0 Y0|SUB9(3)|G1 X20 RND=2|Y20|M30|PROC SUB9(REAL AA) SAVE DISPLOF|G91 G0 X=AA|RET",
+        (3, 20),
+    ),
+    "SAVE brings back mm": (
+        "G0 X0 Y0|SUB1(1)|G1 X30 RND=2|Y20|M30|PROC SUB1(REAL AA) SAVE|G70|G0 X=AA|RET",
+        (25.4, 30),
+    ),
+    "SAVE brings back the frame": (
+        "G0 X0 Y0|SUB1(5)|G1 X20 RND=2|Y20|M30|PROC SUB1(REAL AA) SAVE|TRANS X=AA|G0 X0 Y0|RET",
+        (5, 20),
+    ),
+    "a number shifts": ("TRANS X0|G0 X0 Y0|G59 X10|G1 X20 RND=2|Y20|M30", (-10, 20)),
+}
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_the_interpreter_reads_what_the_manuals_show(name):
+    shown, (start, corner) = SHOWN[name]
+    text = "G17 G71 G90 G54\n" + shown.replace("|", "\n")
+    (moves,) = runs(text, "siemens-840d")
+    path = path_of(moves[-2:])
+    assert path.start == pytest.approx(start)
+    assert path.elements[0][0].real == pytest.approx(corner - 2)
+    assert [each.kind for each in judged(text, "siemens-840d")] == ["same"]
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("case", range(40))
+def test_a_start_and_a_path_are_the_interpreters_or_unknown_with_a_line(case, control):
+    for seed in range(case * EACH, case * EACH + EACH):
+        text = drawn(str(seed), control)
+        for each in judged(text, control):
+            assert each.kind in ("same", "unknown", "refused", "hard"), (seed, each, text)
+
+
+def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]]:
+    """The ends of all moves of the only way of a program, each in its own coordinates, and the centres of arcs: None
+    where something of it is not known."""
+    (moves,), found = runs(text, control), []
+    while moves:
+        count = 1
+        while moves[count - 1].corner is not None and count < len(moves):
+            count += 1
+        chain, moves = moves[:count], moves[count:]
+        path = path_of(chain)
+        if isinstance(path, Open):
+            # Its corners are left as they are.
+            for each in chain:
+                end = each.seen(each.end, each.zero)
+                found.append(
+                    (complex(end[0].number, end[1].number) if end[0].is_known and end[1].is_known else None, None)
+                )
+        elif path is None:
+            raise Hard
+        else:
+            found += path.elements
+    return found
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("case", range(12))
+def test_what_is_written_anew_moves_as_before(case, control):
+    for seed in range(1000 + case * EACH, 1000 + case * EACH + EACH):
+        text = drawn(str(seed), control)
+        try:
+            before = trace(text, control)
+        except (Hard, Stopped, ValueError):
+            continue
+        written = expand(text, control=PRODUCT.get(control, control), comments=False, keep_going=True).text
+        after = trace(written, control)
+        assert len(before) == len(after), (seed, text, written)
+        for one, other in zip(before, after, strict=True):
+            for a, b in zip(one, other, strict=True):
+                assert (a is None) is (b is None), (seed, one, other, text, written)
+                assert a is None or abs(a - b) <= AS_WRITTEN, (seed, one, other, text, written)
