@@ -146,8 +146,7 @@ def table_of(
                 codes[numbers[name]] = row
             elif re.fullmatch(r"G[\d.]+", name):
                 codes[Decimal(name[1:])] = row  # type: ignore[index]
-            else:
-                names[name] = row
+            names[name] = row
     at_first = {key: Decimal(0) for axis in axes for key in (_shift(axis), _fine(axis))}
     return ZeroTable(codes, names, {**at_first, **(first or {})}, variables)
 
@@ -196,7 +195,7 @@ def move_zero(
             return _replaced(lost, {name: value for name, value in zero.items() if name != row.group})
         case _:
             stated = _formula(word, block, axes, mm) if row.move is ZeroMove.FORMULA else numbers
-            return _by_numbers(zero, row, block, stated, axes, reason)
+            return shift_zero(zero, row.move, block, stated, axes, reason)
 
 
 def change_entries(
@@ -245,19 +244,20 @@ def _select(zero: Mapping[str, object], row: ZeroRow, word: Word, block: Block, 
     return _replaced(lost, {**kept, row.group: offset} if is_known else kept)
 
 
-def _by_numbers(
+def shift_zero(
     zero: Mapping[str, object],
-    row: ZeroRow,
+    move: ZeroMove,
     block: Block,
     numbers: Mapping[str, Decimal | None] | None,
     axes: tuple[str, ...],
     reason: str,
 ) -> Moved:
-    """What a shift by numbers of its block moves: by new minus old, where both are known and nothing is turned."""
+    """What a shift by numbers of its block moves, mm: by new minus old, where both are known and nothing is turned. None
+    is a shift of which nothing is known."""
     shifts = {axis: (zero.get(_shift(axis)), zero.get(_fine(axis))) for axis in axes}
     is_bare = all(each.address in ("N", "G") for each in block.words)
     new: Mapping[str, tuple[object, object]] = {}
-    match row.move:
+    match move:
         case _ if numbers is None:
             pass
         case ZeroMove.FORMULA:
