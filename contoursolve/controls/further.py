@@ -128,7 +128,13 @@ _ACTIONS: Mapping[int, str] = {
     ),
     **dict.fromkeys(_points("66.1", "65.1", "72.1", "72.2", "84.2", "84.3", "88.1", "88.2"), "call or cycle"),
 }
-_ISO = {Effect.MOTION: _CURVES, Effect.SHIFT: _OFFSETS, Effect.NONE: _SPEEDS, Effect.FRAME: _FRAMES, Effect.SINGLE: _ACTIONS}
+_ISO = {
+    Effect.MOTION: _CURVES,
+    Effect.SHIFT: _OFFSETS,
+    Effect.NONE: _SPEEDS,
+    Effect.FRAME: _FRAMES,
+    Effect.SINGLE: _ACTIONS,
+}
 
 _MILLS = {
     Effect.NONE: dict.fromkeys((160, 161), "cutter compensation mode"),
@@ -148,8 +154,7 @@ _HAAS = {
     Effect.NONE: dict.fromkeys((103, 187, 188, 254, 255), "look ahead and accuracy")
     | dict.fromkeys((184, 186, 195, 196), "tapping with a live tool"),
     Effect.SHIFT: dict.fromkeys((*range(110, 130), 154), "work coordinate system"),
-    Effect.FRAME: dict.fromkeys((100, 101), "mirroring")
-    | dict.fromkeys((141, 143, 234, 253), "tool direction"),
+    Effect.FRAME: dict.fromkeys((100, 101), "mirroring") | dict.fromkeys((141, 143, 234, 253), "tool direction"),
     Effect.SINGLE: dict.fromkeys((35, 36, 136, 102, 105), "measurement or output")
     | dict.fromkeys((12, 13, 70, 71, 72, 150), "pocket or row of holes"),
     Effect.CYCLE: dict.fromkeys((77, 153, 155, 156, 174, 178, 241, 242, 243, 244, 245, 246, 247, 248, 249), "drilling"),

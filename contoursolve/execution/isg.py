@@ -32,6 +32,7 @@ from contoursolve.execution.macro_language import (
     MacroStatement,
     ProgramEnd,
     Return,
+    VariableScope,
 )
 from contoursolve.execution.notation import ISG, UnreadableTermError
 from contoursolve.gcode import IN_BRACKETS, nested
@@ -85,7 +86,7 @@ def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
         line.at = len(line.text)
         yield strange(line.text[found.start() :])
         return
-    yield Call(CallKind.PROGRAM, (found["quoted"] or found["bare"]).upper())
+    yield Call(CallKind.PROGRAM, (found["quoted"] or found["bare"]).upper(), is_local=True)
 
 
 def _label(line: LineReader, found: re.Match[str]) -> Iterable[MacroStatement]:
@@ -146,6 +147,10 @@ def _unknown(name: str) -> str:
     return f"{name}{MACHINES}" if name.startswith(_MACHINES) else f"{name}{UNSET}"
 
 
+def _scope(name: str) -> VariableScope:
+    return VariableScope.NESTED if name.startswith("V.L.") else VariableScope.EVERYWHERE
+
+
 _NAMES = r"P\d+|V\.[A-Z]+\.[A-Z_][\w.\[\],]*"
 
 
@@ -153,5 +158,13 @@ _NAMES = r"P\d+|V\.[A-Z]+\.[A-Z_][\w.\[\],]*"
 def isg() -> MacroLanguage:
     """The statements of the ISG kernel."""
     return MacroLanguage(
-        "isg", _FORM.may_say, _FORM.read, _files, _unknown, variables=_NAMES, examples="P100 or V.P.X", made_by=isg
+        "isg",
+        _FORM.may_say,
+        _FORM.read,
+        _files,
+        _unknown,
+        variables=_NAMES,
+        examples="P100 or V.P.X",
+        scope=_scope,
+        made_by=isg,
     )

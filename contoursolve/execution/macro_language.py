@@ -49,18 +49,53 @@ class WordFormula(Struct, frozen=True):
         return line[: self.begin] + number + line[self.end :]
 
 
+class VariableType(Enum):
+    """Type of a variable that a program defines."""
+
+    REAL = "REAL"
+    INT = "INT"
+    BOOL = "BOOL"
+    CHAR = "CHAR"
+    STRING = "STRING"
+    AXIS = "AXIS"
+    FRAME = "FRAME"
+
+
+class VariableScope(Enum):
+    """Where a variable is known that no program defines by its type."""
+
+    EVERYWHERE = "everywhere"
+    LEVEL = "in one level of calls"
+    """Each call has its own, empty unless it gives them: #1 to #33 of Fanuc."""
+    NESTED = "in one level and in those that it calls"
+    """V.L. of the ISG kernel."""
+
+
+class FormalParameter(Struct, frozen=True):
+    """A variable that a call sets by its place; one by reference is the caller's own under another name."""
+
+    name: str
+    of_type: VariableType = VariableType.REAL
+    is_reference: bool = False
+    has_default: bool = False
+    """Whether it has a value of its own where a call leaves it out, instead of 0."""
+
+
 class Assign(Struct, frozen=True, tag=True):
-    """A variable gets a value."""
+    """A variable gets a value; with a type, it is defined here: the program that runs has it for itself."""
 
     variable: Variable | Indexed
     value: Term
+    of_type: VariableType | None = None
 
 
 class Forget(Struct, frozen=True, tag=True):
-    """A variable gets a value that the program does not say: `FN 18`, a result of probing."""
+    """A variable gets a value that the program does not say: `FN 18`, a result of probing; with a type, it is defined
+    here."""
 
     variable: Variable | Indexed
     reason: str
+    of_type: VariableType | None = None
 
 
 SKIP_SWITCH = Variable("/")
@@ -111,7 +146,7 @@ class Call(Struct, frozen=True, tag=True):
     arguments: tuple[tuple[str, Term], ...] = ()
     """Variables of the subprogram that the call sets, by name: G65 P100 A5. sets `#1`."""
     is_local: bool = False
-    """Whether the subprogram has local variables of its own (G65)."""
+    """Whether the subprogram has local variables of its own: G65, a call of SINUMERIK."""
     cycle: str = ""
     """The cycle that runs a profile: `G71`."""
 
@@ -188,6 +223,20 @@ class Strange(Struct, frozen=True, tag=True):
     unread: str = ""
     jumps: bool = False
     """Whether it jumps, so that any block with a number or a label may follow."""
+    is_beside: bool = False
+    """Whether it runs beside the program, and moves an axis."""
+
+
+class Refused(Struct, frozen=True, tag=True):
+    """A statement that the control refuses with an alarm, and why; what follows is read as if it went on."""
+
+    told: str
+
+
+class ReadAs(Struct, frozen=True, tag=True):
+    """A condition that is read otherwise than it seems, and how."""
+
+    told: str
 
 
 class ModalCall(Struct, frozen=True, tag=True):
@@ -196,6 +245,8 @@ class ModalCall(Struct, frozen=True, tag=True):
     reason: str = ""
     name: str = ""
     """The word of the control that makes it."""
+    keeps_modes: bool = False
+    """Whether it leaves the modes as they were."""
 
 
 MacroStatement = (
@@ -214,6 +265,8 @@ MacroStatement = (
     | EndLoop
     | When
     | Strange
+    | Refused
+    | ReadAs
     | ModalCall
 )
 
@@ -236,8 +289,10 @@ class CodeLine(Struct, frozen=True):
     """Whether that is a subprogram by its first line: `%_N_L10_SPF`, `%L SUB`, PROC."""
     statements: tuple[MacroStatement, ...] = ()
     words: tuple[WordFormula, ...] = ()
-    parameters: tuple[str, ...] = ()
-    """The variables that a call's arguments set, in order: PROC NAME(REAL A, REAL B)."""
+    parameters: tuple[FormalParameter, ...] = ()
+    """The variables that a call's arguments set, in order: PROC NAME(REAL A, VAR INT B)."""
+    saves: bool = False
+    """Whether the modes at a call are in force again where the subprogram ends: PROC NAME SAVE."""
 
 
 class MacroLanguage(Struct, frozen=True, eq=False):
@@ -269,6 +324,12 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """The variable that is always empty, where variables may be: `#0`."""
     passes_return: bool = False
     """Whether the end of a subprogram does nothing where none was called: LBL 0."""
+    scope: Callable[[str], VariableScope] = lambda _: VariableScope.EVERYWHERE
+    """Where a variable is known that no program defines by its type."""
+    shows_main: bool = True
+    """Whether subprograms know what the main program defines."""
+    own_cycles: str = ""
+    """Pattern of names of the maker's own cycles, which leave the modes as they were; none if it is empty."""
     with_names: "Callable[[tuple[str, ...]], MacroLanguage] | None" = None
     """The same where some more names are those of commands, which call no subprogram; None where a name calls none."""
     made_by: Callable[[], "MacroLanguage"] | None = None

@@ -25,8 +25,8 @@ def _grammar(notation: Notation) -> str:
     """Lark's grammar of a notation: a rule for each row of its operators, the loosest first."""
     rules = ["?term: level0", "?value: SIGN value -> sign | primary"]
     for place, row in enumerate(notation.operators):
-        # A comparison has no other one beside it.
-        left = place + 1 if "equal" in row.values() else place
+        # A comparison has no other one beside it, but where comparisons come last.
+        left = place + 1 if "equal" in row.values() and not notation.compares_last else place
         rules += (
             f"?level{place}: level{place + 1} | level{left} OPERATOR{place} level{place + 1} -> operation",
             f"OPERATOR{place}.2: /{_choice(row)}/",

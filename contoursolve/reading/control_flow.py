@@ -13,7 +13,7 @@ from contoursolve.diagnostics import Span
 from contoursolve.execution import EventKind, Follower, ProgramEvent
 from contoursolve.gcode import Block
 from contoursolve.reading.lexicon import Effect
-from contoursolve.reading.modal_state import Mode, Modes, Position, State, with_diameters
+from contoursolve.reading.modal_state import Mode, Modes, Position, State, bring_back, with_diameters
 
 _SAME = Decimal("1e-9")
 """mm by which two positions differ that are one; see `contoursolve.tolerance.LENGTH`."""
@@ -117,12 +117,26 @@ class Ways(Follower):
     def is_same(self, one: Paths, other: Paths) -> bool:
         return [*map(_known, one.ways)] == [*map(_known, other.ways)]
 
-    def lose(self, known: Paths, reason: str, line: int, *, in_passes: bool = False) -> Paths:
+    def restore(self, entry: Paths, now: Paths, reason: str, line: int) -> Paths:
+        if not entry.ways:
+            return now
+        # No contour goes on beyond a call, so that the ways have met there.
+        before, span = entry.ways[0], Span(line, 1, 2)
+        ways = [
+            replace(each, state=bring_back(before.state, each.state, reason, span), lines=before.lines)
+            for each in now.ways
+        ]
+        return replace(now, ways=ways)
+
+    def lose(self, known: Paths, reason: str, line: int, *, modes: bool = False, in_passes: bool = False) -> Paths:
         if in_passes:
             told = "the contour goes on" if any(each.unread for each in known.ways) else "it is another place"
             reason = f"{told} from pass to pass; {reason}"
         axes, span = self.modes.axes, Span(line, 1, 2)
-        return replace(known, ways=[replace(each, state=each.state.lose_all(axes, reason, span)) for each in known.ways])
+        states = [each.state.lose_all(axes, reason, span) for each in known.ways]
+        if modes:
+            states = [each.doubt(self.modes.lasting, f"{reason}{_on_line(line)}") for each in states]
+        return replace(known, ways=[replace(way, state=state) for way, state in zip(known.ways, states, strict=True)])
 
 
 class TakenBlocks(Struct, frozen=True):

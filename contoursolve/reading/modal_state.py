@@ -41,6 +41,7 @@ from contoursolve.reading.moved_zero import (
     entries_of_assignment,
     forget_shifts,
     move_zero,
+    zero_brought_back,
 )
 from contoursolve.tolerance import RADIUS_DIFFERENCE, TRAVEL
 
@@ -213,6 +214,12 @@ class State(Struct, frozen=True):
         """The state with the position on these axes unknown."""
         return self.move({axis: Position(None, reason, span) for axis in axes})
 
+    def doubt(self, lasting: Iterable[str], reason: str) -> "State":
+        """The state in which no mode is known, nor any word that stays in force."""
+        names: list[Mode | str] = [*dict.fromkeys([*lasting, *self.memory])]
+        names += (mode for mode in Mode if mode is not Mode.DIAMETER or self.diameter is not None)
+        return replace(self, doubts=dict.fromkeys(names, reason))
+
     def lose_all(self, axes: tuple[str, ...], reason: str, span: Span) -> "State":
         """The same where it is not known either which offsets are in force."""
         return replace(self.lose(axes, reason, span), zero={})
@@ -369,8 +376,7 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
                 pass
         if code.diameter is not None:
             state = replace(state, diameter=code.diameter).settle(Mode.DIAMETER)
-    if state.doubts:
-        state = state.settle(*(mode for code in codes for mode in _SETS.get(code.effect, ())))
+    state = _settled(state, codes, block, modes) if state.doubts else state
     if modes.remember is not None:
         state = state.remember(modes.remember(state.memory, block))
     state = with_diameters(state)
@@ -384,12 +390,27 @@ def _move_zero(state: State, block: Block, moving: Sequence[tuple[ZeroRow, Word]
     for row, word in moving:
         mm = partial(_shift_of, state)
         moved = move_zero(state.zero, row, word, block, numbers, modes.axes, state.plane.code, mm)
-        state = state if moved is None else state_moved(state, moved, block)
+        state = state if moved is None else state_moved(state, moved, block.span)
     entries = [*entries_of_assignment(modes.zero, block)]
     if entries:
         moved = change_entries(state.zero, entries, modes.axes, f"{block.text.strip()} changes an offset")
-        state = state if moved is None else state_moved(state, moved, block)
+        state = state if moved is None else state_moved(state, moved, block.span)
     return state
+
+
+def _settled(state: State, codes: Sequence[Code], block: Block, modes: Modes) -> State:
+    """The state in which it is known what a block says: modes, and words that stay in force or end."""
+    said = [mode for code in codes for mode in _SETS.get(code.effect, ())]
+    return state.settle(*said, *(word.address for word in block.words if word.address in modes.lasting))
+
+
+def bring_back(before: State, now: State, reason: str, span: Span) -> State:
+    """The state where a subprogram ends that saves the modes and frames, given the one where it was called: the tool
+    stays where it is, and so do words that are no G codes."""
+    doubts = [each for each in before.doubts.items() if isinstance(each[0], Mode)]
+    words = [each for each in now.doubts.items() if isinstance(each[0], str)]
+    state = replace(before, axes=now.axes, memory=now.memory, doubts=dict([*doubts, *words]))
+    return state_moved(state, zero_brought_back(before.zero, now.zero, tuple(now.axes), reason), span)
 
 
 def _shift_of(state: State, axis: str, number: Decimal) -> Decimal | None:
@@ -411,11 +432,11 @@ def _shifts_in(state: State, block: Block, modes: Modes) -> dict[str, Decimal | 
     return found
 
 
-def state_moved(state: State, moved: Moved, block: Block) -> State:
-    """The state behind a block that moves the coordinate system: where the tool is has other coordinates."""
+def state_moved(state: State, moved: Moved, span: Span) -> State:
+    """The state behind what moves the coordinate system: where the tool is has other coordinates."""
     changes = dict[str, Position]()
     for axis, by in moved.by.items():
-        at, span = state.axes[axis], block.span
+        at = state.axes[axis]
         if by is None:
             changes[axis] = Position(None, moved.reason, span)
         elif isinstance(at, Awaited):
@@ -462,7 +483,9 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         state = replace(state, zero={}) if stated else state
     for word in block.words:
         if modes.is_call(word) or modes.is_unread_call(word):
-            return state.lose_all(modes.axes, modes.why_lost(word), word.span)
+            why = modes.why_lost(word)
+            state = state.doubt(modes.lasting, why) if modes.is_unread_call(word) else state
+            return state.lose_all(modes.axes, why, word.span)
     codes = codes_of(block, modes)
     for code in codes:
         if isinstance(code, Word):

@@ -213,6 +213,22 @@ _ASSIGNED = re.compile(r"\#(?:(?P<number>\d++)|\[[^=]*\])[ \t]*+=")
 """A variable of the machine that is set."""
 
 
+def zero_brought_back(
+    before: Mapping[str, object], now: Mapping[str, object], axes: tuple[str, ...], reason: str
+) -> Moved:
+    """What moves where a work offset and shifts are in force again that were so before; those of tools stay."""
+    by = dict[str, Decimal | None]()
+    for axis in axes:
+        old, new = (_sum(zero.get(_shift(axis)), zero.get(_fine(axis))) for zero in (now, before))
+        if before.get(WORK) != now.get(WORK) or old is None or new is None:
+            # Where neither is known, what runs may have changed it.
+            by[axis] = None
+        elif old != new:
+            by[axis] = new - old
+    tools = {name: value for name, value in now.items() if name in (TOOL, LENGTH)}
+    return Moved(by, {**{name: value for name, value in before.items() if name not in (TOOL, LENGTH)}, **tools}, reason)
+
+
 def _reason(row: ZeroRow, word: Word, block: Block) -> str:
     if row.move is ZeroMove.DATA:
         words = [each.text.strip() for each in block.words if each is word or each.address in ("L", "P")]

@@ -181,10 +181,13 @@ def test_a_corner_that_does_not_fit_is_refused_and_what_the_control_does_is_told
 def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
     text = MILL + between + "\nG1 Y60 ANG=30"
     result = siemens(text)
-    assert [each.code for each in result.diagnostics if each.severity.value == "error"] == ["position-unknown"]
+    is_called = between in ("L10", "POCKET")
+    codes = ["mode-unknown"] * is_called + ["position-unknown"]
+    assert [each.code for each in result.diagnostics if each.severity.value == "error"] == codes
     assert told in result.diagnostics[0].message
     assert result.answers[0].contour is None
-    again = siemens(MILL + between + "\nG0 X0 Y0\nG1 Y60 ANG=30")
+    modes = "G17 G71 G90 DIAMOF RNDM=0 " * is_called
+    again = siemens(MILL + between + f"\n{modes}G0 X0 Y0\nG1 Y60 ANG=30")
     assert [each.contour is not None for each in again.answers] == [True]
 
 

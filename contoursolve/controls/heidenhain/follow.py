@@ -231,7 +231,7 @@ def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
         if numbers or (row.move is not ZeroMove.SET and not is_step):
             move, shifts = ZeroMove.ADD if is_step else row.move, numbers if row.move is ZeroMove.SET else None
             moved = shift_zero(state.zero, move, block, shifts, modes.axes, _ZERO)
-            state = state_moved(state, moved, block)
+            state = state_moved(state, moved, block.span)
     return state
 
 

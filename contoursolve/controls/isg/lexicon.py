@@ -39,7 +39,8 @@ _CODES = BASIC_CODES | {
     Effect.NO_MOTION: {4: "dwell"},
     Effect.SHIFT: dict.fromkeys((53, *range(54, 60), 159), "zero offset"),
     Effect.SINGLE: {74: "reference point", 100: "measuring", 310: "measuring", 161: "absolute centres"},
-    Effect.FRAME: {92: "reference point offset", 68: "rotation", 69: "end of rotation"} | dict.fromkeys((*range(20, 25), 351), "mirroring"),
+    Effect.FRAME: {92: "reference point offset", 68: "rotation", 69: "end of rotation"}
+    | dict.fromkeys((*range(20, 25), 351), "mirroring"),
     Effect.NONE: {162: "centres from where an arc begins", 164: "no centre correction", 165: "centre correction"}
     | dict.fromkeys((8, 9, 60, 61, 260, 261, 360, 361), "exact stop or blending")
     | dict.fromkeys((93, 94, 95, 96, 97, 194), "kind of feed or speed")

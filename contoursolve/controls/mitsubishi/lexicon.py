@@ -46,9 +46,7 @@ def _modes(words: Lexicon, planes: dict[int, Plane]) -> Modes:
     codes = known_by_name(source, MILLS, code_rows(source, _CODES, planes))
     axes = ("X", "Y", "Z")
     zero = zero_table(BOOK.assumed("work and tool offsets, as on Fanuc"), axes)
-    return Modes(
-        words, codes, axes, CALLS, remember=_remember, language=fanuc(), unread_calls=UNREAD_CALLS, zero=zero
-    )
+    return Modes(words, codes, axes, CALLS, remember=_remember, language=fanuc(), unread_calls=UNREAD_CALLS, zero=zero)
 
 
 HIGH_SPEED = 5

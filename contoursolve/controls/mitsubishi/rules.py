@@ -22,7 +22,14 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import ANGLE_RANGE, ANGLE_RAPID, GEOMETRY_RULES, PLANE_CHANGES, ZERO_MOVES, told
+from contoursolve.controls.geometry_rules import (
+    ANGLE_RANGE,
+    ANGLE_RAPID,
+    GEOMETRY_RULES,
+    PLANE_CHANGES,
+    ZERO_MOVES,
+    told,
+)
 from contoursolve.controls.mitsubishi.examples import WORDS
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,

@@ -172,7 +172,6 @@ def _zero(*more: ZeroRow) -> ZeroTable:
     return table_of((*_ZERO_ROWS, *more), {code.name: code.number for code in CODES.values() if code.name}, "XYZ")
 
 
-
 _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = "ANG|RNDM?|CHR|CHF|CR"
 # What stands before an equals sign is one name up to the blank before it.
@@ -279,12 +278,13 @@ _ENDS, _LEXICON = frozenset({17}), _words()
 
 
 @cache
-def statements(more: tuple[str, ...] = ()) -> MacroLanguage:
+def statements(more: tuple[str, ...] = (), *, shows_main: bool = True) -> MacroLanguage:
     """Variables, jumps and calls: a name that is no word and no command calls a subprogram; `more` are further ones of
-    the machine builder."""
+    the machine builder. Subprograms may know what the main program defines."""
     names = [*SYNTAX.codes, *_LEXICON.plain_names(), *more]
-    made_by = partial(statements, more)
-    return structs.replace(sinumerik(names), declares=True, made_by=made_by, with_names=statements)
+    made_by, with_names = (partial(each, shows_main=shows_main) for each in (partial(statements, more), statements))
+    language = structs.replace(sinumerik(names), declares=True, shows_main=shows_main)
+    return structs.replace(language, made_by=made_by, with_names=with_names)
 
 
 MODES = Modes(
