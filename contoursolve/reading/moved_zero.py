@@ -330,7 +330,7 @@ def _sum(one: Decimal | None, other: Decimal | None) -> Decimal | None:
     return None if one is None or other is None else one + other
 
 
-_PLAIN_SHIFT = re.compile(r"CTRANS[ \t]*+\((?P<pairs>[^()]*+)\)[ \t]*+(?:;.*+)?$", re.IGNORECASE)
+_PLAIN_SHIFT = re.compile(r"[$\w]++[ \t]*+=[ \t]*+CTRANS[ \t]*+\((?P<pairs>[^()]*+)\)[ \t]*+(?:;.*+)?$", re.IGNORECASE)
 _PAIR = re.compile(
     r"[ \t]*+(?P<axis>[A-Z]\d?)[ \t]*+,[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))[ \t]*+", re.IGNORECASE
 )
@@ -340,7 +340,7 @@ def _formula(
     word: Word, block: Block, axes: tuple[str, ...], mm: Callable[[str, Decimal], Decimal | None]
 ) -> Mapping[str, Decimal | None] | None:
     """The shift that a frame states by numbers along axes alone; None for another frame."""
-    found = _PLAIN_SHIFT.search(block.text, word.span.column - 1)
+    found = _PLAIN_SHIFT.match(block.text, word.span.column - 1)
     if found is None or block.is_skippable:
         return None
     parts = found["pairs"].split(",")

@@ -40,6 +40,7 @@ MOVES = [
     ("siemens-840d", "", "IF R7==1\nTRANS X5\nENDIF", (None, 0)),
     ("siemens-840d", "", "IF R7==1\nTRANS X5\nENDIF\nG0 X0\nTRANS X7", UNKNOWN),
     ("siemens-840d", "TRANS X10", "$P_PFRAME=CTRANS(X,15,Y,2)", (-5, -2)),
+    ("siemens-840d", "TRANS X10", "$P_PFRAME=$P_PFRAME:CTRANS(X,5)", UNKNOWN),
     ("siemens-840d", "", "$P_PFRAME=CROT(Z,30)", UNKNOWN),
     ("siemens-840d", "", "$P_PFRAME=CTRANS(X,R1)", UNKNOWN),
     ("siemens-840d", "", "$P_IFRAME=CTRANS(X,1)", UNKNOWN),
