@@ -88,6 +88,14 @@ class ProgramEvent(Struct, frozen=True):
     """Whether what makes it has been told where it began."""
 
 
+class WrittenBack(Struct, frozen=True):
+    """Blocks that say what SAVE brings back, as texts; and what they leave out, or why there can be none."""
+
+    lines: tuple[str, ...] = ()
+    left_out: str = ""
+    refused: str = ""
+
+
 class Follower:
     """Whoever follows a program as it runs; this one knows and finds nothing. The machine carries what he knows along
     each way, beside the variables, and looks into none of it; none of these changes it, each gives something new."""
@@ -112,6 +120,10 @@ class Follower:
     def restore(self, _entry: Any, now: Any, _reason: str, _line: int) -> Any:
         """What is known where a subprogram ends that saves the modes, given what was known where it was called."""
         return now
+
+    def write_back(self, _entry: Any, _now: Any, _ran: Sequence[Block]) -> WrittenBack:
+        """The same in blocks, for a program without calls, given all blocks that have run between."""
+        return WrittenBack()
 
     def lose(
         self,

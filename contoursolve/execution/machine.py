@@ -192,6 +192,8 @@ class _Frame(Struct):
     modes."""
     saves: bool = False
     """Whether the modes at the call are in force again where it ends."""
+    ran: list[Block] = field(default_factory=list)
+    """What has run in it, if that has to be written back."""
 
     def go_to(self, index: int) -> None:
         """Go on at a line: what the line that runs still says is left out."""
@@ -506,6 +508,9 @@ class Machine:
                 for each in self._step(frame):
                     if isinstance(each, ProgramEvent) and each.kind is not EventKind.BARRIER:
                         self._go_on()
+                    elif self._has_to_decide and isinstance(each, Block):
+                        for calling in self._frames:
+                            calling.ran += [each] if calling.saves else []
                     yield from self._tell(frame)
                     yield each
                 yield from self._tell(frame)
@@ -1394,7 +1399,7 @@ class Machine:
                 raise _RefusedError("the subprogram returns to a block that is not there")
             caller.at = target
 
-    def _unwind(self, source: ProgramFile, first: int) -> Iterator[ProgramEvent]:
+    def _unwind(self, source: ProgramFile, first: int) -> Iterator[Block | ProgramEvent]:
         """End what calls itself at all depths: otherwise, the calls behind each of its calls multiply."""
         outermost = next(
             (at for at, each in enumerate(self._frames) if (each.source, each.first) == (source, first)), 1
@@ -1403,7 +1408,7 @@ class Machine:
             frame.left = 1
             yield from self._leave(frame)
 
-    def _leave(self, frame: _Frame) -> Iterator[ProgramEvent]:
+    def _leave(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
         """The end of what a frame runs: it runs again, or what called it goes on."""
         frame.left -= 1
         self._last = self._last if _is_loop(frame.call) else frame
@@ -1423,13 +1428,27 @@ class Machine:
             yield ProgramEvent(EventKind.LEAVE, frame.callers[-1].line, frame.call.cycle)
             self._beside = frame.entry
 
-    def _bring_back(self, frame: _Frame) -> Iterator[ProgramEvent]:
+    def _bring_back(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
         """Put the modes in force again that were in force where a subprogram was called."""
         line = self._line(frame, frame.here)
         yield ProgramEvent(EventKind.BARRIER, line)
         told = f"the coordinate system is again that of {frame.callers[-1].text}, by SAVE"
+        if self._has_to_decide:
+            yield from self._write_back(frame, line)
         self._beside = self._follower.restore(frame.entry, self._beside, told, line)
         self._go_on()
+
+    def _write_back(self, frame: _Frame, line: int) -> Iterator[Block | ProgramEvent]:
+        """Blocks that say what SAVE brings back. Raises _UndecidedError where there are none."""
+        call, back = frame.callers[-1], self._follower.write_back(frame.entry, self._beside, frame.ran)
+        if back.refused:
+            raise _UndecidedError(line, f"SAVE behind {call.text} cannot be written out: {back.refused}")
+        if back.left_out:
+            yield ProgramEvent(EventKind.BARRIER, line, f"SAVE behind {call.text}: {back.left_out}")
+        for text in back.lines:
+            block = parse_block(text, call.line, frame.source.blocks[frame.first].syntax)
+            yield replace(block, callers=frame.callers, file=frame.source.name)
+        frame.ran = []
 
 
 def _is_loop(call: Call | None) -> bool:

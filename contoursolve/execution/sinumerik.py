@@ -280,7 +280,7 @@ def _key(word: str) -> str:
     return word + _BEHIND
 
 
-_OWN_CYCLES = r"(?:CYCLE\d++|HOLES\d|POCKET\d|SLOT\d|LONGHOLE|E_\w++|F_\w++)"
+_OWN_CYCLES = r"(?:CYCLE\d++|HOLES\d|POCKET\d|SLOT\d|LONGHOLE)"
 """Recalled: the maker's cycles begin with PROC NAME SAVE."""
 
 

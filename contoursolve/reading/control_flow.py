@@ -10,10 +10,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics import Span
-from contoursolve.execution import EventKind, Follower, ProgramEvent
+from contoursolve.execution import EventKind, Follower, ProgramEvent, WrittenBack
 from contoursolve.gcode import Block
+from contoursolve.reading.brought_back import bring_back, write_back
 from contoursolve.reading.lexicon import Effect
-from contoursolve.reading.modal_state import Mode, Modes, Position, State, bring_back, with_diameters
+from contoursolve.reading.modal_state import Mode, Modes, Position, State, with_diameters
 
 _SAME = Decimal("1e-9")
 """mm by which two positions differ that are one; see `contoursolve.tolerance.LENGTH`."""
@@ -128,6 +129,11 @@ class Ways(Follower):
         ]
         return replace(now, ways=ways)
 
+    def write_back(self, entry: Paths, now: Paths, ran: Sequence[Block]) -> WrittenBack:
+        if not (entry.ways and now.ways):
+            return WrittenBack()
+        return write_back(entry.ways[0].state, now.ways[0].state, ran, self.modes)
+
     def lose(self, known: Paths, reason: str, line: int, *, modes: bool = False, in_passes: bool = False) -> Paths:
         if in_passes:
             told = "the contour goes on" if any(each.unread for each in known.ways) else "it is another place"
@@ -166,25 +172,11 @@ class _Moving:
 
 def _behind(way: ControlFlowPath, state: State, line: int) -> ControlFlowPath:
     """A way behind what ends on a line."""
-    before, now = _in_force(way.state), _in_force(state)
+    before, now = way.state.in_force(), state.in_force()
     if before == now:
         return ControlFlowPath(state, (), way.lines)
-    changed = (mode for mode, old, new in zip(_MODES, before, now, strict=True) if old != new)
+    changed = (mode for mode, old in before.items() if old != now[mode])
     return ControlFlowPath(state, (), {**way.lines, **dict.fromkeys(changed, line)})
-
-
-_MODES = (Mode.MOTION, Mode.PLANE, Mode.UNIT, Mode.INCREMENTS, Mode.COMPENSATION, Mode.DIAMETER)
-
-
-def _in_force(state: State) -> tuple[Any, ...]:
-    """The values of `_MODES`."""
-    plane = (state.plane.code, state.plane.axes)
-    return state.motion, plane, state.unit, state.is_incremental, state.compensation, state.diameter
-
-
-def _values(state: State) -> dict[Mode, Any]:
-    """The modes of a state."""
-    return dict(zip(_MODES, _in_force(state), strict=True))
 
 
 # Where ways meet -------------------------------------------------------------------------------------------------
@@ -209,7 +201,7 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
     ours, theirs, why = one.state, other.state, f"; {reason}" if reason else ""
     axes = {axis: _meet_positions(at, theirs.axes[axis], why) for axis, at in ours.axes.items()}
     doubts = {**theirs.doubts, **ours.doubts}
-    first, second = _values(ours), _values(theirs)
+    first, second = ours.in_force(), theirs.in_force()
     for mode, value in first.items():
         if value != second[mode]:
             texts = (
@@ -294,4 +286,4 @@ def _known(way: ControlFlowPath) -> object:
     """The knowledge on a way."""
     state = way.state
     places = {axis: None if at.value is None else round(at.value, 9) for axis, at in state.axes.items()}
-    return tuple(map(_key, way.unread)), places, _values(state), _memories(state), {*state.doubts}, state.zero
+    return tuple(map(_key, way.unread)), places, state.in_force(), _memories(state), {*state.doubts}, state.zero

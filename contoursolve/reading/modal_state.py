@@ -42,7 +42,6 @@ from contoursolve.reading.moved_zero import (
     entries_of_assignment,
     forget_shifts,
     move_zero,
-    zero_brought_back,
 )
 from contoursolve.tolerance import RADIUS_DIFFERENCE, TRAVEL
 
@@ -152,6 +151,9 @@ _SETS: Mapping[Effect, tuple[Mode, ...]] = {
 """The modes that are known behind a G code."""
 
 
+_MODES_IN_FORCE = (Mode.MOTION, Mode.PLANE, Mode.UNIT, Mode.INCREMENTS, Mode.COMPENSATION, Mode.DIAMETER)
+
+
 class State(Struct, frozen=True):
     """The modes in force before a block, and the position."""
 
@@ -204,6 +206,12 @@ class State(Struct, frozen=True):
         plane, doubts = (self.plane.code, self.plane.axes, self.plane.diameters), tuple(self.doubts.items())
         modes = self.motion, plane, self.unit, self.is_incremental, self.compensation, self.diameter
         return places, modes, words, doubts, tuple(self.zero.items())
+
+    def in_force(self) -> "dict[Mode, object]":
+        """The modes in force, without whether they are known."""
+        plane = (self.plane.code, self.plane.axes)
+        values = self.motion, plane, self.unit, self.is_incremental, self.compensation, self.diameter
+        return dict(zip(_MODES_IN_FORCE, values, strict=True))
 
     def counts_diameters(self) -> bool:
         """Whether a plain word of X is a diameter, where codes switch that."""
@@ -403,15 +411,6 @@ def _settled(state: State, codes: Sequence[Code], block: Block, modes: Modes) ->
     """The state in which it is known what a block says: modes, and words that stay in force or end."""
     said = [mode for code in codes for mode in _SETS.get(code.effect, ())]
     return state.settle(*said, *(word.address for word in block.words if word.address in modes.lasting))
-
-
-def bring_back(before: State, now: State, reason: str, span: Span) -> State:
-    """The state where a subprogram ends that saves the modes and frames, given the one where it was called: the tool
-    stays where it is, and so do words that are no G codes."""
-    doubts = [each for each in before.doubts.items() if isinstance(each[0], Mode)]
-    words = [each for each in now.doubts.items() if isinstance(each[0], str)]
-    state = replace(before, axes=now.axes, memory=now.memory, doubts=dict([*doubts, *words]))
-    return state_moved(state, zero_brought_back(before.zero, now.zero, tuple(now.axes), reason), span)
 
 
 def _shift_of(state: State, axis: str, number: Decimal) -> Decimal | None:

@@ -233,6 +233,28 @@ def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: st
     return Moved(by, {**{name: value for name, value in before.items() if name not in (TOOL, LENGTH)}, **tools}, reason)
 
 
+def zero_written_back(
+    before: Zero, now: Zero, table: ZeroTable, axes: tuple[str, ...], mm: Decimal
+) -> Iterator[str] | None:
+    """Blocks that put a work offset and shifts in force again that were so before, where a unit has so many mm; None
+    where what was in force is not known."""
+    work, frames = before.get(WORK), {move: row.names.split()[0] for row in table.codes.values() for move in [row.move]}
+    shifts = [(axis, before.get(_shift(axis)), before.get(_fine(axis))) for axis in axes]
+    is_moved = any(before.get(key) != now.get(key) for axis in axes for key in (_shift(axis), _fine(axis)))
+    if (work != now.get(WORK) and not isinstance(work, tuple)) or (is_moved and any(None in each for each in shifts)):
+        return None
+    lines = list[str]()
+    if isinstance(work, tuple) and work != now.get(WORK):
+        lines.append(" ".join(f"{address}{Decimal(number).normalize():f}" for address, number in work))
+    if is_moved:
+        lines.append(frames[ZeroMove.REPLACE])
+    for move, key in ((ZeroMove.REPLACE, _shift), (ZeroMove.ADD, _fine)) if is_moved else ():
+        amounts = ((axis, before.get(key(axis))) for axis in axes)
+        words = [f"{axis}{amount / mm:f}" for axis, amount in amounts if isinstance(amount, Decimal) and amount]
+        lines += [" ".join([frames[move], *words])] if words else []
+    return iter(lines)
+
+
 def _reason(row: ZeroRow, word: Word, block: Block) -> str:
     if row.move is ZeroMove.DATA:
         words = [each.text.strip() for each in block.words if each is word or each.address in ("L", "P")]
