@@ -1354,6 +1354,9 @@ class Machine:
         if not self.language.declares:
             level.values |= {name: self.variables.value(term) for name, term in call.arguments}
             return level
+        if len(call.arguments) > len(head.parameters):
+            most = len(head.parameters)
+            raise _RefusedError(f"{text} hands over {len(call.arguments)} values, and {level.program} takes {most}")
         given, links = dict(enumerate(term for _, term in call.arguments)), dict[str, tuple[int, str]]()
         for place, formal in enumerate(head.parameters):
             handed = given.get(place)

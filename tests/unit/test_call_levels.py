@@ -174,9 +174,12 @@ def test_what_a_type_cannot_hold_is_not_known(type_):
     assert finding.code == "value-variable"
 
 
-def test_what_is_handed_over_by_reference_is_a_variable():
-    (finding, *_) = result_of(HEAD.format("DEF REAL AA=15\nSUB(5)", "PROC SUB(VAR REAL BB)\nBB=1")).diagnostics
-    assert (finding.code, "write a variable there" in finding.message) == ("not-followed", True)
+@pytest.mark.parametrize(
+    ("call", "told"), [("SUB(5)", "write a variable there"), ("SUB(AA,3)", "hands over 2 values, and SUB takes 1")]
+)
+def test_what_is_handed_over_is_what_the_subprogram_takes(call, told):
+    (finding, *_) = result_of(HEAD.format(f"DEF REAL AA=15\n{call}", "PROC SUB(VAR REAL BB)\nBB=1")).diagnostics
+    assert (finding.code, told in finding.message) == ("not-followed", True)
 
 
 def test_variables_of_isg_end_with_their_level():
