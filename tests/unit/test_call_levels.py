@@ -106,6 +106,20 @@ def test_behind_what_is_not_followed_no_mode_is_known(control, text, restated):
     assert not codes_of(text.format(restated), control)
 
 
+@pytest.mark.parametrize(
+    ("call", "sub", "told"),
+    [
+        ("SUB P=R5", "PROC SUB\nG90 G0 X5 Y5", "how often SUB P=R5 runs is not known"),
+        ("SUB(R[R5])", "PROC SUB(VAR REAL BB)\nG90 G0 X5 Y5", "which variable SUB(R[R5]) hands over for BB"),
+    ],
+)
+def test_a_call_that_is_not_known_leaves_nothing_known(call, sub, told):
+    text = f"{MILL}{call}\nG1 X20 RND=2 F300\nY20\nM30\n{sub}\nRET"
+    findings = [each for each in result_of(text).diagnostics if each.span.line == 4]
+    assert [each.code for each in findings] == ["mode-unknown", "position-unknown"]
+    assert all(told in each.message for each in findings)
+
+
 # Variables ------------------------------------------------------------------------------------------------------------
 
 HEAD = f"{MILL}{{}}\n{CORNER.format('=AA')}{{}}\nRET"
