@@ -20,6 +20,7 @@ from contoursolve.execution.macro_language import (
     Assign,
     Call,
     CallKind,
+    Definitions,
     Else,
     ElseIf,
     EndIf,
@@ -106,6 +107,7 @@ _LETTER = rf"(?!{_NUMBERED})[A-Z](?![A-Z_])"
 _VARIABLE = rf"(?:P[ \t]*+\d++|P[ \t]*+{IN_BRACKETS}|V\.[A-Z]++\.(?>(?:[\w.]++|{IN_BRACKETS})+))"
 _TABLE = (
     Spelling(r"%.*+", nothing),
+    Spelling(r"\#[ \t]*+(?P<end>END)?VAR(?!\w).*+", lambda _, found: [Definitions(not found["end"])], stays=True),
     Spelling(rf"\#(?!{_OWN[2:]}).*+", nothing),
     Spelling(rf"(?={_VARIABLE}[ \t]*+=(?!=))", _assign),
     Spelling(r"\$IF(?!\w)", _if),
@@ -134,7 +136,7 @@ _FORM = LineForm(
     table=_TABLE,
     skip=r"[ \t]++|\"[^\"]*+\"?+|[A-Z_]{2}\w*+|[\d.]++|.",
     behind_value=r"[A-Z#$,\\]",
-    says=r"[\[$%]|V\.|P[ \t]*+\d|M0*+(?:2|17|29|30)(?!\d)|(?<![A-Z])LL?+[ \t]++[\"\w]"
+    says=r"[\[$%]|V\.|\#[ \t]*+(?:END)?+VAR|P[ \t]*+\d|M0*+(?:2|17|29|30)(?!\d)|(?<![A-Z])LL?+[ \t]++[\"\w]"
     r"|\d\.?+[ \t]*+(?:[*/]|[-+][ \t]*+[\d.])",
 )
 

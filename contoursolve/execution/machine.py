@@ -18,6 +18,7 @@ from contoursolve.execution.macro_language import (
     Call,
     CallKind,
     CodeLine,
+    Definitions,
     Else,
     ElseIf,
     EndIf,
@@ -935,6 +936,10 @@ class Machine:
         keeps = statement.is_beside
         yield from self._unclear(frame, index, statement.reason, unread=statement.unread, keeps_modes=keeps)
 
+    def _do_definitions(self, _frame: _Frame, _index: int, statement: Definitions) -> Iterator[Block | ProgramEvent]:
+        self.variables.defines = statement.begin
+        yield from ()
+
     def _do_told(self, _frame: _Frame, _index: int, statement: Refused | ReadAs) -> Iterator[Block | ProgramEvent]:
         is_refused = isinstance(statement, Refused)
         self._told[statement.told] = EventKind.REFUSED if is_refused else EventKind.READ_AS
@@ -1501,6 +1506,7 @@ _DO: Mapping[type[MacroStatement | _Taken], Callable[..., Iterator[Block | Progr
     For: Machine._begin_loop,
     EndLoop: Machine._end_loop,
     Strange: Machine._do_strange,
+    Definitions: Machine._do_definitions,
     Refused: Machine._do_told,
     ReadAs: Machine._do_told,
     ModalCall: Machine._do_modal_call,

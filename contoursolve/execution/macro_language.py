@@ -98,6 +98,12 @@ class Forget(Struct, frozen=True, tag=True):
     of_type: VariableType | None = None
 
 
+class Definitions(Struct, frozen=True, tag=True):
+    """Definitions begin or end: of one name in several levels, an assignment there means that of its own level."""
+
+    begin: bool
+
+
 SKIP_SWITCH = Variable("/")
 """Switch at the machine that decides if blocks with / run; no program reads it."""
 
@@ -252,6 +258,7 @@ class ModalCall(Struct, frozen=True, tag=True):
 MacroStatement = (
     Assign
     | Forget
+    | Definitions
     | Jump
     | Call
     | Return

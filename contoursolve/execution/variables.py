@@ -146,6 +146,8 @@ class Variables:
         """What was set, in order."""
         self.undefined: list[str] = []
         """What is read or set where it is not defined, told and not yet taken."""
+        self.defines = False
+        """Whether what is set is defined in the level that runs."""
         self.line = 0
         """The line that runs."""
         self.is_called = False
@@ -222,6 +224,8 @@ class Variables:
             return False
         if statement.of_type is not None:
             self.levels[-1].types[_array(name)] = statement.of_type
+        elif self.defines and self._language.scope(name) is VariableScope.NESTED:
+            self.levels[-1].values[name] = value
         elif self._where_defined(name):
             return False
         self.set(name, value)

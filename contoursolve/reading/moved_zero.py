@@ -229,8 +229,10 @@ def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: st
             by[axis] = None
         elif old != new:
             by[axis] = new - old
-    tools = {name: value for name, value in now.items() if name in (TOOL, LENGTH)}
-    return Moved(by, {**{name: value for name, value in before.items() if name not in (TOOL, LENGTH)}, **tools}, reason)
+    # What a program changes of the offset in force, it may leave changed: printed, a machine datum.
+    from_now = (TOOL, LENGTH) if WORK in now else (TOOL, LENGTH, WORK)
+    kept = {name: value for name, value in before.items() if name not in from_now}
+    return Moved(by, kept | {name: value for name, value in now.items() if name in from_now}, reason)
 
 
 def zero_written_back(

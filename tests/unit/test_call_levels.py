@@ -185,6 +185,7 @@ def test_variables_of_isg_end_with_their_level():
     program = f"%L SUB{sub}%MAIN\n{head}"
     assert corner_of(program.format("V.L.C = 1", "V.L.A"), "isg") == 15
     assert corner_of(program.format("V.L.A = V.L.A + 5", "V.L.A"), "isg") == 20
+    assert corner_of(program.format("#VAR\nV.L.A = 9\n#ENDVAR\nV.L.A = 5", "V.L.A"), "isg") == 15
     assert corner_of(program.format("V.P.B = 7", "V.P.B"), "isg") == 7
     assert codes_of(program.format("V.L.C = 9", "V.L.C"), "isg")[0][0] == "value-variable"
 

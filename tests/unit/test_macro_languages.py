@@ -389,7 +389,7 @@ N10 {R[R2]=R1+1 R3=R1*2} ; R5=1 -> Assign R<R2> add(R1, 1); Assign R3 multiply(R
 G0 X5 M17 -> Return
 S2=1000 M2=3 FRCM= 200
 {RET} -> Return
-{CYCLE95("NAME",1,2)} -> Call profile NAME cycle=CYCLE95
+{CYCLE95("NAME",1,2)} -> Call profile NAME is_local=True cycle=CYCLE95
 {CYCLE95("A:B",1,2)} -> Call profile A last=B cycle=CYCLE95
 {CYCLE62(,2,"L1","L2")} -> Call profile L1 last=L2 cycle=CYCLE62
 MSG("X R1=5")

@@ -191,6 +191,14 @@ def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
     assert [each.contour is not None for each in again.answers] == [True]
 
 
+def test_an_increment_from_an_unknown_start_leads_nowhere():
+    text = "G17 G90 G0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX116 Y115.4 ANG=120\nG0 X5\nG1 Y94 RND=1\nX20"
+    assert [(each.code, each.span.line) for each in siemens(text).diagnostics] == [
+        ("position-unknown", 2),
+        ("position-unknown", 5),
+    ]
+
+
 # Planes and diameters -----------------------------------------------------------------------------------------------
 
 

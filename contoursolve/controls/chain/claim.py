@@ -85,7 +85,9 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         unread=tuple(dict.fromkeys((*unread, *filter(None, (member.unread for member in members))))),
         choices=tuple(_choices(language, elements, names, known, modes)),
         selectors=tuple(_selectors(language, elements, names, known, modes)),
-        is_end_absolute=elements[-1].is_over and language.meeting.joining is not Joining.PAIRED,
+        is_end_absolute=elements[-1].is_over
+        and language.meeting.joining is not Joining.PAIRED
+        and not language.meeting.closes_by_steps,
         selected=language.planes.get(last.plane.code),
         conventions=tuple({each.setting.name: each for each in conventions}.values()),
         makes=_makes(form, members) if len(builder.blocks) > len(members) else (),
