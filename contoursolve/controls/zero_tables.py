@@ -95,6 +95,11 @@ def zero_table(
     return table_of((*rows, *more), numbers or {}, shifted, variables=family.entries_set)
 
 
+def length_rows(source: Source) -> tuple[ZeroRow, ...]:
+    """H of mills on which it means nothing else."""
+    return (ZeroRow("H", ZeroMove.SELECT, source, LENGTH, ("Z",), words="H", goes_on=True),)
+
+
 def haas_rows(source: Source) -> tuple[ZeroRow, ...]:
     """Those of Haas alone: G110 is G154 P1."""
     extended = (

@@ -457,6 +457,11 @@ class Machine:
         self.variables.is_called = self._is_for_calls(begin)
         return begin
 
+    @property
+    def is_for_calls(self) -> bool:
+        """Whether others call the main program, so that it begins with what is in force there."""
+        return self._is_for_calls(self._begin())
+
     def _is_for_calls(self, begin: int) -> bool:
         """Whether the main program is one that others call: it returns, and nothing in it ends the run."""
         last = self.main.section_end(begin)

@@ -352,6 +352,8 @@ _TABLE = (
     Spelling(r"(?P<name>[A-Z_]{2}\w*+)(?![\[=])", _call),
 )
 _RESERVED = ("TO", "OF", "DEFAULT", "SAVE", "ENDLABEL", "AC", "IC", "DC", "ACP", "ACN", "REAL", "INT", "BOOL", "CHAR")
+_FRAMES = ("CTRANS", "CFINE", "CROT", "CROTS", "CSCALE", "CMIRROR")
+"""Functions that make a frame."""
 _KINDS = ("STRING", "AXIS", "FRAME", "PROC", "BLOCK", "PRIO", "ASUP")
 _ENDINGS = (".SPF", ".MPF", ".ARC", "", ".txt")
 
@@ -371,7 +373,7 @@ _DECLARED = r"[A-Z_]\w*"
 
 def sinumerik(names: Iterable[str]) -> MacroLanguage:
     """The statements of SINUMERIK. The names are those of words and commands: others call subprograms."""
-    known = frozenset(name.upper() for name in (*names, *_RESERVED, *_KINDS))
+    known = frozenset(name.upper() for name in (*names, *_RESERVED, *_KINDS, *_FRAMES))
     long = "|".join(sorted((re.escape(name) for name in known if len(name) > 1), key=len, reverse=True))
     form = LineForm(
         SINUMERIK,

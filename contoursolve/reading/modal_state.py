@@ -35,6 +35,7 @@ from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect
 from contoursolve.reading.moved_zero import (
     NOTHING_MOVES,
     Moved,
+    Zero,
     ZeroRow,
     ZeroTable,
     change_entries,
@@ -169,7 +170,7 @@ class State(Struct, frozen=True):
     """Words that stay in force, by their address."""
     travel: float = TRAVEL
     """mm. How far from the start point the control can make a contour."""
-    zero: Mapping[str, object] = {}
+    zero: Zero = {}
     """The offsets and shifts of the coordinate system that are known to be in force (see `ZeroTable`)."""
     doubts: Mapping["Mode | str", str] = {}
     """The rest that is not known to be in force, as ways that meet do not agree on it, and why: modes, and by their

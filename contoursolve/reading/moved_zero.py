@@ -8,6 +8,7 @@ from decimal import Decimal
 from enum import Enum
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnostics import Source
 from contoursolve.gcode import Block, Word
@@ -38,6 +39,13 @@ Offset = tuple[tuple[str, Decimal | int], ...]
 """Which offset is in force: addresses with their numbers."""
 
 
+Zero = Mapping[str, "Offset | Decimal"]
+"""What is in force: offsets by their group, and shifts by numbers, mm, by their axis."""
+_Shifts = tuple[Decimal | None, Decimal | None]
+"""The shift of an axis and the second one beside it, mm; None where it is not known."""
+_ZERO = Decimal(0)
+
+
 class Entry(Struct, frozen=True):
     """An entry of a table that a block changes: its group, the offset, None where it is in force whatever is selected,
     and its axes; none for all. Of numbers that begin with another one, such as T0102, `digits` tells how many count."""
@@ -47,7 +55,7 @@ class Entry(Struct, frozen=True):
     axes: tuple[str, ...] = ()
     digits: int = 0
 
-    def is_in(self, zero: Mapping[str, object]) -> bool:
+    def is_in(self, zero: Zero) -> bool:
         """Whether it is in force, or may be."""
         in_force = zero.get(self.group)
         if self.digits and isinstance(in_force, tuple):
@@ -92,7 +100,7 @@ class Moved(Struct, frozen=True):
     """What a block moves: by how much each axis, mm, None where that is not known; what is in force then, and why."""
 
     by: Mapping[str, Decimal | None]
-    zero: Mapping[str, object]
+    zero: Zero
     reason: str
 
 
@@ -106,7 +114,7 @@ class ZeroTable:
 
     codes: Mapping[int, ZeroRow] = field(default_factory=dict)
     names: Mapping[str, ZeroRow] = field(default_factory=dict)
-    first: Mapping[str, object] = field(default_factory=dict)
+    first: Zero = field(default_factory=dict)
     variables: Callable[[str], Iterable[Entry]] | None = None
 
     def rows_in(self, block: Block) -> list[tuple[ZeroRow, Word]]:
@@ -116,10 +124,10 @@ class ZeroTable:
         for word in block.words:
             address = word.address
             if address == "G":
-                row = codes.get(word.number)  # type: ignore[arg-type]
+                row = None if word.number is None else codes.get(word.number)  # type: ignore[call-overload]
             else:
                 row = names.get(address)
-                if row is None and (address == "M" or address[0] == "$"):
+                if row is None and (address == "M" or address.startswith("$")):
                     name = f"M{word.number}" if address == "M" else address.partition("[")[0]
                     row = names.get(name)
             if row is not None:
@@ -134,7 +142,7 @@ def table_of(
     rows: Iterable[ZeroRow],
     numbers: Mapping[str, int],
     axes: Iterable[str] = (),
-    first: Mapping[str, object] | None = None,
+    first: Zero | None = None,
     variables: Callable[[str], Iterable[Entry]] | None = None,
 ) -> ZeroTable:
     """The table of some rows; `numbers` are those of codes that are no G and a number. On `axes`, no shift is in force
@@ -146,9 +154,8 @@ def table_of(
                 codes[numbers[name]] = row
             elif re.fullmatch(r"G[\d.]+", name):
                 codes[Decimal(name[1:])] = row  # type: ignore[index]
-            else:
-                names[name] = row
-    at_first = {key: Decimal(0) for axis in axes for key in (_shift(axis), _fine(axis))}
+            names[name] = row
+    at_first = {key: _ZERO for axis in axes for key in (_shift(axis), _fine(axis))}
     return ZeroTable(codes, names, {**at_first, **(first or {})}, variables)
 
 
@@ -160,14 +167,14 @@ def _fine(axis: str) -> str:
     return f"fine shift {axis}"
 
 
-def forget_shifts(zero: Mapping[str, object]) -> Mapping[str, object]:
+def forget_shifts(zero: Zero) -> Zero:
     """What is in force without shifts by numbers: they are not known, or not along the axes."""
     kept = {name: value for name, value in zero.items() if not isinstance(value, Decimal)}
     return zero if len(kept) == len(zero) else kept
 
 
 def move_zero(
-    zero: Mapping[str, object],
+    zero: Zero,
     row: ZeroRow,
     word: Word,
     block: Block,
@@ -193,15 +200,13 @@ def move_zero(
         case ZeroMove.LATER:
             return Moved({}, {name: value for name, value in zero.items() if name != row.group}, reason)
         case ZeroMove.OTHER:
-            return _replaced(lost, {name: value for name, value in zero.items() if name != row.group})
+            return replace(lost, zero={name: value for name, value in zero.items() if name != row.group})
         case _:
             stated = _formula(word, block, axes, mm) if row.move is ZeroMove.FORMULA else numbers
-            return _by_numbers(zero, row, block, stated, axes, reason)
+            return shift_zero(zero, row.move, block, stated, axes, reason)
 
 
-def change_entries(
-    zero: Mapping[str, object], entries: Iterable[Entry], axes: tuple[str, ...], reason: str
-) -> Moved | None:
+def change_entries(zero: Zero, entries: Iterable[Entry], axes: tuple[str, ...], reason: str) -> Moved | None:
     """What a change of entries of tables moves: those that are in force, or may be."""
     lost = dict[str, None]()
     for entry in entries:
@@ -214,13 +219,11 @@ _ASSIGNED = re.compile(r"\#(?:(?P<number>\d++)|\[[^=]*\])[ \t]*+=")
 """A variable of the machine that is set."""
 
 
-def zero_brought_back(
-    before: Mapping[str, object], now: Mapping[str, object], axes: tuple[str, ...], reason: str
-) -> Moved:
+def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: str) -> Moved:
     """What moves where a work offset and shifts are in force again that were so before; those of tools stay."""
     by = dict[str, Decimal | None]()
     for axis in axes:
-        old, new = (_sum(zero.get(_shift(axis)), zero.get(_fine(axis))) for zero in (now, before))
+        old, new = (_sum(*_shifts_of(zero, axis)) for zero in (now, before))
         if before.get(WORK) != now.get(WORK) or old is None or new is None:
             # Where neither is known, what runs may have changed it.
             by[axis] = None
@@ -233,7 +236,7 @@ def zero_brought_back(
 
 
 def zero_written_back(
-    before: Mapping[str, object], now: Mapping[str, object], table: ZeroTable, axes: tuple[str, ...], mm: Decimal
+    before: Zero, now: Zero, table: ZeroTable, axes: tuple[str, ...], mm: Decimal
 ) -> Iterator[str] | None:
     """Blocks that put a work offset and shifts in force again that were so before, where a unit has so many mm; None
     where what was in force is not known."""
@@ -262,12 +265,8 @@ def _reason(row: ZeroRow, word: Word, block: Block) -> str:
     return f"{text} {'changes the ' + row.group if row.group in (TOOL, LENGTH) else 'changes the coordinate system'}"
 
 
-def _replaced(moved: Moved, zero: Mapping[str, object]) -> Moved:
-    return Moved(moved.by, zero, moved.reason)
-
-
-def _select(zero: Mapping[str, object], row: ZeroRow, word: Word, block: Block, lost: Moved) -> Moved | None:
-    """What the selection of an offset moves; of one in a block that may be skipped, it is not known which is in force."""
+def _select(zero: Zero, row: ZeroRow, word: Word, block: Block, lost: Moved) -> Moved | None:
+    """What the selection of an offset moves. Behind a block that may be skipped, it is not known which is in force."""
     told = [(each.address, each.number) for each in block.words if each.address in row.words.split()]
     own = () if word.address in row.words.split() else ((word.address, word.number),)
     parts = dict[str, Decimal | int | None]([*own, *told])
@@ -277,31 +276,32 @@ def _select(zero: Mapping[str, object], row: ZeroRow, word: Word, block: Block, 
     before = zero.get(row.group)
     if row.goes_on:
         parts = {**(dict(before) if isinstance(before, tuple) else {}), **parts}
-    offset = tuple(sorted(parts.items()))  # type: ignore[type-var]
+    offset = tuple(sorted(parts.items()))
     if before == offset:
         return None
     kept = {name: value for name, value in zero.items() if name != row.group}
     is_known = not block.is_skippable and None not in parts.values()
-    return _replaced(lost, {**kept, row.group: offset} if is_known else kept)
+    return replace(lost, zero={**kept, row.group: offset} if is_known else kept)
 
 
-def _by_numbers(
-    zero: Mapping[str, object],
-    row: ZeroRow,
+def shift_zero(
+    zero: Zero,
+    move: ZeroMove,
     block: Block,
     numbers: Mapping[str, Decimal | None] | None,
     axes: tuple[str, ...],
     reason: str,
 ) -> Moved:
-    """What a shift by numbers of its block moves: by new minus old, where both are known and nothing is turned."""
-    shifts = {axis: (zero.get(_shift(axis)), zero.get(_fine(axis))) for axis in axes}
+    """What a shift by numbers of its block moves: by new minus old, mm, where both are known and nothing is turned. Of
+    None, nothing is known."""
+    shifts = {axis: _shifts_of(zero, axis) for axis in axes}
     is_bare = all(each.address in ("N", "G") for each in block.words)
-    new: Mapping[str, tuple[object, object]] = {}
-    match row.move:
+    new: Mapping[str, _Shifts] = {}
+    match move:
         case _ if numbers is None:
             pass
         case ZeroMove.FORMULA:
-            new = {axis: (numbers.get(axis, Decimal(0)), Decimal(0)) for axis in axes}
+            new = {axis: (numbers.get(axis, _ZERO), _ZERO) for axis in axes}
             return _shifted(zero, shifts, new, reason)
         case ZeroMove.SET:
             new = {axis: (value, shifts[axis][1]) for axis, value in numbers.items()}
@@ -310,12 +310,11 @@ def _by_numbers(
         case ZeroMove.ADD:
             new = {axis: (shifts[axis][0], _sum(shifts[axis][1], value)) for axis, value in numbers.items()}
         case ZeroMove.REPLACE | ZeroMove.TURN if is_bare:
-            return _shifted(zero, shifts, dict.fromkeys(axes, (Decimal(0), Decimal(0))), reason)
+            return _shifted(zero, shifts, dict.fromkeys(axes, (_ZERO, _ZERO)), reason)
         case ZeroMove.REPLACE if not any(fine for _, fine in shifts.values()):
             # Whether the shift of an axis that is not named stays, manuals contradict.
             new = {
-                axis: (numbers[axis] if axis in numbers else shift if shift == 0 else None, fine)
-                for axis, (shift, fine) in shifts.items()
+                axis: (numbers.get(axis, _ZERO if shift == 0 else None), fine) for axis, (shift, fine) in shifts.items()
             }
         case _:
             pass
@@ -325,9 +324,9 @@ def _by_numbers(
 
 
 def _shifted(
-    zero: Mapping[str, object],
-    old: Mapping[str, tuple[object, object]],
-    new: Mapping[str, tuple[object, object]],
+    zero: Zero,
+    old: Mapping[str, _Shifts],
+    new: Mapping[str, _Shifts],
     reason: str,
 ) -> Moved:
     """What takes the place of shifts, where they have been along the axes."""
@@ -346,11 +345,16 @@ def _shifted(
     return Moved(by, now, reason)
 
 
-def _sum(one: object, other: object) -> Decimal | None:
-    return one + other if isinstance(one, Decimal) and isinstance(other, Decimal) else None
+def _shifts_of(zero: Zero, axis: str) -> _Shifts:
+    first, second = (zero.get(name) for name in (_shift(axis), _fine(axis)))
+    return first if isinstance(first, Decimal) else None, second if isinstance(second, Decimal) else None
 
 
-_PLAIN_SHIFT = re.compile(r"CTRANS[ \t]*+\((?P<pairs>[^()]*+)\)[ \t]*+(?:;.*+)?$", re.IGNORECASE)
+def _sum(one: Decimal | None, other: Decimal | None) -> Decimal | None:
+    return None if one is None or other is None else one + other
+
+
+_PLAIN_SHIFT = re.compile(r"[$\w]++[ \t]*+=[ \t]*+CTRANS[ \t]*+\((?P<pairs>[^()]*+)\)[ \t]*+(?:;.*+)?$", re.IGNORECASE)
 _PAIR = re.compile(
     r"[ \t]*+(?P<axis>[A-Z]\d?)[ \t]*+,[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))[ \t]*+", re.IGNORECASE
 )
@@ -360,7 +364,7 @@ def _formula(
     word: Word, block: Block, axes: tuple[str, ...], mm: Callable[[str, Decimal], Decimal | None]
 ) -> Mapping[str, Decimal | None] | None:
     """The shift that a frame states by numbers along axes alone; None for another frame."""
-    found = _PLAIN_SHIFT.search(block.text, word.span.column - 1)
+    found = _PLAIN_SHIFT.match(block.text, word.span.column - 1)
     if found is None or block.is_skippable:
         return None
     parts = found["pairs"].split(",")

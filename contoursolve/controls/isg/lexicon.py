@@ -68,8 +68,8 @@ _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)\b"
 _FOREIGN = r"\#[ \t]*+[A-Za-z]\w*+(?=[ \t]*+=[ \t]*+[-+.\d])"
 """A word with a number sign that the control has not."""
-_NUMBERED = rf"[SM][ \t]*+{IN_BRACKETS}(?=[ \t]*+=)"
-"""A word of one of several spindles: `S[2]=500`."""
+_NUMBERED = rf"(?:[SM][ \t]*+{IN_BRACKETS}|G159)(?=[ \t]*+=)"
+"""A word of one of several spindles: `S[2]=500`; and a zero offset by its number."""
 SYNTAX = Syntax(
     "isg",
     token=re.compile(
@@ -109,6 +109,7 @@ _ANGLES, _CORNERS = BOOK.printed("contour line programming"), BOOK.printed("cham
 
 _BESIDE = (
     ("#FRC", "feed of a corner", Bearing.NONE),
+    ("G159", "zero offset by its number", Bearing.NONE),
     ("E", "feed at the end of the block", Bearing.NONE),
     ("S H D L", "spindle, function, offset or call", Bearing.NONE),
 )
@@ -151,7 +152,7 @@ _BY_PLANE = {"G17": ("Z",), "G18": ("X", "Y", "Z"), "G19": ("X",)}
 _ZERO = table_of(
     (
         ZeroRow("G53 G54 G55 G56 G57 G58 G59", ZeroMove.SELECT, _OFFSETS, WORK),
-        ZeroRow("G159", ZeroMove.OTHER, _OFFSETS, WORK),
+        ZeroRow("G159", ZeroMove.SELECT, _OFFSETS, WORK, words="G159"),
         ZeroRow("G92", ZeroMove.OTHER, BOOK.assumed("offset of the reference point"), is_of_words=True),
         ZeroRow("D", ZeroMove.SELECT, BOOK.printed("tool geometry"), TOOL, _BY_PLANE),
     ),

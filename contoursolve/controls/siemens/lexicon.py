@@ -67,7 +67,9 @@ _UNREAD: tuple[tuple[Effect, Mapping[str, tuple[str, ...]]], ...] = (
 """Commands by name that change the path or the coordinates in a way that contoursolve does not follow."""
 _NAMES: tuple[tuple[Effect, Mapping[str, tuple[str, ...]]], ...] = (
     (Effect.FRAME, {
-        "coordinate frame": ("TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF",),
+        "coordinate frame": (
+            "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF PRESETON PRESETONS",
+        ),
     }),
     (Effect.SINGLE, {
         "no offset": ("SUPA",),
