@@ -106,6 +106,20 @@ def test_behind_what_is_not_followed_no_mode_is_known(control, text, restated):
     assert not codes_of(text.format(restated), control)
 
 
+@pytest.mark.parametrize(
+    ("call", "sub", "told"),
+    [
+        ("SUB P=R5", "PROC SUB\nG90 G0 X5 Y5", "how often SUB P=R5 runs is not known"),
+        ("SUB(R[R5])", "PROC SUB(VAR REAL BB)\nG90 G0 X5 Y5", "which variable SUB(R[R5]) hands over for BB"),
+    ],
+)
+def test_a_call_that_is_not_known_leaves_nothing_known(call, sub, told):
+    text = f"{MILL}{call}\nG1 X20 RND=2 F300\nY20\nM30\n{sub}\nRET"
+    findings = [each for each in result_of(text).diagnostics if each.span.line == 4]
+    assert [each.code for each in findings] == ["mode-unknown", "position-unknown"]
+    assert all(told in each.message for each in findings)
+
+
 # Variables ------------------------------------------------------------------------------------------------------------
 
 HEAD = f"{MILL}{{}}\n{CORNER.format('=AA')}{{}}\nRET"
@@ -168,15 +182,27 @@ def test_the_808d_keeps_what_the_main_program_defines_to_it():
     assert ("siemens-variable-refused", 9) in codes_of(text, settings=local)
 
 
+def test_what_nothing_calls_has_a_level_of_its_own():
+    sub = "%_N_SUB_SPF\nPROC SUB(REAL AA)\nG1 X=AA RND=2\nY40"
+    alone = "%_N_M_MPF\n" + HEAD.format("DEF REAL AA=15", sub)
+    assert [(each.status, each.claim.blocks[0].line) for each in result_of(alone).answers] == [
+        (Status.SOLVED, 5),
+        (Status.UNDERDETERMINED, 10),
+    ]
+
+
 @pytest.mark.parametrize("type_", ["INT BB=9999999999", "CHAR BB=300", 'REAL BB="A"', "AXIS BB=X"])
 def test_what_a_type_cannot_hold_is_not_known(type_):
     (finding,) = result_of(HEAD.format(f"DEF {type_}\nDEF REAL AA=BB", "PROC SUB")).diagnostics
     assert finding.code == "value-variable"
 
 
-def test_what_is_handed_over_by_reference_is_a_variable():
-    (finding, *_) = result_of(HEAD.format("DEF REAL AA=15\nSUB(5)", "PROC SUB(VAR REAL BB)\nBB=1")).diagnostics
-    assert (finding.code, "write a variable there" in finding.message) == ("not-followed", True)
+@pytest.mark.parametrize(
+    ("call", "told"), [("SUB(5)", "write a variable there"), ("SUB(AA,3)", "hands over 2 values, and SUB takes 1")]
+)
+def test_what_is_handed_over_is_what_the_subprogram_takes(call, told):
+    (finding, *_) = result_of(HEAD.format(f"DEF REAL AA=15\n{call}", "PROC SUB(VAR REAL BB)\nBB=1")).diagnostics
+    assert (finding.code, told in finding.message) == ("not-followed", True)
 
 
 def test_variables_of_isg_end_with_their_level():
