@@ -193,6 +193,8 @@ class _Frame(Struct):
     modes."""
     saves: bool = False
     """Whether the modes at the call are in force again where it ends."""
+    doubt: str = ""
+    """Why nobody knows how often it runs."""
     ran: list[Block] = field(default_factory=list)
     """What has run in it, if that has to be written back."""
 
@@ -1274,8 +1276,9 @@ class Machine:
         if len(self._frames) >= DEEPEST:
             yield from self._unwind(source, first)
             raise _RefusedError(f"program line {line} calls itself again and again: {DEEPEST} calls in one another")
-        if isinstance(count, Unknown):
-            yield from self._unclear(frame, index, f"how often {text} runs is not known: {count.reason}")
+        doubt = f"how often {text} runs is not known: {count.reason}" if isinstance(count, Unknown) else ""
+        if doubt:
+            yield from self._unclear(frame, index, doubt)
         times = int(count) if isinstance(count, float) else 1
         if times < 1:
             return
@@ -1293,17 +1296,23 @@ class Machine:
                 yield ProgramEvent(EventKind.BARRIER, line, told)
             return
         yield from self._begin_call(frame, index, call, found, times)
+        if self._frames[-1] is not frame:
+            self._frames[-1].doubt = doubt
         if call.kind is CallKind.PROFILE and is_behind:
             frame.at = last + 1
 
     def _begin_call(
         self, frame: _Frame, index: int, call: Call, found: tuple[ProgramFile, int, int], times: int
-    ) -> Iterator[ProgramEvent]:
+    ) -> Iterator[Block | ProgramEvent]:
         """Run what a call has found, with a level of variables and the modes at its entry."""
         source, first, last = found
         line, text = self._line(frame, index), frame.source.blocks[index].text.strip()
         head, depth = source.head(first, last), len(self.variables.levels)
         own = self._level_of(call, head, text)
+        if isinstance(own, Unknown):
+            self.variables.lose_all(own.reason)
+            yield from self._unclear(frame, index, own.reason)
+            return
         begun = self._begun(line, source, first, last, own)
         caller = Caller(line, text, call.cycle, self._is_reached)
         called = _Frame(source, first, first, last, call, (*frame.callers, caller), times, depth, own, begun)
@@ -1348,9 +1357,9 @@ class Machine:
         block, code = frame.source.blocks[index], frame.source.code(index)
         return any(word.address != "N" for word in parse_block(code.rest, block.line, block.syntax).words)
 
-    def _level_of(self, call: Call, head: CodeLine, text: str) -> VariableLevel | None:
-        """The level of variables with which a call begins; None for one that has none of its own. Raises
-        _RefusedError."""
+    def _level_of(self, call: Call, head: CodeLine, text: str) -> VariableLevel | Unknown | None:
+        """The level of variables with which a call begins; None for one that has none of its own, Unknown where it is
+        not known what it hands over. Raises _RefusedError."""
         if not call.is_local:
             for name, term in call.arguments:
                 self.variables.set(name, self.variables.value(term))
@@ -1359,11 +1368,17 @@ class Machine:
         if not self.language.declares:
             level.values |= {name: self.variables.value(term) for name, term in call.arguments}
             return level
+        if len(call.arguments) > len(head.parameters):
+            most = len(head.parameters)
+            raise _RefusedError(f"{text} hands over {len(call.arguments)} values, and {level.program} takes {most}")
         given, links = dict(enumerate(term for _, term in call.arguments)), dict[str, tuple[int, str]]()
         for place, formal in enumerate(head.parameters):
             handed = given.get(place)
             if formal.is_reference and handed is not None:
-                links[formal.name] = self._link(formal, handed, text)
+                link = self._link(formal, handed, text)
+                if isinstance(link, Unknown):
+                    return link
+                links[formal.name] = link
                 continue
             value: Known = "" if formal.of_type is VariableType.STRING else 0.0
             if handed is not None:
@@ -1374,16 +1389,14 @@ class Machine:
             level.values[formal.name] = as_type(value, formal.of_type, formal.name)
         return replace(level, links=links)
 
-    def _link(self, formal: FormalParameter, term: Term, text: str) -> tuple[int, str]:
+    def _link(self, formal: FormalParameter, term: Term, text: str) -> tuple[int, str] | Unknown:
         """The variable that a subprogram has by reference: its level, and its name there. Raises _RefusedError."""
         if not isinstance(term, Variable | Indexed):
             told = f"{text} hands over no variable for {formal.name}, which {text.partition('(')[0]} changes (VAR)"
             raise _RefusedError(f"{told}; write a variable there")
         name = self.variables.name(term)
         if isinstance(name, Unknown):
-            # Which one it is, is not known: it may be any.
-            self.variables.lose_all(name.reason)
-            raise _RefusedError(f"which variable {text} hands over for {formal.name} is not known: {name.reason}")
+            return Unknown(f"which variable {text} hands over for {formal.name} is not known: {name.reason}")
         return self.variables.place(name)
 
     def _return(self, frame: _Frame, _index: int, end: Return) -> Iterator[Block | ProgramEvent]:
@@ -1429,6 +1442,9 @@ class Machine:
         if frame.own is not None:
             self.variables.leave(frame.depth)
         self._go_on()
+        if frame.doubt:
+            self.variables.lose_all(frame.doubt)
+            yield ProgramEvent(EventKind.LOST, frame.callers[-1].line, frame.doubt, is_told=True)
         if frame.call is not None and frame.call.kind is CallKind.PROFILE:
             yield ProgramEvent(EventKind.LEAVE, frame.callers[-1].line, frame.call.cycle)
             self._beside = frame.entry

@@ -106,6 +106,20 @@ def test_behind_what_is_not_followed_no_mode_is_known(control, text, restated):
     assert not codes_of(text.format(restated), control)
 
 
+@pytest.mark.parametrize(
+    ("call", "sub", "told"),
+    [
+        ("SUB P=R5", "PROC SUB\nG90 G0 X5 Y5", "how often SUB P=R5 runs is not known"),
+        ("SUB(R[R5])", "PROC SUB(VAR REAL BB)\nG90 G0 X5 Y5", "which variable SUB(R[R5]) hands over for BB"),
+    ],
+)
+def test_a_call_that_is_not_known_leaves_nothing_known(call, sub, told):
+    text = f"{MILL}{call}\nG1 X20 RND=2 F300\nY20\nM30\n{sub}\nRET"
+    findings = [each for each in result_of(text).diagnostics if each.span.line == 4]
+    assert [each.code for each in findings] == ["mode-unknown", "position-unknown"]
+    assert all(told in each.message for each in findings)
+
+
 # Variables ------------------------------------------------------------------------------------------------------------
 
 HEAD = f"{MILL}{{}}\n{CORNER.format('=AA')}{{}}\nRET"
@@ -174,9 +188,12 @@ def test_what_a_type_cannot_hold_is_not_known(type_):
     assert finding.code == "value-variable"
 
 
-def test_what_is_handed_over_by_reference_is_a_variable():
-    (finding, *_) = result_of(HEAD.format("DEF REAL AA=15\nSUB(5)", "PROC SUB(VAR REAL BB)\nBB=1")).diagnostics
-    assert (finding.code, "write a variable there" in finding.message) == ("not-followed", True)
+@pytest.mark.parametrize(
+    ("call", "told"), [("SUB(5)", "write a variable there"), ("SUB(AA,3)", "hands over 2 values, and SUB takes 1")]
+)
+def test_what_is_handed_over_is_what_the_subprogram_takes(call, told):
+    (finding, *_) = result_of(HEAD.format(f"DEF REAL AA=15\n{call}", "PROC SUB(VAR REAL BB)\nBB=1")).diagnostics
+    assert (finding.code, told in finding.message) == ("not-followed", True)
 
 
 def test_variables_of_isg_end_with_their_level():
