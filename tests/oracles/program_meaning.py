@@ -49,7 +49,8 @@ def judged(text: str, control: str) -> Iterator[Verdict]:
         covered |= {*lines}
     refused = {line for lines, answers in told.items() for line in lines if answers[0].status.value != "solved"}
     for lines, answers in told.items():
-        yield from _of_contour(lines, answers, [*_runs_of(lines, ways, refused)])
+        runs_here = [*_runs_of(lines, ways, set())] or [*_runs_of(lines, ways, refused)]
+        yield from _of_contour(lines, answers, runs_here)
     wanted = {move.line for way in ways for move in way if move.corner or move.angle}
     if wanted - covered:
         causes = [each for each in result.diagnostics if each.code.endswith(UNKNOWN) or each.severity.value == "error"]
