@@ -249,8 +249,8 @@ READING_RULES = (
     ),
     Rule(
         code="mode-unknown",
-        message="{what} is not known here: {reason}",
-        help="say it in this block, or after the place where the ways meet",
+        message="{what} {are} not known here: {reason}",
+        help="say it in this block, or between that place and this one",
         source=_READING,
         about=ReadIssue.MODE_UNKNOWN,
         slip={"between": "{jump}"},

@@ -44,7 +44,7 @@ G_CODES: Mapping[str, str] = {
     "in_inches": "G20\n",
     "stated_start": "X1. Y1.",
     "closing_mark": "\n%",
-    "unread": "G54.1 P3",
+    "unread": "G53.1",
     "no_word": "E135.",
     "mistyped": "R66,5",
     "element": "line 1",

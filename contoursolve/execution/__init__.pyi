@@ -8,6 +8,7 @@ from .events import (
     EventKind as EventKind,
     Follower as Follower,
     ProgramEvent as ProgramEvent,
+    WrittenBack as WrittenBack,
 )
 from .fanuc import (
     fanuc as fanuc,

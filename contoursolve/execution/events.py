@@ -15,7 +15,7 @@ class EventKind(Enum):
     FRESH = "fresh"
     """The next blocks do not run from those before: the tool's position is not known, or was kept."""
     LOST = "lost"
-    """The tool's position is lost."""
+    """What has run here is not followed: the tool's position and the modes are not known."""
     ENTER = "enter"
     """The profile of a cycle begins here."""
     LEAVE = "leave"
@@ -37,6 +37,10 @@ class EventKind(Enum):
     contour of several moves goes on, and is refused for its start."""
     UNDECIDED = "undecided"
     """Nobody knows what runs on from here, so that a program without jumps ends."""
+    REFUSED = "refused"
+    """The control stops at a statement, with an alarm; what follows is read as if it went on."""
+    READ_AS = "read as"
+    """A condition is read as few expect; the words of the reason tell how."""
     MAY_STOP = "may stop"
     """The program stops here, if a decision is taken of which nobody knows; what follows runs where it is not."""
 
@@ -52,7 +56,16 @@ class EventKind(Enum):
 
 
 _OPEN = frozenset(
-    {EventKind.PART, EventKind.MEET, EventKind.HEAD, EventKind.BEYOND, EventKind.CALLED, EventKind.MAY_STOP}
+    {
+        EventKind.PART,
+        EventKind.MEET,
+        EventKind.HEAD,
+        EventKind.BEYOND,
+        EventKind.CALLED,
+        EventKind.REFUSED,
+        EventKind.READ_AS,
+        EventKind.MAY_STOP,
+    }
 )
 _LOSING = frozenset({EventKind.LOST, EventKind.STOPPED, EventKind.CALLED})
 
@@ -69,8 +82,18 @@ class ProgramEvent(Struct, frozen=True):
     """The name of what is called and is nowhere to be found."""
     unread: str = ""
     """The word of the control that is not read, where that is why."""
+    keeps_modes: bool = False
+    """Whether it loses the tool's position alone, and no mode."""
     is_told: bool = False
     """Whether what makes it has been told where it began."""
+
+
+class WrittenBack(Struct, frozen=True):
+    """Blocks that say what SAVE brings back, as texts; and what they leave out, or why there can be none."""
+
+    lines: tuple[str, ...] = ()
+    left_out: str = ""
+    refused: str = ""
 
 
 class Follower:
@@ -94,6 +117,23 @@ class Follower:
         """Whether as much is known."""
         return True
 
-    def lose(self, known: Any, _reason: str, _line: int, *, in_passes: bool = False) -> Any:  # noqa: ARG002
-        """What is known without the tool's position, which may be another one from pass to pass."""
+    def restore(self, _entry: Any, now: Any, _reason: str, _line: int) -> Any:
+        """What is known where a subprogram ends that saves the modes, given what was known where it was called."""
+        return now
+
+    def write_back(self, _entry: Any, _now: Any, _ran: Sequence[Block]) -> WrittenBack:
+        """The same in blocks, for a program without calls, given all blocks that have run between."""
+        return WrittenBack()
+
+    def lose(
+        self,
+        known: Any,
+        _reason: str,
+        _line: int,
+        *,
+        modes: bool = False,  # noqa: ARG002
+        in_passes: bool = False,  # noqa: ARG002
+    ) -> Any:
+        """What is known without the tool's position, which may be another one from pass to pass; and without the
+        modes, if what has run may have set them."""
         return known

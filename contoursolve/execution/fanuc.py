@@ -35,6 +35,7 @@ from contoursolve.execution.macro_language import (
     ProgramEnd,
     Return,
     Strange,
+    VariableScope,
     When,
 )
 from contoursolve.execution.notation import FANUC
@@ -199,6 +200,16 @@ def _unknown(name: str) -> str:
     return f"{name}{UNSET}"
 
 
+_LAST_LOCAL = 33
+
+
+def _scope(name: str) -> VariableScope:
+    is_local = name[1:].isdigit() and 1 <= int(name[1:]) <= _LAST_LOCAL
+    return VariableScope.LEVEL if is_local else VariableScope.EVERYWHERE
+
+
+_MOVING = r"#(?:2\d{3}|5[23]\d\d|7\d{3}|1\d{4})"
+"""Variables of work and tool offsets: #2001 and up, #5201 and up, #7001 and up, #10001 and up."""
 _NAMES = r"#(?!0+\Z)(?:\d+|<[^<>]+>)"
 
 
@@ -212,8 +223,10 @@ def fanuc() -> MacroLanguage:
         program_files,
         _unknown,
         variables=_NAMES,
+        moving=_MOVING,
         examples="#100",
         always_empty="#0",
+        scope=_scope,
         made_by=fanuc,
     )
 
@@ -231,7 +244,9 @@ def haas() -> MacroLanguage:
         program_files,
         _unknown,
         variables=_NAMES,
+        moving=_MOVING,
         examples="#100",
         always_empty="#0",
+        scope=_scope,
         made_by=haas,
     )

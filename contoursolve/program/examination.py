@@ -316,6 +316,10 @@ def _findings_of_event(event: ProgramEvent, context: Context, dialect: Dialect) 
         stopped = report(context, context.row(ReadIssue.NOT_FOLLOWED), Basis.RULE, [], reason=event.reason)
         help_ = "write the block or the label; where it jumps, the control stops"
         yield replace(stopped, help=help_) if event.kind is EventKind.MAY_STOP else stopped
+    if event.kind is EventKind.REFUSED:
+        yield report(context, context.row(ReadIssue.VARIABLE_REFUSED), Basis.RULE, [], reason=event.reason)
+    if event.kind is EventKind.READ_AS:
+        yield report(context, context.row(ReadIssue.COMPARISON_LAST), Basis.RULE, [], meant=event.reason)
     if event.unread:
         yield report(context, context.row(ReadIssue.NOT_READ), Basis.RULE, [], name=event.unread)
     if event.called:

@@ -132,8 +132,12 @@ class Running(Ways):
         kept: KeptSteps | None = None,
         lines: Iterable[Block | ProgramEvent] | None = None,
     ) -> None:
-        super().__init__(lambda: examination.begin.state, examination.dialect.modes, self._read)
-        self.examination, self.machine, self.cursor = examination, machine, examination.begin
+        begin = examination.begin
+        if machine.is_for_calls:
+            # Which shifts are in force there, the caller says.
+            begin = replace(begin, state=replace(begin.state, zero={}))
+        super().__init__(lambda: begin.state, examination.dialect.modes, self._read)
+        self.examination, self.machine, self.cursor = examination, machine, begin
         self.kept = kept
         if kept is not None:
             kept.begin(examination.asked)

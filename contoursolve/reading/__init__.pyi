@@ -79,7 +79,20 @@ from .modal_state import (
     not_read as not_read,
     positions as positions,
     rows_of as rows_of,
+    state_moved as state_moved,
     unread_state as unread_state,
+)
+from .moved_zero import (
+    LENGTH as LENGTH,
+    TOOL as TOOL,
+    WORK as WORK,
+    Entry as Entry,
+    Offset as Offset,
+    ZeroMove as ZeroMove,
+    ZeroRow as ZeroRow,
+    ZeroTable as ZeroTable,
+    shift_zero as shift_zero,
+    table_of as table_of,
 )
 from .parsed_contour import (
     ParsedContour as ParsedContour,

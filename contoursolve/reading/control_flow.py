@@ -10,8 +10,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics import Span
-from contoursolve.execution import EventKind, Follower, ProgramEvent
+from contoursolve.execution import EventKind, Follower, ProgramEvent, WrittenBack
 from contoursolve.gcode import Block
+from contoursolve.reading.brought_back import bring_back, write_back
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Mode, Modes, Position, State, with_diameters
 
@@ -81,7 +82,7 @@ class Ways(Follower):
         elif event is not None:
             told = f"{event.reason}; say with --start where the tool is when it begins"
             unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
-            state = state.lose(unknown, told, Span(event.line, 1, 2))
+            state = state.lose_all(unknown, told, Span(event.line, 1, 2))
         return Paths((ControlFlowPath(state),))
 
     def read(self, known: Paths, blocks: Sequence[Block], event: ProgramEvent | None) -> Generator[Any, None, Paths]:
@@ -117,12 +118,31 @@ class Ways(Follower):
     def is_same(self, one: Paths, other: Paths) -> bool:
         return [*map(_known, one.ways)] == [*map(_known, other.ways)]
 
-    def lose(self, known: Paths, reason: str, line: int, *, in_passes: bool = False) -> Paths:
+    def restore(self, entry: Paths, now: Paths, reason: str, line: int) -> Paths:
+        if not entry.ways:
+            return now
+        # No contour goes on beyond a call, so that the ways have met there.
+        before, span = entry.ways[0], Span(line, 1, 2)
+        ways = [
+            replace(each, state=bring_back(before.state, each.state, reason, span), lines=before.lines)
+            for each in now.ways
+        ]
+        return replace(now, ways=ways)
+
+    def write_back(self, entry: Paths, now: Paths, ran: Sequence[Block]) -> WrittenBack:
+        if not (entry.ways and now.ways):
+            return WrittenBack()
+        return write_back(entry.ways[0].state, now.ways[0].state, ran, self.modes)
+
+    def lose(self, known: Paths, reason: str, line: int, *, modes: bool = False, in_passes: bool = False) -> Paths:
         if in_passes:
             told = "the contour goes on" if any(each.unread for each in known.ways) else "it is another place"
             reason = f"{told} from pass to pass; {reason}"
         axes, span = self.modes.axes, Span(line, 1, 2)
-        return replace(known, ways=[replace(each, state=each.state.lose(axes, reason, span)) for each in known.ways])
+        states = [each.state.lose_all(axes, reason, span) for each in known.ways]
+        if modes:
+            states = [each.doubt(self.modes.lasting, f"{reason}{_on_line(line)}") for each in states]
+        return replace(known, ways=[replace(way, state=state) for way, state in zip(known.ways, states, strict=True)])
 
 
 class TakenBlocks(Struct, frozen=True):
@@ -152,25 +172,11 @@ class _Moving:
 
 def _behind(way: ControlFlowPath, state: State, line: int) -> ControlFlowPath:
     """A way behind what ends on a line."""
-    before, now = _in_force(way.state), _in_force(state)
+    before, now = way.state.in_force(), state.in_force()
     if before == now:
         return ControlFlowPath(state, (), way.lines)
-    changed = (mode for mode, old, new in zip(_MODES, before, now, strict=True) if old != new)
+    changed = (mode for mode, old in before.items() if old != now[mode])
     return ControlFlowPath(state, (), {**way.lines, **dict.fromkeys(changed, line)})
-
-
-_MODES = (Mode.MOTION, Mode.PLANE, Mode.UNIT, Mode.INCREMENTS, Mode.COMPENSATION, Mode.DIAMETER)
-
-
-def _in_force(state: State) -> tuple[Any, ...]:
-    """The values of `_MODES`."""
-    plane = (state.plane.code, state.plane.axes)
-    return state.motion, plane, state.unit, state.is_incremental, state.compensation, state.diameter
-
-
-def _values(state: State) -> dict[Mode, Any]:
-    """The modes of a state."""
-    return dict(zip(_MODES, _in_force(state), strict=True))
 
 
 # Where ways meet -------------------------------------------------------------------------------------------------
@@ -195,7 +201,7 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
     ours, theirs, why = one.state, other.state, f"; {reason}" if reason else ""
     axes = {axis: _meet_positions(at, theirs.axes[axis], why) for axis, at in ours.axes.items()}
     doubts = {**theirs.doubts, **ours.doubts}
-    first, second = _values(ours), _values(theirs)
+    first, second = ours.in_force(), theirs.in_force()
     for mode, value in first.items():
         if value != second[mode]:
             texts = (
@@ -224,6 +230,7 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
         axes=axes,
         motion=ours.motion if ours.motion == theirs.motion else motion,
         memory=memory if _memories(ours) != _memories(theirs) else ours.memory,
+        zero={name: value for name, value in ours.zero.items() if theirs.zero.get(name) == value},
         doubts=doubts,
     )
     return ControlFlowPath(with_diameters(state), one.unread, {**other.lines, **one.lines})
@@ -279,4 +286,4 @@ def _known(way: ControlFlowPath) -> object:
     """The knowledge on a way."""
     state = way.state
     places = {axis: None if at.value is None else round(at.value, 9) for axis, at in state.axes.items()}
-    return tuple(map(_key, way.unread)), places, _values(state), _memories(state), {*state.doubts}
+    return tuple(map(_key, way.unread)), places, state.in_force(), _memories(state), {*state.doubts}, state.zero

@@ -63,6 +63,8 @@ class ReadIssue(Enum):
     SUBPROGRAM_REFUSED = "subprogram-refused"
     SUBPROGRAM_SOLVED = "subprogram-solved"
     NOT_FOLLOWED = "not-followed"
+    VARIABLE_REFUSED = "variable-refused"
+    COMPARISON_LAST = "comparison-last"
     PROFILE_TURNS_BACK = "profile-turns-back"
     SKIPPABLE_START = "skippable-start"
     NO_CONTOUR = "no-contour"

@@ -13,7 +13,7 @@ from contoursolve import DIALECTS, Diagnostic, Fix, check, solve
 from contoursolve.cli import main
 from contoursolve.diagnostics import Applicability
 
-START = "X40. Z0."
+START = "T0101 X40. Z0."  # the tool that is there
 TAPER = "G111 X100. A180. K-30. B120."
 MOVED = {
     "T0101": ("tool", "before"),

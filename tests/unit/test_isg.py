@@ -139,7 +139,8 @@ def test_an_expression_has_no_value(text):
 def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
     result = isg(MILL + between + "\nG1 Y60 #ANG=30")
     errors = [each for each in result.diagnostics if each.severity.value == "error"]
-    assert [each.code for each in errors] == ["position-unknown"]
+    is_called = between in ("L SUB1", "LL LOCAL")
+    assert [each.code for each in errors] == ["mode-unknown"] * is_called + ["position-unknown"]
     assert told in errors[0].message
     assert result.answers[0].contour is None
 

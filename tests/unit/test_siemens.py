@@ -166,7 +166,7 @@ def test_a_corner_that_does_not_fit_is_refused_and_what_the_control_does_is_told
         ("L10", "L10"),
         ("POCKET", "POCKET"),
         ('CYCLE95("KONTUR",2,0.1,,,0.2)', "CYCLE95"),
-        ("TRANS X10", "TRANS"),
+        ("ROT RPL=30\nG0 X0 Y0\nTRANS X10", "TRANS"),
         ("ROT RPL=30", "ROT"),
         ("G54", "G54"),
         ("G1 AP=30 RP=20", "read AP yet"),
@@ -181,11 +181,22 @@ def test_a_corner_that_does_not_fit_is_refused_and_what_the_control_does_is_told
 def test_behind_what_is_not_followed_the_position_is_unknown(between, told):
     text = MILL + between + "\nG1 Y60 ANG=30"
     result = siemens(text)
-    assert [each.code for each in result.diagnostics if each.severity.value == "error"] == ["position-unknown"]
+    is_called = between in ("L10", "POCKET")
+    codes = ["mode-unknown"] * is_called + ["position-unknown"]
+    assert [each.code for each in result.diagnostics if each.severity.value == "error"] == codes
     assert told in result.diagnostics[0].message
     assert result.answers[0].contour is None
-    again = siemens(MILL + between + "\nG0 X0 Y0\nG1 Y60 ANG=30")
+    modes = "G17 G71 G90 DIAMOF RNDM=0 " * is_called
+    again = siemens(MILL + between + f"\n{modes}G0 X0 Y0\nG1 Y60 ANG=30")
     assert [each.contour is not None for each in again.answers] == [True]
+
+
+def test_an_increment_from_an_unknown_start_leads_nowhere():
+    text = "G17 G90 G0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX116 Y115.4 ANG=120\nG0 X5\nG1 Y94 RND=1\nX20"
+    assert [(each.code, each.span.line) for each in siemens(text).diagnostics] == [
+        ("position-unknown", 2),
+        ("position-unknown", 5),
+    ]
 
 
 # Planes and diameters -----------------------------------------------------------------------------------------------

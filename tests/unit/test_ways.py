@@ -378,7 +378,8 @@ def test_o_words_of_linuxcnc_are_named_and_nothing_is_known_behind_them(control,
     assert result.answers[-1].status is Status.UNDERDETERMINED
     named = {each.span.line for each in result.diagnostics if each.code == "not-read"}
     assert {2, 5} <= named
-    (finding,) = (each for each in result.diagnostics if each.is_error)
+    *modes, finding = (each for each in result.diagnostics if each.is_error)
+    assert [each.code for each in modes] == ([] if control == "heidenhain" else ["mode-unknown"])
     assert (finding.code, words[2].split(" [")[0].removeprefix("N9 ") in finding.message) == ("position-unknown", True)
 
 
