@@ -262,7 +262,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.START_ASSUMED,
         severity=Severity.INFO,
-        slip={"size": "99.", "turn": "{one_axis}", "behind": "\n{again}"},
+        slip={"size": "5..", "turn": "{one_axis}", "behind": "\n{again}"},
     ),
     Rule(
         code="contour-waits",

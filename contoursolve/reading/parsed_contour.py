@@ -330,10 +330,11 @@ def leave(
     # Increments count from where the last block begins, which is known of an only one.
     origin = state if len(claim.blocks) == 1 else lost
     moved = positions(origin, axis_words(last, modes), modes, last.is_skippable)
-    is_readable = claim.words.keys() <= claim.givens.keys() and not any(block.faults for block in claim.blocks)
-    if is_readable and not claim.repeated and not claim.doubts:
+    is_read = all(word.number is not None for word in claim.words.values())
+    if is_read and not (claim.repeated or claim.doubts or any(block.faults for block in claim.blocks)):
         for axis, value in zip(axes, _stated_end(claim), strict=True):
-            if axis not in moved or moved[axis].value != value:
+            # Where the coordinate system moves between two blocks, only the last one says where it is.
+            if state.axes[axis] is before[axis] and (axis not in moved or moved[axis].value != value):
                 moved[axis] = lost.axes[axis] if value is None else Position(value, _END, last.span, is_skippable)
     return lost.move(moved)
 

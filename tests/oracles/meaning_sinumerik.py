@@ -31,6 +31,7 @@ class Sinumerik(Interpreter):
         super().__init__(text, decide)
         self.modes.diameter, self.is_turning, self.main_def = "DIAMOF", is_turning, main_def
         self.modes.plane = "ZX" if is_turning else "XY"
+        self.tools = dict[str, str]()
         self.shared, self.levels = dict[str, Value](), list[dict[str, "Cell"]]()
         self.heads = {found[1]: at for at, line in enumerate(self.lines) if (found := re.match(r"PROC (\w+)", line))}
 
@@ -246,7 +247,7 @@ class Sinumerik(Interpreter):
         codes = [word for word in words if re.fullmatch(r"G\d+", word)]
         self.modes.diameter = next((word for word in words if word.startswith("DIAM")), self.modes.diameter)
         is_own = [self.code(word) for word in codes]
-        self.change_tool(" ".join(word for word in words if re.fullmatch(r"[TD]\d+", word)))
+        self.change_tool({word[0]: word for word in words if re.fullmatch(r"[TD]\d+", word)})
         ends = dict[str, tuple[Value, bool]]()
         corner, angle = None, None
         for found in filter(None, (re.fullmatch(r"(?:([A-Z_$]\w*)=(.+)|([A-Z])(.+))", word) for word in words)):
@@ -266,9 +267,9 @@ class Sinumerik(Interpreter):
         elif ends or angle is not None:
             self.go(ends, corner, angle)
 
-    def change_tool(self, tool: str) -> None:
-        if tool and tool != self.tool:
-            self.tool = tool
+    def change_tool(self, told: Mapping[str, str]) -> None:
+        if any(self.tools.get(name) != word for name, word in told.items()):
+            self.tools.update(told)
             if self.is_turning:
                 self.lose(self.others, "XZ")
 

@@ -47,9 +47,8 @@ def judged(text: str, control: str) -> Iterator[Verdict]:
         if lines:
             told[lines].append(answer)
         covered |= {*lines}
-    refused = {line for lines, answers in told.items() for line in lines if answers[0].status.value != "solved"}
     for lines, answers in told.items():
-        yield from _of_contour(lines, answers, [*_runs_of(lines, ways, refused)])
+        yield from _of_contour(lines, answers, [*_runs_of(lines, ways)])
     wanted = {move.line for way in ways for move in way if move.corner or move.angle}
     if wanted - covered:
         causes = [each for each in result.diagnostics if each.code.endswith(UNKNOWN) or each.severity.value == "error"]
@@ -57,49 +56,55 @@ def judged(text: str, control: str) -> Iterator[Verdict]:
         yield Verdict("unknown" if causes else "missing", tuple(sorted(wanted - covered)), cause)
 
 
-def _runs_of(lines: tuple[int, ...], ways: list[list[Move]], refused: set[int]) -> Iterator[list[Move]]:
-    """The moves on these lines each time when they run in a row, behind no corner but one that is refused."""
+def _runs_of(lines: tuple[int, ...], ways: list[list[Move]]) -> Iterator[tuple[list[Move], bool]]:
+    """The moves on these lines each time when they run in a row, and whether corners join them, and to no others."""
     for way in ways:
         for at in range(len(way) - len(lines) + 1):
             part = way[at : at + len(lines)]
-            goes_on = at > 0 and way[at - 1].corner is not None and way[at - 1].line not in refused
-            if tuple(move.line for move in part) == lines and not goes_on:
-                yield part
+            if tuple(move.line for move in part) == lines:
+                is_joined = all(each.corner is not None or each.angle is not None for each in part[:-1])
+                is_alone = part[-1].corner is None and (at == 0 or way[at - 1].corner is None)
+                yield part, is_joined and is_alone
 
 
-def _of_contour(lines: tuple[int, ...], answers: list[Answer], parts: list[list[Move]]) -> Iterator[Verdict]:
+def _of_contour(
+    lines: tuple[int, ...], answers: list[Answer], parts: list[tuple[list[Move], bool]]
+) -> Iterator[Verdict]:
     solved = [own for each in answers if each.status.value == "solved" and (own := path_told(each))]
     try:
-        expected = [path_of(part) for part in parts]
+        # Where a corner beside it is refused, a contour begins at its point, or ends there.
+        possible = [(path_of(part), is_whole) for part, is_whole in parts]
     except Hard:
         yield Verdict("hard", lines)
         return
+    expected = [path for path, is_whole in possible if is_whole]
     paths = [each for each in expected if isinstance(each, Path)]
     for own in solved:
-        if not any(are_alike(own, each) for each in paths):
-            yield Verdict("wrong" if parts else "alone", lines, "", own, expected)
+        if not any(isinstance(each, Path) and are_alike(own, each) for each, _ in possible):
+            yield Verdict("wrong", lines, "", own, [each for each, _ in possible])
             return
-    if not parts:
-        return
     if len(solved) == len(answers) and not all(_is_told(each, solved) for each in paths):
         yield Verdict("wrong", lines, "not all", solved, expected)
     elif len(solved) == len(answers) and len(paths) < len(expected):
         yield Verdict("wrong", lines, "not always known", solved, expected)
     elif len(solved) == len(answers):
         yield Verdict("same", lines)
-    else:
-        left = next(each for each in answers if each.status.value != "solved")
-        errors = [each for each in left.diagnostics if each.is_error] or [*left.diagnostics]
-        cause = errors[0] if errors else None
-        is_unknown = cause is not None and cause.code.endswith(UNKNOWN)
-        names_line = cause is not None and bool(re.search(r"program lines? \d", cause.message) or cause.notes)
-        kind = "unknown" if is_unknown and names_line else "lineless" if is_unknown else "refused"
-        if kind == "refused" and None in expected:
-            kind = "same"
-        known = "" if any(isinstance(each, Open) for each in expected) else "known: "
-        yield Verdict(
-            kind, lines, known + plain(f"{cause.code}: {cause.message}" if cause else left.status.value), left
-        )
+    elif parts:
+        yield _of_refused(lines, answers, [each for each, _ in possible])
+
+
+def _of_refused(lines: tuple[int, ...], answers: list[Answer], expected: list[Path | Open | None]) -> Verdict:
+    """The verdict where something is not solved: unknown with a line, or refused for another reason."""
+    left = next(each for each in answers if each.status.value != "solved")
+    errors = [each for each in left.diagnostics if each.is_error] or [*left.diagnostics]
+    cause = errors[0] if errors else None
+    is_unknown = cause is not None and cause.code.endswith(UNKNOWN)
+    names_line = cause is not None and bool(re.search(r"program lines? \d", cause.message) or cause.notes)
+    kind = "unknown" if is_unknown and names_line else "lineless" if is_unknown else "refused"
+    if kind == "refused" and None in expected:
+        kind = "same"
+    known = "" if any(isinstance(each, Open) for each in expected) else "known: "
+    return Verdict(kind, lines, known + plain(f"{cause.code}: {cause.message}" if cause else left.status.value), left)
 
 
 def _is_told(path: Path, solved: list[Path]) -> bool:

@@ -3,7 +3,7 @@ said to be unknown; and what is written anew moves as before."""
 
 import pytest
 from drawn_meanings import drawn
-from meaning_core import Stopped
+from meaning_core import Move, Stopped
 from meaning_path import CONTROLS, Hard, Open, path_of, runs
 from program_meaning import PRODUCT, judged
 
@@ -69,6 +69,12 @@ def test_a_start_and_a_path_are_the_interpreters_or_unknown_with_a_line(case, co
             assert each.kind in ("same", "unknown", "refused", "hard"), (seed, each, text)
 
 
+def alike_zero(one: Move, other: Move) -> bool:
+    """Whether both count from the same point."""
+    shifts = [a - b for a, b in zip(one.zero[1], other.zero[1], strict=True)]
+    return one.zero[0] == other.zero[0] and all(each.is_known and abs(each.number) < 1e-9 for each in shifts)
+
+
 def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]]:
     """The ends of all moves of the only way of a program, each in its own coordinates, and the centres of arcs: None
     where something of it is not known."""
@@ -79,6 +85,9 @@ def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]
             count += 1
         chain, moves = moves[:count], moves[count:]
         path = path_of(chain)
+        if any(not alike_zero(each, chain[0]) for each in chain):
+            # In whose coordinates such a path would be is not stated.
+            raise Hard
         if isinstance(path, Open):
             # Its corners are left as they are.
             for each in chain:

@@ -56,6 +56,7 @@ _GAPS = {
     "center_off": "I8 K0",
 }
 _SLIPS = {
+    "start-assumed": {"size": "99.", "turn": "G1 X70 A150"},
     "word-idle": {"behind": "\nG0 X60 R5"},
     "corners-overlap": {"each": "12"},
     "cnc-pilot-angle-redundant": {

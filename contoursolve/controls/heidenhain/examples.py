@@ -52,6 +52,7 @@ _GAPS = {
     "across_end": "AN+90",
 }
 _SLIPS = {
+    "start-assumed": {"size": "99", "turn": "4 FL X+60 AN+60"},
     "blank-missing": {"wrong": "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FLAN+30 LEN20\n3 FL X+60 Y+40{tail}"},
     "word-unused": {"contour": "{block}\n3 RND R5", "options": "--rules off"},
     "heidenhain-first-taken": {

@@ -50,6 +50,7 @@ _GAPS = {
     "opposite": "210",
 }
 _SLIPS = {
+    "start-assumed": {"size": "99.", "turn": "X40 #ANG=60"},
     "start-diameter": {"wrong": "G18 G51\nG1 X40 #RND=2\nZ-50", "options": '--start "X20 Z0"'},
     "number-missing": {"before": "X"},
     "number-malformed": {"corner": "#RND"},
