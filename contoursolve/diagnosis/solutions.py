@@ -24,6 +24,7 @@ from contoursolve.tolerance import LENGTH
 if TYPE_CHECKING:
     from contoursolve.solving import Alternative, Alternatives
 
+
 class Listed(Struct, frozen=True):
     """One solution: its name, its path (None if the control cannot make it, with the reasons), what selects it,
     and whether it is the contour that was solved."""

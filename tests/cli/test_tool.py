@@ -331,12 +331,13 @@ def test_a_tip_that_points_away_is_told(row, is_away):
     assert ("points away" in told) is is_away
 
 
-def test_a_tip_that_points_away_cuts_with_no_radius():
+def test_a_tip_that_points_away_is_a_warning_for_every_radius():
     about = [*LATHE, "--tip", "3", "--side", "left", *TAPER]
     done = call("range", "--word", "tool", *about)
-    assert (done.exit_code, "tip 3 points away from this line" in done.output) == (1, True)
+    assert (done.exit_code, "warning: program line 1: tip 3 points away from this line" in done.output) == (0, True)
     rounded = [word.replace("Z-10.", "Z-10. ,R2.") for word in about]
-    assert call("sweep", "--vary", "tool=0.2:0.8:0.2", *rounded).stdout.count("not 1 (tip against side)") == 4
+    rows = data("sweep", "--vary", "tool=0.2:0.8:0.2", *rounded)["rows"]
+    assert [(row["tool.fits"], row["tool.fault"]) for row in rows] == [(True, "tip_against_side")] * 4
 
 
 PLATE = """\
