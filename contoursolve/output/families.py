@@ -81,9 +81,9 @@ def _end_cells(end: End, unit: str, way: int) -> tuple[str, str]:
     if end.reason is None:
         return written(end.value, unit, way), "end of the range searched"
     text = end.reason.text if end.is_verified else f"{end.reason.text} (not confirmed on both sides)"
-    return written(
-        end.value, unit, way
-    ), text if end.is_included else f"{text}; at this value itself there is no contour"
+    # A limit is shown so that the contour exists there; a value alone, or what is too narrow, as it is.
+    text += "; at this value itself there is no contour" * (not way and not end.is_included)
+    return written(end.value, unit, way, is_included=end.is_included), text
 
 
 def range_data(found: Feasible) -> dict[str, Any]:

@@ -331,13 +331,14 @@ def test_a_tip_that_points_away_is_told(row, is_away):
     assert ("points away" in told) is is_away
 
 
-def test_a_tip_that_points_away_is_a_warning_for_every_radius():
+def test_a_tip_that_points_away_is_a_warning_for_every_radius(tmp_path):
     about = [*LATHE, "--tip", "3", "--side", "left", *TAPER]
     done = call("range", "--word", "tool", *about)
     assert (done.exit_code, "warning: program line 1: tip 3 points away from this line" in done.output) == (0, True)
     rounded = [word.replace("Z-10.", "Z-10. ,R2.") for word in about]
-    rows = data("sweep", "--vary", "tool=0.2:0.8:0.2", *rounded)["rows"]
-    assert [(row["tool.fits"], row["tool.fault"]) for row in rows] == [(True, "tip_against_side")] * 4
+    swept = call("sweep", "--vary", "tool=0.2:0.8:0.2", *rounded, "-o", tmp_path / "a.csv")
+    assert swept.stdout.count("cut by the tool") == 4
+    assert (tmp_path / "a.csv").read_text().count("True,0.8,tip_against_side") == 4
 
 
 PLATE = """\
