@@ -9,6 +9,7 @@ from .events import (
     ProgramEvent as ProgramEvent,
 )
 from .fanuc import (
+    counts_in as counts_in,
     fanuc as fanuc,
     haas as haas,
 )
@@ -27,7 +28,9 @@ from .machine import (
     needs_running as needs_running,
 )
 from .macro_language import (
+    ANGLE_INCREMENT as ANGLE_INCREMENT,
     ARGUMENT as ARGUMENT,
+    LENGTH_INCREMENT as LENGTH_INCREMENT,
     MACHINES as MACHINES,
     Assign as Assign,
     Call as Call,
