@@ -32,8 +32,8 @@ from contoursolve.reading import (
 
 NO_CODE, LAST, OVERSIZE = "@no-code", "@last", "@oversize"
 """An element without a G code; the last one; one with G52."""
-FROM_OPEN, TOO_MUCH = "@from-open", "@too-much"
-"""An arc behind an open end; behind a known point, where an angle beside both coordinates is refused."""
+TOO_MUCH = "@too-much"
+"""Behind a known point, where an angle beside both coordinates is refused."""
 _ENDS = (("Z", "ZI"), ("X", "XI"))
 _NAMES = {"XI": "IX", "ZI": "IZ", "I": "CCX", "K": "CCZ"}
 _WORDS = PlaneWords(LATHE.axes, across=(), has_corners=True)
@@ -177,7 +177,6 @@ def _claim(
                 givens[_NAMES[step]] = Given("", Decimal(0), Unit.MM, None)
         holds = {
             NO_CODE: not member.code(member.here.motion) and modes.has(MODAL, "off"),
-            FROM_OPEN: member.here.motion in (2, 3) and not member.is_placed,
             TOO_MUCH: member.is_placed and modes.has(EXTRA, "error"),
             OVERSIZE: member.code(52),
             LAST: is_last and number == len(members) - 1,

@@ -4,7 +4,7 @@ from dataclasses import replace
 from decimal import Decimal
 from functools import partial
 
-from contoursolve.controls.cnc_pilot.contour import FROM_OPEN, LAST, NO_CODE, OVERSIZE, TOO_MUCH
+from contoursolve.controls.cnc_pilot.contour import LAST, NO_CODE, OVERSIZE, TOO_MUCH
 from contoursolve.controls.cnc_pilot.examples import WORDS
 from contoursolve.controls.cnc_pilot.lexicon import BOOK
 from contoursolve.controls.common import COMMON_RULES
@@ -36,9 +36,6 @@ _ROWS = (
          ("R10", "R10 I10 K0")),
     _row("radius-range", "{words}: a radius is above 0, and 200000 at most", "write a radius in this range",
          BOOK.printed("p. 190"), Value(("R",), _LEAST, Decimal(200_000)), (ARC,), _ARC, ("R10", "R-10")),
-    _row("center-from-open", "{words}: the centre counts from where the arc begins, and that is still open",
-         "write G12 or G13 with the centre in coordinates", _ASSUMED, some(*_CENTER[:2]) & some(FROM_OPEN), (ARC,),
-         _CROSSING, ("G12 X58 Z-52 I38 K-40", "G2 X58 Z-52 I10 K-10")),
     _row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
          "put the next element right after it, or delete it", BOOK.printed("p. 147: B at the end of the element"),
          some(ROUNDING, CHAMFER) & some(LAST), _ANY, _CUT, ("\nG1 Z-40\nG1 X65", "")),
