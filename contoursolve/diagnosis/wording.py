@@ -137,9 +137,13 @@ def _things(names: Sequence[str], profile: Profile) -> dict[str, dict[str, None]
 
 @lru_cache(maxsize=64)
 def _called(layout: Layout) -> Mapping[str, str]:
-    """The names of unknowns that are called by what they belong to: the end, and the radii of arcs."""
-    arcs = (element for element in layout.figure.path if isinstance(element, Arc))
-    return {"end": "the end"} | {arc.radius: f"the radius of {element_text(arc.name)}" for arc in arcs}
+    """The names of unknowns that are called by what they belong to: the end, the radii of arcs, the centres of corners
+    and the lines on which these land."""
+    figure = layout.figure
+    called = {"end": "the end"}
+    called |= {arc.radius: f"the radius of {element_text(arc.name)}" for arc in figure.path if isinstance(arc, Arc)}
+    called |= {f"{each.name}.center": f"the centre of {each.name}" for each in figure.corners}
+    return called | {f"{each.name}.landing": f"the line on which {each.name} lands" for each in figure.corners}
 
 
 @lru_cache(maxsize=64)

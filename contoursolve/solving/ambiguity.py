@@ -143,10 +143,14 @@ def _with_others(profile: Profile) -> Alternatives | None:
     tried = [each for each, is_so in zip(others, closed, strict=True) if is_so]
     tried += [each for each, is_so in zip(others, closed, strict=True) if is_so is False][:_MOST_SEARCHED]
     found = (find_alternatives(each) for each in tried)
-    return next((each for each in found if each.items and each.is_complete), None)
+    complete = (each for each in found if each.items and each.is_complete)
+    return next((each for each in complete if min(map(_disagreement, each.items)) <= _REPEATED), None)
 
 
-_MOST_SEARCHED = 6
+_REPEATED = 1.0
+"""mm. What disagrees by more does not repeat the rest: then the words without a solution are what is wrong."""
+
+_MOST_SEARCHED = 4
 """Other choices of the facts that are needed, without a closed form, that are searched for solutions."""
 
 

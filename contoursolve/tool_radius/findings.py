@@ -36,10 +36,10 @@ from contoursolve.tool_radius.clearance import gaps_below
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import (
-    Crossing,
     FittingRadii,
     OffsetElement,
     OffsetPath,
+    RunsCrossing,
     are_walls,
     fitting_radii,
     flank_faults,
@@ -176,7 +176,7 @@ class ToolRules(Struct, frozen=True):
         """All radii (mm) up to one with which nothing keeps a tool from a run."""
         return fitting_radii(lambda radius: self.stops(own, radius), self.crossing(own), most)
 
-    def crossing(self, own: CuttingRun) -> Crossing | None:
+    def crossing(self, own: CuttingRun) -> RunsCrossing | None:
         """Where the run-in and the run-off of a run cross."""
         return OffsetPath(own.elements, 0.0, own.side.sign, self.settings, own.levels).crossing
 

@@ -75,7 +75,7 @@ class Gouge(Struct, frozen=True):
 _USUAL = ToolSettings()
 
 
-class Crossing(Struct, frozen=True):
+class RunsCrossing(Struct, frozen=True):
     """The place where the straight run-in and the straight run-off of a contour cross in an outside corner, or would if
     they went on; the numbers of their elements; and the least radius (mm) of a tool that reaches from one to the
     other."""
@@ -148,7 +148,7 @@ class OffsetPath:
         return found
 
     @cached_property
-    def crossing(self) -> Crossing | None:
+    def crossing(self) -> RunsCrossing | None:
         """The place where straight run-in and run-off cross in an outside corner, or would if they went on; None where
         there is none, or where one of them ends there."""
         every = range(len(self.elements))
@@ -162,7 +162,7 @@ class OffsetPath:
             return None
         beyond = max(0.0, -way_to(one, at), way_to(other, at) - other.length)
         # A tool that is the least one but for rounding reaches, too.
-        return Crossing(at, tuple(coming), tuple(going), max(0.0, beyond * tan(-turn / 2) - LENGTH))
+        return RunsCrossing(at, tuple(coming), tuple(going), max(0.0, beyond * tan(-turn / 2) - LENGTH))
 
     def _straight(self, numbers: Sequence[int]) -> list[int]:
         """The first of some elements that follow one another, as far as they are one straight line of the surface."""
@@ -422,7 +422,7 @@ class FittingRadii(Struct, frozen=True):
 
 
 def fitting_radii(
-    stops: Callable[[float], Sequence[ToolFault]], crossing: Crossing | None, most: float
+    stops: Callable[[float], Sequence[ToolFault]], crossing: RunsCrossing | None, most: float
 ) -> list[FittingRadii]:
     """All radii up to `most` that nothing stops, 0 alone where none fits.
 
