@@ -76,7 +76,8 @@ def follow(
 ) -> ToolPath:
     """The path of a program that has been solved for this control; `unit` is that before any G20 or G21. With
     `finishes`, G70 runs the profile that it names."""
-    follower, machine = _Follower(dialect, unit, axes), machine_for(result.program, dialect, result.around)
+    follower = _Follower(dialect, unit, axes)
+    machine = machine_for(result.program, dialect, result.around, unit)
     if machine is None:
         for block in result.start.blocks if result.start else ():
             follower.state = advance(follower.state, block, dialect.modes)

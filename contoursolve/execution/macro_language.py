@@ -108,6 +108,10 @@ SKIP_SWITCH = Variable("/")
 """Switch at the machine that decides if blocks with / run; no program reads it."""
 
 
+LENGTH_INCREMENT, ANGLE_INCREMENT = Variable("@LENGTH"), Variable("@ANGLE")
+"""What an argument without a decimal point counts, in the program's units; no program names them."""
+
+
 class JumpWay(Enum):
     """Direction in which a jump looks for its label."""
 
@@ -151,6 +155,8 @@ class Call(Struct, frozen=True, tag=True):
     count: Term = Constant(1.0)
     arguments: tuple[tuple[str, Term], ...] = ()
     """Variables of the subprogram that the call sets, by name: G65 P100 A5. sets `#1`."""
+    counted: str = ""
+    """The letters of arguments without a decimal point, which count least increments of their address."""
     is_local: bool = False
     """Whether the subprogram has local variables of its own: G65, a call of SINUMERIK."""
     cycle: str = ""

@@ -10,7 +10,9 @@ from msgspec.structs import replace
 from contoursolve.diagnostics import UserError
 from contoursolve.execution.evaluate import FUNCTIONS, evaluate, is_true, name_of_indexed
 from contoursolve.execution.macro_language import (
+    ANGLE_INCREMENT,
     ARGUMENT,
+    LENGTH_INCREMENT,
     MACHINES,
     SKIP_SWITCH,
     UNSET,
@@ -96,7 +98,8 @@ def named_variables(language: MacroLanguage, lines: Iterable[str]) -> list[Named
             before = found.setdefault(name, NamedVariable(name, number, set_on, value))
             if before.set_on is None and is_set:
                 found[name] = NamedVariable(name, before.line, set_on, value)
-    own = (each for each in found.values() if each.name not in (SKIP_SWITCH.name, language.always_empty))
+    left_out = SKIP_SWITCH.name, LENGTH_INCREMENT.name, ANGLE_INCREMENT.name, language.always_empty
+    own = (each for each in found.values() if each.name not in left_out)
     return [each for each in own if not language.unknown(each.name).endswith(MACHINES)]
 
 

@@ -168,7 +168,7 @@ class Run:
         self.profiles: list[CycleProfile] = []
         """The profiles of cycles that ran, when all is examined."""
         self.asked, self._together, self._kept = asked, together, kept
-        self._machine = machine_for(program, dialect, asked.around) if dialect is not None else None
+        self._machine = machine_for(program, dialect, asked.around, asked.unit) if dialect else None
 
     @cached_property
     def _running(self) -> Running | None:

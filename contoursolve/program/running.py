@@ -13,7 +13,7 @@ from contoursolve.diagnosis import Answer, Context
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.execution import EventKind, Machine, ProgramEvent
 from contoursolve.gcode import Block
-from contoursolve.program.calls import in_text_order
+from contoursolve.program.calls import arguments_without_point, in_text_order
 from contoursolve.program.contour_answers import AnswersInPasses, Learned
 from contoursolve.program.cycle_profiles import CycleProfile
 from contoursolve.program.examination import Cursor, Examination, tell, tell_rest
@@ -42,6 +42,7 @@ def steps_as_run(
         context = Context(asked.rules, asked.unit)
         marks, found = Marks().look(blocks, context)
         told = [*found, *marks.finish(context)]
+    told += arguments_without_point(machine, asked)
     deque(running.walk, 0)
     examination.queue.settle()
     yield from in_text_order(

@@ -43,6 +43,7 @@ class ReadIssue(Enum):
     SUSPECTED = "suspected"
     START_IN_INCREMENTS = "start-in-increments"
     MOVE_IN_INCREMENTS = "move-in-increments"
+    ARGUMENT_IN_INCREMENTS = "argument-in-increments"
     COMMA_MISSING = "comma-missing"
     COMMA_WORD_UNKNOWN = "comma-word-unknown"
     WORD_MISTYPED = "word-mistyped"

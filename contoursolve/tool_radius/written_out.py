@@ -18,7 +18,7 @@ _KEPT = frozenset("NFSTMDG")
 def written_out(run: Run, dialect: Dialect, *, is_inline: bool) -> list[Block]:
     """The blocks of a program that has calls or cycles with profiles; none of a plain one. Raises ToolError."""
     program, language = run.frame.program, dialect.modes.language
-    machine = machine_for(program, dialect, run.asked.around)
+    machine = machine_for(program, dialect, run.asked.around, run.asked.unit)
     if machine is None or language is None:
         return []
     others = (block.text for block in program.blocks if not _calls_profile(block.text, language))
