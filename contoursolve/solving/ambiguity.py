@@ -108,8 +108,6 @@ def settle(profile: Profile, *, is_blaming: bool = True, enumeration: Enumeratio
     if unsettled:
         tried = (find_alternatives(other) for other in (*orders_of(profile), *_last(profile, unsettled)))
         alternatives = next((found for found in tried if not _unsettled(found)), alternatives)
-    elif is_blaming and not alternatives.items and alternatives.is_complete:
-        alternatives = _with_others(profile) or alternatives
     nearest = tuple(sorted(alternatives.items, key=_disagreement))
     solution = decide(replace(alternatives, items=nearest), profile)
     if not is_blaming or all(refusal.kind not in _SEARCHED for refusal in solution.refusals):
@@ -129,34 +127,6 @@ def settle(profile: Profile, *, is_blaming: bool = True, enumeration: Enumeratio
         return Settlement(found, alternatives)
     solution = Solution(Status.UNDERDETERMINED)
     return Settlement(solution, alternatives, _givens(doubtful, groups, system), tuple(singular))
-
-
-def _with_others(profile: Profile) -> Alternatives | None:
-    """The solutions of other facts than those that are needed first, which have none, where something is said twice:
-    with them the rest agrees, or disagrees by an amount. None where no others have any."""
-    system = assemble(profile)
-    if len(system.facts) <= len(system.unknowns):
-        return None
-    others = [*orders_of(profile), *_last(profile, system.unknowns)]
-    # What is closed is solved at once; of the rest, few are searched.
-    closed = [_is_closed(assemble(each)) for each in others]
-    tried = [each for each, is_so in zip(others, closed, strict=True) if is_so]
-    tried += [each for each, is_so in zip(others, closed, strict=True) if is_so is False][:_MOST_SEARCHED]
-    found = (find_alternatives(each) for each in tried)
-    complete = (each for each in found if each.items and each.is_complete)
-    return next((each for each in complete if min(map(_disagreement, each.items)) <= _REPEATED), None)
-
-
-_REPEATED = 1.0
-"""mm. What disagrees by more does not repeat the rest: then the words without a solution are what is wrong."""
-
-_MOST_SEARCHED = 4
-"""Other choices of the facts that are needed, without a closed form, that are searched for solutions."""
-
-
-def _is_closed(system: System) -> bool | None:
-    """Whether a system has a closed form; None where it is not determined."""
-    return is_closed(system) if analyse(system).is_determined else None
 
 
 def settled_by(profile: Profile, unknown: str) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """CNC PILOT: what must be said of wrong programs, its settings, and its sections. Its worked examples are vectors."""
 
-from math import degrees, hypot, radians, tan
+from math import cos, degrees, hypot, radians, sin, tan
 from random import Random
 
 import pytest
