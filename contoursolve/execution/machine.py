@@ -1387,7 +1387,8 @@ class Machine:
             elif formal.has_default:
                 value = Unknown(f"{formal.name} has a value of its own, which is not read")
             level.types[formal.name] = formal.of_type
-            level.values[formal.name] = as_type(value, formal.of_type, formal.name)
+            typed = as_type(value, formal.of_type, formal.name)
+            level.values[formal.name] = self.variables.stated(formal.name, typed)
         return replace(level, links=links)
 
     def _link(self, formal: FormalParameter, term: Term, text: str) -> tuple[int, str] | Unknown:
