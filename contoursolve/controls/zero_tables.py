@@ -57,6 +57,10 @@ class _Family(Struct, frozen=True):
             if 0 <= at < count:
                 by_code = (("G", _FIRST_CODE + at),) if first == _BY_CODE else (("G", self.further), ("P", at + 1))
                 yield Entry(WORK, None if first == _EXTERNAL else by_code, self.axes_at(place))
+        if _BY_AXIS <= number < _BY_AXIS + 100 * _AXES_BY_AXIS:
+            place, at = divmod(number - _BY_AXIS, 100)
+            is_shift = at == 0 or not self.is_mill
+            yield Entry(WORK, None if is_shift else (("G", _FIRST_CODE - 1 + at),), self.axes_at(place))
         for first, last in _TOOLS:
             if first <= number <= last:
                 yield self.tool((number - first) % (100 if last < _GEOMETRY else 1000) + 1)
@@ -66,8 +70,10 @@ class _Family(Struct, frozen=True):
 
 _GEOMETRY = 10000
 """From here on, numbers of tool offsets mean their geometry."""
-_TOOLS = ((2001, 2999), (10001, 13999))
-"""Variables of tool offsets, and of work offsets as some number them."""
+_TOOLS = ((2001, 2499), (10001, 13999))
+"""Variables of tool offsets."""
+_BY_AXIS, _AXES_BY_AXIS = 2500, 4
+"""Variables of work offsets by axes: from #2500 on those of X, from #2600 on those of the next axis."""
 
 
 def zero_table(

@@ -150,6 +150,7 @@ def _unknown(name: str) -> str:
 
 
 def _scope(name: str) -> VariableScope:
+    # Printed: TF5200 programming manual, 207981323.
     return VariableScope.NESTED if name.startswith("V.L.") else VariableScope.EVERYWHERE
 
 

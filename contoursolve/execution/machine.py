@@ -405,8 +405,9 @@ class Machine:
         mark, levels = self._untaken.get(index, (0, [self.variables.set_once()]))
         self.variables.levels = levels
         if code.begins is not None and self.language.declares:
-            unknown = {each.name: Unknown(f"{each.name}{ARGUMENT}{code.begins}") for each in code.parameters}
-            types = {each.name: each.of_type for each in code.parameters}
+            formal = self.main.head(index, self.main.section_end(index)).parameters
+            unknown = {each.name: Unknown(f"{each.name}{ARGUMENT}{code.begins}") for each in formal}
+            types = {each.name: each.of_type for each in formal}
             levels.append(VariableLevel(code.begins, dict(unknown) | self.variables.given_of(unknown), types))
         self._here, self._is_marking = mark, False
         return ProgramEvent(EventKind.FRESH, line, why, mark)
@@ -450,10 +451,10 @@ class Machine:
         known."""
         begin = self._begin()
         heads = (self.main.code(at) for at in range(begin, len(self.main)) if self._says_something(at))
-        head = next(heads, None)
-        for each in head.parameters if head is not None else ():
+        name = next((each.begins for each in heads if each.begins is not None), "")
+        for each in self.main.head(begin, self.main.section_end(begin)).parameters if len(self.main) else ():
             self.variables.levels[0].types[each.name] = each.of_type
-            self.variables.set(each.name, Unknown(f"{each.name}{ARGUMENT}{head.begins if head else ''}"))
+            self.variables.set(each.name, Unknown(f"{each.name}{ARGUMENT}{name}"))
         self.variables.is_called = self._is_for_calls(begin)
         return begin
 
@@ -1386,7 +1387,8 @@ class Machine:
             elif formal.has_default:
                 value = Unknown(f"{formal.name} has a value of its own, which is not read")
             level.types[formal.name] = formal.of_type
-            level.values[formal.name] = as_type(value, formal.of_type, formal.name)
+            typed = as_type(value, formal.of_type, formal.name)
+            level.values[formal.name] = self.variables.stated(formal.name, typed)
         return replace(level, links=links)
 
     def _link(self, formal: FormalParameter, term: Term, text: str) -> tuple[int, str] | Unknown:

@@ -239,10 +239,16 @@ class Variables:
         level = self.levels[depth]
         kind = level.types.get(_array(there))
         value = value if kind is None else as_type(value, kind, name)
-        level.values[there] = value
+        value = level.values[there] = self.stated(there, value) if depth else value
         self._lines[there, value] = self.line
         if len(self.assigned) < MOST_LOGGED:
             self.assigned.append(there)
+
+    def stated(self, name: str, value: Known) -> Known:
+        """The value that is stated apart of what a subprogram has for itself, unless the main program has the name;
+        else another one."""
+        is_main = not self._language.declares or _array(name) in self.levels[0].types
+        return value if is_main else self.given.get(name, value)
 
     def copy(self) -> list[VariableLevel]:
         """The levels, to be kept."""

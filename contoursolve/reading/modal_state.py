@@ -502,6 +502,11 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         return state.lose(axes, reason, block.span)
     if words:
         state = state.move(positions(state, words, modes, block.is_skippable))
+    preset = next((code for code in rows_of(block, modes) if code.effect is Effect.PRESET), None)
+    if preset is not None and state.is_incremental:
+        rows = (modes.lexicon.addresses[word.address] for word in words)
+        open_axes = tuple(row.axis for row in rows if row.follows_increments)
+        state = state.lose(open_axes, f"what {preset.text} sets where increments are in force is not known", block.span)
     state = _lose_ends(state, block, modes)
     return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
 

@@ -59,7 +59,11 @@ class Entry(Struct, frozen=True):
         """Whether it is in force, or may be."""
         in_force = zero.get(self.group)
         if self.digits and isinstance(in_force, tuple):
-            in_force = tuple((address, number % 10**self.digits) for address, number in in_force)
+            most = 10**self.digits
+            if any(0 < number < most for _, number in in_force):
+                # In T11, each digit may count alone.
+                return True
+            in_force = tuple((address, number % most) for address, number in in_force)
         return self.offset is None or in_force is None or in_force == self.offset
 
 

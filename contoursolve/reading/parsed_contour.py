@@ -385,8 +385,10 @@ def next_place(blocks: Iterable[Block], claim: ParsedContour, modes: Modes) -> t
     block = next((block for block in blocks if block.words), None)
     if block is None or block.faults:
         return None
-    state = apply_modes(claim.left, block, modes)
-    if state.motion not in (0, 1, None):
+    left = claim.left
+    state = apply_modes(left, block, modes)
+    if state.motion not in (0, 1, None) or any(state.axes[axis] is not left.axes[axis] for axis in state.plane.axes):
+        # What moves the coordinate system gives other coordinates to the same place.
         return None
     unknown = state.lose(modes.axes, "the contour before it is not solved yet", block.span)
     found = positions(unknown, axis_words(block, modes), modes, is_skippable=False)

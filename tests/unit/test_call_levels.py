@@ -182,6 +182,28 @@ def test_the_808d_keeps_what_the_main_program_defines_to_it():
     assert ("siemens-variable-refused", 9) in codes_of(text, settings=local)
 
 
+def test_what_nothing_calls_has_a_level_of_its_own():
+    sub = "%_N_SUB_SPF\nPROC SUB(REAL AA)\nG1 X=AA RND=2\nY40"
+    alone = "%_N_M_MPF\n" + HEAD.format("DEF REAL AA=15", sub)
+    assert [(each.status, each.claim.blocks[0].line) for each in result_of(alone).answers] == [
+        (Status.SOLVED, 5),
+        (Status.UNDERDETERMINED, 10),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("call", "sub"),
+    [
+        ("DEF REAL AA\nSUB(5)\nAA=R1", "PROC SUB(REAL BB)\nR1=BB"),
+        ("DEF REAL AA\nSUB\nAA=R1", "PROC SUB\nDEF REAL BB=3\nR1=BB"),
+    ],
+)
+def test_a_stated_value_holds_in_each_level(call, sub):
+    assert corner_of(HEAD.format(call, sub), variables={"BB": 40}) == 40
+    assert corner_of(HEAD.format("DEF REAL AA=1", "PROC SUB(REAL AA)"), variables={"AA": 40}) == 40
+    assert corner_of(HEAD.format("DEF REAL AA\nSUB(7)", "PROC SUB(REAL AA)\nR1=AA"), variables={"AA": 40}) == 40
+
+
 @pytest.mark.parametrize("type_", ["INT BB=9999999999", "CHAR BB=300", 'REAL BB="A"', "AXIS BB=X"])
 def test_what_a_type_cannot_hold_is_not_known(type_):
     (finding,) = result_of(HEAD.format(f"DEF {type_}\nDEF REAL AA=BB", "PROC SUB")).diagnostics

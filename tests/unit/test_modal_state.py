@@ -126,6 +126,7 @@ MILL = {
     "dwell": (f"{THERE}\nG4 X2", 50, 0, None),
     "length compensation": (f"{THERE}\nG43 H1 Z50", 50, 0, None),
     "coordinates set by G92": ("G41\nG92 X50 Y0", 50, 0, None),
+    "coordinates set by G92 in increments": (f"{THERE}\nG91 G92 X5\nG90", None, 0, 2),
     "drilling cycle": (f"{THERE}\nG81 X10 Y10 Z-20 R2", None, None, 2),
     "drilling cycle goes on": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nX20", None, None, (2, 3)),
     "end of the drilling cycle": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nG80", None, None, 2),

@@ -65,12 +65,14 @@ MOVES = [
     ("heidenhain", "CYCL DEF 7.1 X+60", "CYCL DEF 7.1 #5", UNKNOWN),
     ("heidenhain", "CYCL DEF 10.1 ROT+30", "CYCL DEF 7.1 X+5", UNKNOWN),
     ("heidenhain", "", "CYCL DEF 7.1 X+Q5", (None, 0)),
+    ("heidenhain", "", "L X+5 M91", (None, 0)),
     *(
         ("heidenhain", "", each, UNKNOWN)
         for each in ("CYCL DEF 247 DATUM ~\nQ339=+4", "CYCL DEF 8.1 X", "CYCL DEF 26.1 X2", "PLANE RESET STAY")
     ),
     ("fanuc-mill", "", "G10 L2 P1 X10. Y0.", UNKNOWN),
     ("fanuc-mill", "", "#5221=#5221+10.", (None, 0)),
+    ("fanuc-mill", "", "#2502=7.\n#2601=#2601+10.", (0, None)),
     ("haas-mill", "G110", "G154 P1", AT),
     ("haas-mill", "G154 P2", "G110", UNKNOWN),
     ("haas-mill", "G110", "G10 L20 P1 X1.", (None, 0)),
@@ -140,6 +142,19 @@ def test_no_coordinate_is_written_that_was_not_known(control):
         text = program.format(*places)
         written = expand(text, control=control, keep_going=True).text
         assert [line for line in written.splitlines() if "NOT EXPANDED" not in line] == text.splitlines()
+
+
+KLARTEXT = "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 FMAX\n2 L X+20 R0 F300{}\n3 RND R5\n4 L Y+20{}\n5 L X+60 Y+40"
+FREE = "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 FMAX\n2 FL AN+30 LEN20{}\n3 FL X+60 Y+40\n4 L Y+80"
+
+
+@pytest.mark.parametrize("text", [KLARTEXT.format(" M91", ""), KLARTEXT.format("", " M92"), FREE.format(" M91")])
+def test_no_contour_has_coordinates_of_the_machine(text):
+    plain = solve(text.replace(" M91", "").replace(" M92", ""), control="heidenhain")
+    result = solve(text, control="heidenhain")
+    assert [each.contour is None for each in plain.answers] == [False]
+    assert all(each.contour is None for each in result.answers)
+    assert result.diagnostics
 
 
 SELECTIONS = [

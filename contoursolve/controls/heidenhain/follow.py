@@ -71,10 +71,26 @@ def follow(state: State, block: Block, modes: Modes) -> State:
         moved = _polar(state, block, modes)
     else:
         moved = state.move(positions(state, axis_words(block, modes), modes, block.is_skippable))
-    for numbers, reason in _LOSING_M.items():
-        if any(word.address == "M" and word.number in numbers for word in block.words):
-            return moved.lose(modes.axes, reason, block.span)
+    if is_of_machine(block):
+        rows = (modes.lexicon.addresses.get(word.address) for word in block.words)
+        own = tuple(dict.fromkeys(row.axis for row in rows if row and row.axis in modes.axes)) or modes.axes
+        return moved.lose(own, "its coordinates are those of the machine", block.span)
+    if any(word.address == "M" and word.number in _ENDING for word in block.words):
+        return moved.lose(modes.axes, "the program ends there", block.span)
     return moved
+
+
+def words_of_machine(block: Block) -> list[Word]:
+    """The words by which the coordinates of a block are those of the machine, or of its builder."""
+    return [word for word in block.words if word.address == "M" and word.number in _OF_MACHINE]
+
+
+def is_of_machine(block: Block) -> bool:
+    """Whether a block has one of them."""
+    return bool(words_of_machine(block))
+
+
+_ENDING, _OF_MACHINE = (2, 30), (91, 92)
 
 
 def keep_joint(state: State, block: Block, function: str) -> State:
@@ -86,9 +102,6 @@ def keep_joint(state: State, block: Block, function: str) -> State:
     if JOINT in state.memory and (function in MOVES or function.startswith("DEP")):
         return replace(state, memory={name: word for name, word in state.memory.items() if name != JOINT})
     return state
-
-
-_LOSING_M = {(2, 30): "the program ends there", (91, 92): "its coordinates are those of the machine"}
 
 
 def begins_chain(function: str, block: Block, plane: Sequence[str] = PLANE) -> bool:
