@@ -1,13 +1,18 @@
 """What a program means before its geometry begins: starts and paths are those of small reference interpreters, or are
 said to be unknown; and what is written anew moves as before."""
 
+import re
+from itertools import groupby
+
 import pytest
+from click.testing import CliRunner
 from drawn_meanings import drawn
 from meaning_core import Move, Stopped
 from meaning_path import CONTROLS, Hard, Open, path_of, runs
 from program_meaning import PRODUCT, judged
 
-from contoursolve import expand
+from contoursolve import convert, expand
+from contoursolve.cli import main
 
 EACH = 5
 """Programs of a case."""
@@ -102,19 +107,56 @@ def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]
     return found
 
 
+def written_anew(text: str, control: str, how: str) -> str | None:
+    own = PRODUCT.get(control, control)
+    if how == "convert":
+        return convert(text, TWINS[control], control=own, comments=False).text
+    return expand(text, control=own, comments=False, keep_going=True, inline=how == "inline").text
+
+
+TWINS = {"fanuc-mill": "haas-mill", "fanuc-lathe": "haas-lathe", "siemens-840d": "isg", "siemens-turning": "isg"}
+"""Controls of almost the same words."""
+
+
 @pytest.mark.parametrize("control", CONTROLS)
-@pytest.mark.parametrize("case", range(12))
-def test_what_is_written_anew_moves_as_before(case, control):
+@pytest.mark.parametrize("how", ["expand", "inline", "convert"])
+@pytest.mark.parametrize("case", range(6))
+def test_what_is_written_anew_moves_as_before(case, how, control):
     for seed in range(1000 + case * EACH, 1000 + case * EACH + EACH):
         text = drawn(str(seed), control)
         try:
             before = trace(text, control)
         except (Hard, Stopped, ValueError):
             continue
-        written = expand(text, control=PRODUCT.get(control, control), comments=False, keep_going=True).text
-        after = trace(written, control)
+        written = written_anew(text, control, how)
+        if written is None or (how == "convert" and "#RND" in written):
+            continue
+        # The twin's angles have no comma.
+        after = trace(re.sub(r" A(?=[-\d])", " ,A", written), control)
         assert len(before) == len(after), (seed, text, written)
         for one, other in zip(before, after, strict=True):
             for a, b in zip(one, other, strict=True):
                 assert (a is None) is (b is None), (seed, one, other, text, written)
                 assert a is None or abs(a - b) <= AS_WRITTEN, (seed, one, other, text, written)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("case", range(4))
+def test_a_tool_path_is_known_where_the_program_is(case, control, tmp_path):
+    for seed in range(2000 + case * EACH, 2000 + case * EACH + EACH):
+        drawn_text, file = drawn(str(seed), control), tmp_path / f"{seed}.txt"
+        # The last contour of the main program is cut with compensation.
+        first, last = drawn_text.split("M30\n", 1)
+        begin, mark, contour = first.rpartition("G01 " if control.startswith("fanuc") else "G1 ")
+        away = "X200. Z200." if "turning" in control or "lathe" in control else "X200. Y200."
+        text = f"{begin}G42 {mark}{contour}G40 G00 {away}\nM30\n{last}"
+        file.write_text(text)
+        tool = ["--tool", "R0.1", *(["--tip", "3"] if control in ("fanuc-lathe", "siemens-turning") else [])]
+        options = ["--control", PRODUCT.get(control, control), "--inline", "--keep-going", "--no-comments"]
+        written = CliRunner().invoke(main, ["expand", str(file), *tool, *options]).stdout
+        try:
+            before = [each is None for each, _ in trace(text, control)]
+            after = [each is None for each, _ in trace(written, control)] if written else before
+        except (Hard, Stopped, ValueError):
+            continue
+        assert [known for known, _ in groupby(before)] == [known for known, _ in groupby(after)], (seed, text, written)
