@@ -1,6 +1,15 @@
 """CNC PILOT: the words of examples."""
 
-from contoursolve.controls.own_words import AS_WRITTEN, G_CODES, NO_CODES, NO_COMMAS, NO_CONTROL, NO_SIGNS, OwnWords
+from contoursolve.controls.own_words import (
+    AS_WRITTEN,
+    G_CODES,
+    NO_ARGUMENTS,
+    NO_CODES,
+    NO_COMMAS,
+    NO_CONTROL,
+    NO_SIGNS,
+    OwnWords,
+)
 
 _GAPS = {
     **G_CODES,
@@ -74,6 +83,7 @@ _SLIPS = {
 }
 _ABSENT = {
     **AS_WRITTEN,
+    **NO_ARGUMENTS,
     **NO_CODES,
     **NO_COMMAS,
     **NO_CONTROL,

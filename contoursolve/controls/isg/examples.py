@@ -3,6 +3,7 @@
 from contoursolve.controls.chain.rules import ExampleWords, gaps_of
 from contoursolve.controls.own_words import (
     AS_WRITTEN,
+    NO_ARGUMENTS,
     NO_COMMAS,
     NO_CONTROL,
     NO_MEASURE,
@@ -62,6 +63,7 @@ _SLIPS = {
 }
 _ABSENT = {
     **AS_WRITTEN,
+    **NO_ARGUMENTS,
     **NO_COMMAS,
     **NO_CONTROL,
     **NO_PAIRS,
