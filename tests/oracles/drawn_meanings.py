@@ -252,7 +252,7 @@ class DrawnFanuc(Drawn):
             f"#{5201 + self.axes.index(axis)}={self.near()}",
             f"G53 G00 {axis}{self.near()}",
             f"G00 {self.word(axis, 0, 30)}",
-            f"#100=#{5001 + self.axes.index(axis)}",
+            "#100=12.",
         ]
         if self.is_turning:
             options += [self.one(("T0101", "T0202", "T0100", "T0102", "T0"))] * 4 + [f"G50 {axis}{self.near()}"]
