@@ -32,7 +32,7 @@ from verifying import (
     with_contour,
 )
 
-from contoursolve.comparison import Document, ReceiptVerdict, verify
+from contoursolve.comparison import CannotVerifyError, Document, ReceiptVerdict, verify
 from contoursolve.controls import DIALECTS
 from contoursolve.gcode import parse
 
@@ -118,7 +118,11 @@ def test_what_is_tampered_with_is_caught_for_every_control(control):
     text, result = next(each for each in results if each[1]["contours"] and each[1]["contours"][0]["points"])
     for each in rng.sample(list(every_change(result)), MOST):
         documents = Document("program", text.encode()), Document("result", json.dumps(each).encode())
-        assert verify(*documents).verdict is ReceiptVerdict.FAILED
+        try:
+            verdict = verify(*documents).verdict
+        except CannotVerifyError:
+            continue  # a count below 0 is no result at all
+        assert verdict is ReceiptVerdict.FAILED
 
 
 WORKED = [
