@@ -141,7 +141,7 @@ class Ways(Follower):
         axes, span = self.modes.axes, Span(line, 1, 2)
         states = [each.state.lose_all(axes, reason, span) for each in known.ways]
         if modes:
-            states = [each.doubt(self.modes.lasting, f"{reason}{_on_line(line)}") for each in states]
+            states = [each.doubt(self.modes, f"{reason}{_on_line(line)}") for each in states]
         return replace(known, ways=[replace(way, state=state) for way, state in zip(known.ways, states, strict=True)])
 
 

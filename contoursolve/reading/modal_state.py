@@ -223,10 +223,12 @@ class State(Struct, frozen=True):
         """The state with the position on these axes unknown."""
         return self.move({axis: Position(None, reason, span) for axis in axes})
 
-    def doubt(self, lasting: Iterable[str], reason: str) -> "State":
-        """The state in which no mode is known, nor any word that stays in force."""
-        names: list[Mode | str] = [*dict.fromkeys([*lasting, *self.memory])]
-        names += (mode for mode in Mode if mode is not Mode.DIAMETER or self.diameter is not None)
+    def doubt(self, modes: "Modes", reason: str) -> "State":
+        """The state in which no mode is known, nor any word that stays in force. Where no G codes are programmed, each
+        block says how it moves, and the head of a program its unit."""
+        names: list[Mode | str] = [*dict.fromkeys([*modes.lasting, *self.memory])]
+        own = (Mode.PLANE, Mode.COMPENSATION) if modes.follow is not None else tuple(Mode)
+        names += (mode for mode in own if mode is not Mode.DIAMETER or self.diameter is not None)
         return replace(self, doubts=dict.fromkeys(names, reason))
 
     def lose_all(self, axes: tuple[str, ...], reason: str, span: Span) -> "State":
@@ -484,7 +486,7 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
     for word in block.words:
         if modes.is_call(word) or modes.is_unread_call(word):
             why = modes.why_lost(word)
-            state = state.doubt(modes.lasting, why) if modes.is_unread_call(word) else state
+            state = state.doubt(modes, why) if modes.is_unread_call(word) else state
             return state.lose_all(modes.axes, why, word.span)
     codes = codes_of(block, modes)
     for code in codes:

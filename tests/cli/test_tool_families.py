@@ -131,7 +131,7 @@ def test_the_largest_tool_of_whole_programs(name: str, words: tuple[str, ...], l
 
 def test_lines_that_are_no_path_are_named_and_units_may_change(tmp_path: Path):
     program = tmp_path / "a.nc"
-    inch = "G20 G00 X8. Y0\nG01 X8. Y1. ,R.1\nX9.\n"
+    inch = "G17 G20 G90 G00 X8. Y0\nG01 X8. Y1. ,R.1\nX9.\n"
     program.write_text(f"G17 G21 G90\nG00 X0 Y0\nG01 X0 Y30. ,R2.\nX40.\nM98 P7777\n{inch}M30\n")
     done = call("find", program, "--word", "tool", *MILL, "--side", "right")
     assert done.stdout.splitlines()[0] == "largest tool for all 2 contours: 2.0000 mm"

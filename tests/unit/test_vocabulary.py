@@ -265,12 +265,6 @@ def test_an_argument_of_a_subprogram_is_one_note(block):
     assert not findings(SINUMERIK, text, variables={"CORNER": 3.0})
 
 
-def test_a_variable_or_a_program_of_one_letter_is_one():
-    text = MILL + "A(3)\nM30\nPROC A(REAL C)\nDEF REAL D=2\nG1 X60 F200 RND=C\nY40 CHR=D\nX20\nM17"
-    result = contoursolve.solve(text, control=SINUMERIK)
-    assert (result.diagnostics, [each.status for each in result.answers]) == ((), [Status.SOLVED])
-
-
 @pytest.mark.parametrize(
     ("action", "known"),
     [
