@@ -41,6 +41,7 @@ from contoursolve.reading.moved_zero import (
     change_entries,
     entries_of_assignment,
     forget_shifts,
+    is_along_axes,
     move_zero,
 )
 from contoursolve.tolerance import RADIUS_DIFFERENCE, TRAVEL
@@ -500,8 +501,10 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
     if effect is Effect.NO_MOTION:
         return state
     if effect is Effect.SINGLE or (effect is Effect.CYCLE and words):
-        axes = tuple(dict.fromkeys(_axis(word, modes) for word in words)) or modes.axes
-        return state.lose(axes, reason, block.span)
+        axes = tuple(dict.fromkeys(_axis(word, modes) for word in words))
+        # Where axes are turned, an axis of the machine moves others of the program.
+        is_alone = axes and (effect is not Effect.SINGLE or is_along_axes(state.zero, modes.zero.first))
+        return state.lose(axes if is_alone else modes.axes, reason, block.span)
     if words:
         state = state.move(positions(state, words, modes, block.is_skippable))
     preset = next((code for code in rows_of(block, modes) if code.effect is Effect.PRESET), None)

@@ -202,12 +202,22 @@ def move_zero(
             concerned = row.entries(block, tuple(numbers)) if row.entries is not None else (Entry(row.group),)
             return change_entries(zero, concerned, axes, reason)
         case ZeroMove.LATER:
-            return Moved({}, {name: value for name, value in zero.items() if name != row.group}, reason)
+            return Moved({}, _with_other_data(zero, row.group), reason)
         case ZeroMove.OTHER:
-            return replace(lost, zero={name: value for name, value in zero.items() if name != row.group})
+            return replace(lost, zero=_with_other_data(zero, row.group))
         case _:
             stated = _formula(word, block, axes, mm) if row.move is ZeroMove.FORMULA else numbers
             return shift_zero(zero, row.move, block, stated, axes, reason)
+
+
+def _with_other_data(zero: Zero, group: str) -> Zero:
+    """What is in force where the numbers of an offset are others, so that the same one is another one."""
+    return {**{name: value for name, value in zero.items() if name != group}, f"data of {group}": ()}
+
+
+def is_along_axes(zero: Zero, first: Zero) -> bool:
+    """Whether all shifts that a control has are known, so that nothing is turned."""
+    return all(name in zero for name, value in first.items() if isinstance(value, Decimal))
 
 
 def change_entries(zero: Zero, entries: Iterable[Entry], axes: tuple[str, ...], reason: str) -> Moved | None:
@@ -228,8 +238,8 @@ def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: st
     by = dict[str, Decimal | None]()
     for axis in axes:
         old, new = (_sum(*_shifts_of(zero, axis)) for zero in (now, before))
-        if before.get(WORK) != now.get(WORK) or old is None or new is None:
-            # Where neither is known, what runs may have changed it.
+        if before.get(WORK) != now.get(WORK) or f"data of {WORK}" in now or old is None or new is None:
+            # Where neither is known, what runs may have changed it; so may whoever writes the numbers of an offset.
             by[axis] = None
         elif old != new:
             by[axis] = new - old
