@@ -212,7 +212,11 @@ def move_zero(
 
 def _with_other_data(zero: Zero, group: str) -> Zero:
     """What is in force where the numbers of an offset are others, so that the same one is another one."""
-    return {**{name: value for name, value in zero.items() if name != group}, f"data of {group}": ()}
+    return {**{name: value for name, value in zero.items() if name != group}, **({_DATA: ()} if group == WORK else {})}
+
+
+_DATA = "numbers of a work offset"
+"""Stands in what is in force where some were changed."""
 
 
 def is_along_axes(zero: Zero, first: Zero) -> bool:
@@ -238,13 +242,13 @@ def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: st
     by = dict[str, Decimal | None]()
     for axis in axes:
         old, new = (_sum(*_shifts_of(zero, axis)) for zero in (now, before))
-        if before.get(WORK) != now.get(WORK) or f"data of {WORK}" in now or old is None or new is None:
+        if before.get(WORK) != now.get(WORK) or _DATA in now or old is None or new is None:
             # Where neither is known, what runs may have changed it; so may whoever writes the numbers of an offset.
             by[axis] = None
         elif old != new:
             by[axis] = new - old
     # What a program changes of the offset in force, it may leave changed: printed, a machine datum.
-    from_now = (TOOL, LENGTH) if WORK in now else (TOOL, LENGTH, WORK)
+    from_now = (TOOL, LENGTH, _DATA) if WORK in now else (TOOL, LENGTH, _DATA, WORK)
     kept = {name: value for name, value in before.items() if name not in from_now}
     return Moved(by, kept | {name: value for name, value in now.items() if name in from_now}, reason)
 
