@@ -84,7 +84,7 @@ def test_save_does_not_undo_what_is_written_into_an_offset():
     subs = "M30\nPROC SUB1 SAVE\nSUB2\nG0 X9 Y2\nRET\nPROC SUB2 SAVE\n{}\nRET"
     for changed, start in (("$P_IFRAME=CTRANS(X,5)", (None, None)), ("TRANS X5", (9, 2))):
         program = f"G17 G71 G90 G54\nG0 X8 Y2\nSUB1\nG1 X20 RND=2\nY20\n{subs.format(changed)}"
-        assert contoursolve.solve(program, control="siemens-840d").answers[0].start.values == start
+        assert solve(program, control="siemens-840d").answers[0].start.values == start
 
 
 def test_what_save_brings_back_is_not_written_where_it_is_not_known(tmp_path):
