@@ -174,3 +174,20 @@ def test_each_selection_of_a_table_makes_the_place_unknown_but_for_the_one_in_fo
     again = starts(program.format(word, word), control)[0]
     assert None not in again
     assert None in start
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "told"),
+    [
+        (
+            "fanuc-mill",
+            "G17 G90 G54\nG0 X0 Y0\nG1 X20. ,R5. F300.\n(A)\nG52 X10.\nY40.",
+            "G52 X10. in program line 5 moves",
+        ),
+        ("siemens-840d", "G17 G71 G90\nG0 X0 Y0\nG1 X20 RND=5\nTRANS X10\nY40", "TRANS X10 in program line 4 moves"),
+    ],
+)
+def test_a_corner_right_before_a_moved_zero_is_told_why(control, text, told):
+    (error,) = [each.message for each in solve(text, control=control).diagnostics if each.is_error]
+    assert told in error
+    assert error.endswith("move it before the contour")
