@@ -46,8 +46,7 @@ def expand_lines(
     machine = None
     if is_run:
         whole = tuple(each_block([*blocks], 0))
-        program = Program("", "", whole, dialect.modes.syntax)
-        blocks, machine = whole, machine_for(program, dialect, asked.around, asked.unit)
+        blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, asked.around)
 
     def leave(event: ProgramEvent) -> None:
         is_end = event.kind is EventKind.UNDECIDED

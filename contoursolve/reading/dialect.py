@@ -156,6 +156,5 @@ class Dialect:
             compensation=40,
             diameter=self.diameter,
             travel=self.modes.travel,
-            zero=self.modes.zero.first,
         )
         return with_diameters(state)

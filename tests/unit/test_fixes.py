@@ -5,7 +5,7 @@ import pytest
 from contoursolve import DIALECTS, Diagnostic, Fix, solve
 from contoursolve.diagnostics import Applicability
 
-START = "T0101 X40. Z0."  # the tool that is there
+START = "X40. Z0."
 TAPER = "G111 X100. A180. K-30. B120."
 MOVED = {
     "T0101": ("tool", "before"),

@@ -243,3 +243,53 @@ def test_fixes_tell_no_place_that_they_leave_where_it_is():
     assert "delete AN170" in titles
     assert any(" -> " in each for each in titles)
     assert not any("-> P1 is at Z0.000 mm X40.000 mm" in each for each in titles)
+
+
+REPEATED = """sketch = 1
+part = "milled"
+start = { X = 0, Y = 0 }
+[[element]]
+kind = "line"
+X = 10.360887
+[[element]]
+kind = "arc"
+tangent = true
+turn = "cw"
+CCX = 5.839095
+R = 5.5
+LEN = 7.932715
+CCA = 302.4
+[[element]]
+kind = "line"
+Y = -34.123453
+IX = -16.442881
+LEN = 20
+[[element]]
+kind = "arc"
+tangent = true
+turn = "ccw"
+CCY = -41.193892
+Y = -49.056476
+CCA = 246.1
+"""
+
+
+@pytest.mark.parametrize(
+    ("number", "fields", "told"),
+    [
+        (1, {}, ["drawing-redundant"] * 3),
+        (2, {"LEN": None}, ["drawing-redundant"]),
+        (2, {"LEN": 7.8}, ["LEN7.8 disagrees with", "by 0.133 mm: it states 7.800 mm, they give 7.933 mm"]),
+        (4, {"CCA": 240}, ["tangent is not true of what", "it is off by 0.479 mm"]),
+    ],
+)
+def test_data_that_repeat_to_a_millionth_are_redundant_or_in_conflict_by_an_amount(number, fields, told):
+    found = contoursolve.solve_sketch(changed(contoursolve.read_sketch(REPEATED), number, **fields))
+    errors = [each.message for each in found.findings if each.severity.value == "error"]
+    if errors:
+        (error,) = errors
+        assert all(part in error for part in told)
+    else:
+        assert [each.code for each in found.findings] == told
+        # By hand: P3 + 8.6 across line 3 is the centre, and from there 8.6 at 246.1 degrees the end.
+        assert found.elements[-1].segment.end == pytest.approx((-6.245156, -49.056476), abs=1e-5)

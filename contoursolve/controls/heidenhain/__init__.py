@@ -12,22 +12,12 @@ from contoursolve.controls.heidenhain.rules import RULES
 from contoursolve.controls.heidenhain.writer import WRITING
 from contoursolve.controls.plain import PLANES
 from contoursolve.execution import klartext
-from contoursolve.reading import Dialect, Modes, table_of
+from contoursolve.reading import Dialect, Modes
 
 HEIDENHAIN = Dialect(
     name="heidenhain",
     title="HEIDENHAIN TNC, Klartext with free contours FK",
-    modes=Modes(
-        LEXICON,
-        CODES,
-        ("X", "Y", "Z"),
-        frozenset(),
-        syntax=SYNTAX,
-        follow=follow,
-        language=klartext(),
-        # At first, no shift is in force.
-        zero=table_of((), {}, "XYZ"),
-    ),
+    modes=Modes(LEXICON, CODES, ("X", "Y", "Z"), frozenset(), syntax=SYNTAX, follow=follow, language=klartext()),
     plane=PLANES[17],
     forms=(),
     rules=WORDS.tell(*RULES),

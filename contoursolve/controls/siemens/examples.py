@@ -3,7 +3,6 @@
 from contoursolve.controls.chain.rules import ExampleWords, gaps_of
 from contoursolve.controls.own_words import (
     AS_WRITTEN,
-    NO_ARGUMENTS,
     NO_CODES,
     NO_COMMAS,
     NO_CONTROL,
@@ -71,7 +70,6 @@ _SLIPS = {
 }
 _ABSENT = {
     **AS_WRITTEN,
-    **NO_ARGUMENTS,
     **NO_CODES,
     **NO_COMMAS,
     **NO_CONTROL,
