@@ -91,14 +91,20 @@ def _alternatives(profile: Profile, enumeration: Enumeration) -> Alternatives:
 def _exact_first(system: System) -> System | None:
     """The system with a basis of what holds exactly and of words, where some of the former is beside its basis; None
     for nowhere. Where words say something twice and differ by rounding, a word is what is not needed, never that an arc
-    begins where it touches. Of the words, the one that leaves the smallest groups to solve comes last."""
+    begins where it touches. Of the words, the one that leaves the smallest groups to solve comes last; larger ones than
+    those of the basis may take minutes, and are not tried."""
     if all(fact.given for fact in spare_of(system)):
         return None
     own = sorted(system.facts, key=lambda fact: bool(fact.given))
     tied = [system.facts[index] for index in analyse(system).tied]
     orders = [system.keep((*(each for each in own if each is not fact), fact)) for fact in tied if fact.given]
-    sizes = [sorted((len(group.unknowns) for group in groups_of(each)), reverse=True) for each in orders]
-    return orders[sizes.index(min(sizes))] if orders else None
+    least = min(orders, key=_group_sizes, default=system)
+    return least if _group_sizes(least) < _group_sizes(system) else None
+
+
+def _group_sizes(system: System) -> list[int]:
+    """The numbers of unknowns that are solved together, the largest first."""
+    return sorted((len(group.unknowns) for group in groups_of(system)), reverse=True)
 
 
 def choose(alternatives: Alternatives, choices: tuple[Choice, ...]) -> tuple[Alternative, ...]:
