@@ -236,7 +236,8 @@ def sweep_(
     crash the same command goes on where it stopped. sweep names the folders that other sweeps have left.
 
     With tool=VALUES it also tells for each contour which of these tools cut it: the columns tool, tool.fits,
-    tool.largest (of these tools, in mm) and tool.fault, which is what stops the tool. The contour keeps its status.
+    tool.largest (of these tools, in mm) and tool.fault, which is what stops the tool, or warns of it. The contour keeps
+    its status.
 
     Exit status: 0 done, whatever became of the contours, 2 could not run, 130 stopped by Ctrl-C or SIGTERM.
 

@@ -76,14 +76,15 @@ def follow(
 ) -> ToolPath:
     """The path of a program that has been solved for this control; `unit` is that before any G20 or G21. With
     `finishes`, G70 runs the profile that it names."""
-    follower, machine = _Follower(dialect, unit, axes), machine_for(result.program, dialect, result.around)
+    follower = _Follower(dialect, unit, axes)
+    machine = machine_for(result.program, dialect, result.around, unit)
     if machine is None:
         for block in result.start.blocks if result.start else ():
             follower.state = advance(follower.state, block, dialect.modes)
         steps = follower.walk(result.program, result.answers)
     else:
         asked, machine.finishes = Request(dialect, unit, result.policy, Depth.VERDICT, result.start), finishes
-        steps = follower.run(walk(machine.run_all_alone(), asked), finishes=finishes)
+        steps = follower.run(walk((), asked, machine=machine, is_whole=True), finishes=finishes)
     return ToolPath(result.program.name, dialect.name, axes, tuple(steps), tuple(follower.ran))
 
 

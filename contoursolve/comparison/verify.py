@@ -28,10 +28,10 @@ from contoursolve.comparison.claims import (
 )
 from contoursolve.comparison.judge import check_contour, prepare
 from contoursolve.controls import DIALECTS
-from contoursolve.execution import ALONE, Limit, Surroundings, machine_of, surroundings_of
+from contoursolve.execution import ALONE, Limit, Surroundings, surroundings_of
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
-from contoursolve.reading import Dialect, ParsedContour, advance, contours_as_run, state_facts
+from contoursolve.reading import Dialect, ParsedContour, advance, contours_as_run, machine_in, state_facts
 
 _FINDINGS = ClaimCheck("findings", "the findings", passed=None, remark="their words and values, and their fixes")
 _NO_CONTOUR = ClaimCheck("count", "whether there is no contour", passed=None, remark="a finding of the result says so")
@@ -182,7 +182,7 @@ def follow(
         away = [float(at or 0) - float(start or 0) if found.after.is_incremental else 0.0 for start, at in starts]
         return claimed.end[0] + away[0], claimed.end[1] + away[1]
 
-    machine = machine_of(program, modes.language, modes.syntax, around, Limit(modes.most_blocks))
+    machine = machine_in(program, modes, around, unit, Limit(modes.most_blocks))
     visits = dict[int, list[Followed]]()
     for found, next_end in contours_as_run(program.blocks, machine, dialect.find, modes, first, end_of):
         visits.setdefault(found.blocks[0].line, []).append((found, claimed_of(found), next_end))

@@ -240,6 +240,17 @@ READING_RULES = (
         slip={"behind": "\n{move_whole}", "options": "--strict"},
     ),
     Rule(
+        code="argument-in-increments",
+        message="{words} {have} no decimal point and {are} read as {actual} in the called program; {meant} would be "
+        "{expected}",
+        help="write {meant} if that is meant; else {same}, which says the same; --set {control}.macro-arguments tells "
+        "what your control does",
+        source=_READING,
+        about=ReadIssue.ARGUMENT_IN_INCREMENTS,
+        severity=Severity.WARNING,
+        slip={"behind": "\nG65 P9 X20\nM30\nO9\nM99"},
+    ),
+    Rule(
         code="position-unknown",
         message="the start point is not known in {axes}: {reason}",
         help="position {axes} with an absolute word before this block, or state where the tool is with --start",
@@ -249,8 +260,8 @@ READING_RULES = (
     ),
     Rule(
         code="mode-unknown",
-        message="{what} is not known here: {reason}",
-        help="say it in this block, or after the place where the ways meet",
+        message="{what} {are} not known here: {reason}",
+        help="say it in this block, or between that place and this one",
         source=_READING,
         about=ReadIssue.MODE_UNKNOWN,
         slip={"between": "{jump}"},
@@ -262,7 +273,7 @@ READING_RULES = (
         source=_READING,
         about=ReadIssue.START_ASSUMED,
         severity=Severity.INFO,
-        slip={"size": "99.", "turn": "{one_axis}", "behind": "\n{again}"},
+        slip={"size": "5..", "turn": "{one_axis}", "behind": "\n{again}"},
     ),
     Rule(
         code="contour-waits",

@@ -9,7 +9,7 @@ from contoursolve.controls.further import WORDS
 from contoursolve.controls.tool_settings import TOOL_SETTINGS
 from contoursolve.diagnostics import OWN, Evidence, Source
 from contoursolve.execution import MOST_BLOCKS, Limit
-from contoursolve.reading import Dialect, Setting, WithoutPoint
+from contoursolve.reading import ARGUMENTS, Dialect, Setting, WithoutPoint
 from contoursolve.tolerance import LARGEST, TRAVEL
 
 
@@ -44,6 +44,19 @@ def _reading(meant: WithoutPoint) -> Callable[[Dialect], Dialect]:
         return replace(dialect, modes=replace(dialect.modes, lexicon=words))
 
     return change
+
+
+def arguments_setting(source: Source) -> Setting:
+    """The setting of arguments of G65 without a point, on which a machine parameter may decide."""
+    return setting(
+        ARGUMENTS,
+        "what an argument of G65 without a decimal point means",
+        {
+            "increment": "least increments of its address: lengths 0.001 mm or 0.0001 inch, A B C 0.001 deg",
+            "whole": "what it says, as with a point",
+        },
+        source,
+    )
 
 
 def first_motion_setting(source: Source) -> Setting:

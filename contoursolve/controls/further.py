@@ -77,7 +77,7 @@ def known_by_name(
     """The codes of a control and those besides of which it is known that it has them: what changes the path, the motion
     or the coordinates is not read."""
     more = {
-        number: Code(number, effect, meaning, source, is_read=effect is Effect.NONE)
+        number: Code(number, effect, meaning, source, is_read=effect in (Effect.NONE, Effect.SHIFT))
         for effect, row in table.items()
         for number, meaning in row.items()
     }
@@ -119,15 +119,22 @@ _FRAMES: Mapping[int, str] = {
     **dict.fromkeys(_points("53.1", "53.2", "53.6", "68.1", "68.2", "68.3", "68.4", "69.1"), "tilted plane"),
     **dict.fromkeys(_points("43.1", "43.3", "43.4", "43.5", "43.8", "43.9", "44.1", "49.1"), "tool direction"),
     **dict.fromkeys(_points("41.1", "42.1", "41.2", "42.2", "41.4", "42.4", "41.5", "42.5"), "compensation in space"),
-    **dict.fromkeys(_points("54.1", "54.2", "54.4", "92.1", "52.1"), "coordinate system"),
+    **dict.fromkeys(_points("54.2", "54.4", "92.1", "52.1"), "coordinate system"),
 }
+_OFFSETS: Mapping[int, str] = dict.fromkeys(_points("54.1"), "further work coordinate system")
 _ACTIONS: Mapping[int, str] = {
     **dict.fromkeys(
         _points("28.2", "30.1", "28.1", "30.2", "31.1", "31.2", "31.3", "31.8", "31.9", "37.1"), "reference"
     ),
     **dict.fromkeys(_points("66.1", "65.1", "72.1", "72.2", "84.2", "84.3", "88.1", "88.2"), "call or cycle"),
 }
-_ISO = {Effect.MOTION: _CURVES, Effect.NONE: _SPEEDS, Effect.FRAME: _FRAMES, Effect.SINGLE: _ACTIONS}
+_ISO = {
+    Effect.MOTION: _CURVES,
+    Effect.SHIFT: _OFFSETS,
+    Effect.NONE: _SPEEDS,
+    Effect.FRAME: _FRAMES,
+    Effect.SINGLE: _ACTIONS,
+}
 
 _MILLS = {
     Effect.NONE: dict.fromkeys((160, 161), "cutter compensation mode"),
@@ -146,9 +153,8 @@ _LATHES = {
 _HAAS = {
     Effect.NONE: dict.fromkeys((103, 187, 188, 254, 255), "look ahead and accuracy")
     | dict.fromkeys((184, 186, 195, 196), "tapping with a live tool"),
-    Effect.FRAME: dict.fromkeys((100, 101), "mirroring")
-    | dict.fromkeys((*range(110, 130), 154), "work coordinate system")
-    | dict.fromkeys((141, 143, 234, 253), "tool direction"),
+    Effect.SHIFT: dict.fromkeys((*range(110, 130), 154), "work coordinate system"),
+    Effect.FRAME: dict.fromkeys((100, 101), "mirroring") | dict.fromkeys((141, 143, 234, 253), "tool direction"),
     Effect.SINGLE: dict.fromkeys((35, 36, 136, 102, 105), "measurement or output")
     | dict.fromkeys((12, 13, 70, 71, 72, 150), "pocket or row of holes"),
     Effect.CYCLE: dict.fromkeys((77, 153, 155, 156, 174, 178, 241, 242, 243, 244, 245, 246, 247, 248, 249), "drilling"),

@@ -29,6 +29,12 @@ COMMA_MISSING = _row(
 PLANE_CHANGES = ("the plane changes inside the contour", "select the plane before its first block")
 """Message and help of a row about a plane that is selected in a contour."""
 
+ZERO_MOVES = (
+    "the coordinate system moves between two blocks of the contour",
+    "select offsets and shift axes before its first block",
+)
+"""The same of an offset, a shift or a tool that is selected in a contour."""
+
 ANGLE_RANGE = (
     "{words} is more than a turn; it is taken as {within}, the same direction",
     "write {within} if that is meant",

@@ -44,7 +44,7 @@ G_CODES: Mapping[str, str] = {
     "in_inches": "G20\n",
     "stated_start": "X1. Y1.",
     "closing_mark": "\n%",
-    "unread": "G54.1 P3",
+    "unread": "G53.1",
     "no_word": "E135.",
     "mistyped": "R66,5",
     "element": "line 1",
@@ -72,6 +72,7 @@ G_CODES: Mapping[str, str] = {
 NO_CONTROL = {"no control is named": "control-unknown control-alike control-called"}
 UNKNOWN = {"no block is known to cause it": "count-open only-unproven search-unfinished not-verified"}
 AS_WRITTEN = {"a number without a point is as large as it says": "point-missing start-in-increments move-in-increments"}
+NO_ARGUMENTS = {"its calls hand over no numbers by letters": "argument-in-increments"}
 NO_CODES = {"a contour needs no code of its own": "letter-for-digit code-mistyped"}
 NO_PAIRS = {
     "no two elements meet that have no ends of their own": "point-is-start circle-missed circles-apart line-backwards "

@@ -84,7 +84,6 @@ from .sample_drawing import (
 )
 from .slip_kinds import mistyped_codes as mistyped_codes
 from .solutions import (
-    DECIMALS as DECIMALS,
     Listed as Listed,
     Listing as Listing,
     decimals_of as decimals_of,

@@ -69,7 +69,7 @@ def diagnose(
     freedoms = affine.freedoms() if affine and is_readable else ()
     # What a contour needs and nobody reads here is no slip.
     repairs = Repairs((), is_complete=False)
-    if not answer.claim.unread:
+    if not answer.claim.unread and all(each.about is not ReadIssue.NOT_READ for each in answer.diagnostics):
         repairs = find_repairs(answer, dialect, tuple(following), previous, window)
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),

@@ -300,7 +300,8 @@ def explain_missing(
     ways = [] if is_brief else list(_adding(absent, claim, profile, unable))
     open_sizes = [question.word.text for question in profile.questions if question.fact.sizes in free]
     valued = [f"give {' or '.join(open_sizes)} a value"] if profile.is_extended and open_sizes else []
-    ways += valued
+    # What is asked may be among the words that are added, too.
+    ways = list(dict.fromkeys([*ways, *valued]))
     told = open_text(shown, profile)
     if claim.form.is_general:
         from contoursolve.diagnosis.missing_words import partners_of  # noqa: PLC0415 - few blocks lack words

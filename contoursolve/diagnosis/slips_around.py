@@ -561,16 +561,21 @@ _KLARTEXT_LINES = ("FL", "FLT", "L", "LP", "LT")
 def _dropped(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
     for block in blocks:
         if block.line in window.lines:
-            yield from ((drop(word),) for word in block.words if word.address.startswith(",") or len(word.address) > 1)
+            yield from ((drop(word),) for word in block.words if _is_apart(word, window))
 
 
-def _other_block(_: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
+def _is_apart(word: Word, window: Window) -> bool:
+    """Whether a word is one of a corner or an angle, by its spelling. Without its offset, a contour lies elsewhere."""
+    is_long = word.address.startswith((",", "#")) or len(word.address) > 1
+    return is_long and word.address not in window.dialect.modes.zero.names
+
+
+def _other_block(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
     """A word of a corner or an angle that stands in the block before or behind the one that it belongs to."""
     lines = [block.line for block in blocks]
     for one, two in [*pairwise(blocks), *((two, one) for one, two in pairwise(blocks))]:
         for word in one.words:
-            is_apart = word.address.startswith((",", "#")) or len(word.address) > 1
-            if is_apart and two.find(word.address) is None and two.words and one.line in lines:
+            if _is_apart(word, window) and two.find(word.address) is None and two.words and one.line in lines:
                 yield drop(word), Edit(EditKind.ADD, word.address, text=word.text.strip(), line=two.line)
 
 

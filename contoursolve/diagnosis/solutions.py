@@ -18,14 +18,11 @@ from contoursolve.diagnosis.examine import (
 )
 from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import Length, Pick
-from contoursolve.solving import Certificate, Contour, Proof, trace, up_to_one_digit
+from contoursolve.solving import DECIMALS, Certificate, Contour, Proof, trace, up_to_one_digit
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
     from contoursolve.solving import Alternative, Alternatives
-
-DECIMALS = 12
-"""Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
 
 
 class Listed(Struct, frozen=True):
@@ -188,8 +185,10 @@ def _written(asked: AskedValue, answer: Answer) -> str:
 
 def printed_certificate(certificate: Certificate | None) -> Certificate | None:
     """A certificate of the numbers as they are printed: rounded to `decimals_of` it."""
-    if certificate is None or certificate.proof is Proof.EXACT:
-        return certificate
+    if certificate is None:
+        return None
+    if certificate.proof is Proof.EXACT:
+        return Certificate(certificate.proof, 0.0, certificate.reason, certificate.gap)
     rounding = 0.5 * 10.0 ** -decimals_of(certificate)
     radius = up_to_one_digit(certificate.radius + rounding)
     return Certificate(certificate.proof, radius, certificate.reason, certificate.gap)

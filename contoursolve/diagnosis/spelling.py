@@ -314,8 +314,12 @@ def with_comma(word: Word, claim: ParsedContour) -> str:
 
 def explain_modes(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
     """Findings about what is not known to be in force where a contour is read."""
+    by_reason = dict[str, list[str]]()
     for what, why in claim.open_modes():
-        yield report(context, ReadIssue.MODE_UNKNOWN, Basis.RULE, [], what=what, reason=why)
+        by_reason.setdefault(why, []).append(what)
+    for why, several in by_reason.items():
+        are = "is" if len(several) == 1 else "are"
+        yield report(context, ReadIssue.MODE_UNKNOWN, Basis.RULE, [], what=join(several), are=are, reason=why)
 
 
 def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:

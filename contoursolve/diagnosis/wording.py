@@ -1,7 +1,7 @@
 """Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
-from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from functools import lru_cache
 
 from contoursolve.diagnostics import Span
@@ -137,9 +137,13 @@ def _things(names: Sequence[str], profile: Profile) -> dict[str, dict[str, None]
 
 @lru_cache(maxsize=64)
 def _called(layout: Layout) -> Mapping[str, str]:
-    """The names of unknowns that are called by what they belong to: the end, and the radii of arcs."""
-    arcs = (element for element in layout.figure.path if isinstance(element, Arc))
-    return {"end": "the end"} | {arc.radius: f"the radius of {element_text(arc.name)}" for arc in arcs}
+    """The names of unknowns that are called by what they belong to: the end, the radii of arcs, the centres of corners
+    and the lines on which these land."""
+    figure = layout.figure
+    called = {"end": "the end"}
+    called |= {arc.radius: f"the radius of {element_text(arc.name)}" for arc in figure.path if isinstance(arc, Arc)}
+    called |= {f"{each.name}.center": f"the centre of {each.name}" for each in figure.corners}
+    return called | {f"{each.name}.landing": f"the line on which {each.name} lands" for each in figure.corners}
 
 
 @lru_cache(maxsize=64)
@@ -217,12 +221,15 @@ def length_in(mm: float, unit: Length) -> str:
     return f"{length_of(mm, unit)} {short_name(unit.value)}"
 
 
-def written(value: float, unit: str, way: int = 0) -> str:
+def written(value: float, unit: str, way: int = 0, *, is_included: bool = True) -> str:
     """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths. An upper (`way` 1) or a
-    lower limit (-1) is rounded into its range, but for the rounding of floats."""
-    decimals = 5 if unit == "inch" else 4
-    rounding = {1: ROUND_FLOOR, -1: ROUND_CEILING}.get(way, ROUND_HALF_EVEN)
-    shown = Decimal(repr(round(value, 10))).quantize(Decimal(1).scaleb(-decimals), rounding) if way else value
+    lower limit (-1) is rounded into its range, but for the rounding of floats; nor is it the limit itself, if that is
+    not one of the values (`is_included`)."""
+    decimals, shown = 5 if unit == "inch" else 4, Decimal(repr(round(value, 10)))
+    if way:
+        step = Decimal(1).scaleb(-decimals)
+        exact, shown = shown, shown.quantize(step, ROUND_FLOOR if way > 0 else ROUND_CEILING)
+        shown -= way * step * (shown == exact and not is_included)
     return f"{shown:z.{decimals}f} {short_name(unit)}"
 
 

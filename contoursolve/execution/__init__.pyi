@@ -6,9 +6,12 @@ from .evaluate import (
 )
 from .events import (
     EventKind as EventKind,
+    Follower as Follower,
     ProgramEvent as ProgramEvent,
+    WrittenBack as WrittenBack,
 )
 from .fanuc import (
+    counts_in as counts_in,
     fanuc as fanuc,
     haas as haas,
 )
@@ -27,7 +30,9 @@ from .machine import (
     needs_running as needs_running,
 )
 from .macro_language import (
+    ANGLE_INCREMENT as ANGLE_INCREMENT,
     ARGUMENT as ARGUMENT,
+    LENGTH_INCREMENT as LENGTH_INCREMENT,
     MACHINES as MACHINES,
     Assign as Assign,
     Call as Call,

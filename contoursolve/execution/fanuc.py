@@ -18,6 +18,8 @@ from contoursolve.execution.line_reader import (
     word,
 )
 from contoursolve.execution.macro_language import (
+    ANGLE_INCREMENT,
+    LENGTH_INCREMENT,
     MACHINES,
     UNSET,
     Assign,
@@ -35,13 +37,21 @@ from contoursolve.execution.macro_language import (
     ProgramEnd,
     Return,
     Strange,
+    VariableScope,
     When,
 )
 from contoursolve.execution.notation import FANUC
-from contoursolve.numeric import Constant, Term, Variable
+from contoursolve.numeric import Apply, Constant, Term, Variable
 
 _ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
 """The variable that each word of G65 sets; I, J and K may stand several times."""
+_COUNTED = {
+    **dict.fromkeys("EIJKQRUVWXYZ", LENGTH_INCREMENT),
+    **dict.fromkeys("ABC", ANGLE_INCREMENT),
+}
+"""What arguments without a decimal point count: the least increment of their address. D, F, H, M, S and T are whole
+numbers."""
+_WHOLE = re.compile(r"[ \t]*+[-+]?+[ \t]*+\d++")
 _ALARM = "#3000"
 _LONGEST_NUMBER = 4
 """Digits of a program's number. More of them behind M98 P: those before the last four say how often."""
@@ -77,11 +87,12 @@ def _while(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
     yield Loop(number_of(line.need(r"DO[ \t]*+(\d++)")[1]), condition)
 
 
-def _words(line: LineReader, letters: str) -> Iterator[tuple[str, Term | str]]:
-    """The words that stand next."""
+def _words(line: LineReader, letters: str) -> Iterator[tuple[str, Term | str, str]]:
+    """The words that stand next, each with what is typed behind its letter."""
     while found := line.take(rf"([{letters}])(?=[ \t]*+[-+.\d#\[])"):
-        is_name = found[1].upper() == "P"
-        yield found[1].upper(), line.target() if is_name else line.term(is_value=True)
+        is_name, begin = found[1].upper() == "P", line.at
+        value = line.target() if is_name else line.term(is_value=True)
+        yield found[1].upper(), value, line.text[begin : line.at]
 
 
 def _term(value: Term | str | None) -> Term:
@@ -92,7 +103,7 @@ def _term(value: Term | str | None) -> Term:
 
 def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     begin = line.at
-    words = dict(_words(line, "PLKQH"))
+    words = {letter: value for letter, value, _ in _words(line, "PLKQH")}
     target, repeated = words.get("P"), words.get("L", words.get("K"))
     if target is None or words.keys() & set("QH"):
         yield Strange(f"{found[0].strip()}{line.text[begin : line.at]} cannot be followed")
@@ -107,21 +118,25 @@ def _macro_call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStateme
     begin = line.at
     target: Term | str | None = None
     count: Term = ONE
-    arguments, given = list[tuple[str, Term]](), list[str]()
-    for letter, value in _words(line, "A-Z"):
+    arguments, given, counted = list[tuple[str, Term]](), list[str](), ""
+    for letter, value, typed in _words(line, "A-Z"):
         if letter == "P":
             target = value
         elif letter == "L":
             count = _term(value)
         elif letter in _ARGUMENTS:
             place = _ARGUMENTS[letter] + (3 * given.count(letter) if letter in "IJK" else 0)
-            arguments.append((f"#{place}", _term(value)))
+            term = _term(value)
+            if letter in _COUNTED and _WHOLE.fullmatch(typed) and term != Constant(0.0):
+                counted += letter
+                term = Apply("multiply", (term, _COUNTED[letter]))
+            arguments.append((f"#{place}", term))
             given.append(letter)
     # G65 H is macro A: a computation by number.
     if not isinstance(target, str) and (target is None or "H" in given):
         yield Strange(f"{found[0].strip()}{line.text[begin : line.at]} cannot be followed")
         return
-    yield Call(CallKind.PROGRAM, target, count=count, arguments=tuple(arguments), is_local=True)
+    yield Call(CallKind.PROGRAM, target, count=count, arguments=tuple(arguments), counted=counted, is_local=True)
 
 
 def _return(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
@@ -192,13 +207,30 @@ def program_files(name: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(f"{stem}{ending}" for stem in stems for ending in _ENDINGS[1:] + _ENDINGS[:1]))
 
 
+def counts_in(letter: str) -> str:
+    """The variable that says what an argument of a call with this letter counts without a decimal point."""
+    return _COUNTED[letter].name
+
+
 def _unknown(name: str) -> str:
+    if name in (LENGTH_INCREMENT.name, ANGLE_INCREMENT.name):
+        return "an argument has no decimal point, and the program changes between mm and inches"
     digits = name[1:]
     if digits.isdigit() and int(digits) >= _FIRST_OF_MACHINE:
         return f"{name}{MACHINES}"
     return f"{name}{UNSET}"
 
 
+_LAST_LOCAL = 33
+
+
+def _scope(name: str) -> VariableScope:
+    is_local = name[1:].isdigit() and 1 <= int(name[1:]) <= _LAST_LOCAL
+    return VariableScope.LEVEL if is_local else VariableScope.EVERYWHERE
+
+
+_MOVING = r"#(?:2\d{3}|5[23]\d\d|7\d{3}|1\d{4})"
+"""Variables of work and tool offsets: #2001 and up, #5201 and up, #7001 and up, #10001 and up."""
 _NAMES = r"#(?!0+\Z)(?:\d+|<[^<>]+>)"
 
 
@@ -212,8 +244,10 @@ def fanuc() -> MacroLanguage:
         program_files,
         _unknown,
         variables=_NAMES,
+        moving=_MOVING,
         examples="#100",
         always_empty="#0",
+        scope=_scope,
         made_by=fanuc,
     )
 
@@ -231,7 +265,9 @@ def haas() -> MacroLanguage:
         program_files,
         _unknown,
         variables=_NAMES,
+        moving=_MOVING,
         examples="#100",
         always_empty="#0",
+        scope=_scope,
         made_by=haas,
     )

@@ -20,6 +20,7 @@ from contoursolve.execution.macro_language import (
     Assign,
     Call,
     CallKind,
+    Definitions,
     Else,
     ElseIf,
     EndIf,
@@ -32,6 +33,7 @@ from contoursolve.execution.macro_language import (
     MacroStatement,
     ProgramEnd,
     Return,
+    VariableScope,
 )
 from contoursolve.execution.notation import ISG, UnreadableTermError
 from contoursolve.gcode import IN_BRACKETS, nested
@@ -85,7 +87,7 @@ def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
         line.at = len(line.text)
         yield strange(line.text[found.start() :])
         return
-    yield Call(CallKind.PROGRAM, (found["quoted"] or found["bare"]).upper())
+    yield Call(CallKind.PROGRAM, (found["quoted"] or found["bare"]).upper(), is_local=True)
 
 
 def _label(line: LineReader, found: re.Match[str]) -> Iterable[MacroStatement]:
@@ -105,6 +107,7 @@ _LETTER = rf"(?!{_NUMBERED})[A-Z](?![A-Z_])"
 _VARIABLE = rf"(?:P[ \t]*+\d++|P[ \t]*+{IN_BRACKETS}|V\.[A-Z]++\.(?>(?:[\w.]++|{IN_BRACKETS})+))"
 _TABLE = (
     Spelling(r"%.*+", nothing),
+    Spelling(r"\#[ \t]*+(?P<end>END)?VAR(?!\w).*+", lambda _, found: [Definitions(not found["end"])], stays=True),
     Spelling(rf"\#(?!{_OWN[2:]}).*+", nothing),
     Spelling(rf"(?={_VARIABLE}[ \t]*+=(?!=))", _assign),
     Spelling(r"\$IF(?!\w)", _if),
@@ -133,7 +136,7 @@ _FORM = LineForm(
     table=_TABLE,
     skip=r"[ \t]++|\"[^\"]*+\"?+|[A-Z_]{2}\w*+|[\d.]++|.",
     behind_value=r"[A-Z#$,\\]",
-    says=r"[\[$%]|V\.|P[ \t]*+\d|M0*+(?:2|17|29|30)(?!\d)|(?<![A-Z])LL?+[ \t]++[\"\w]"
+    says=r"[\[$%]|V\.|\#[ \t]*+(?:END)?+VAR|P[ \t]*+\d|M0*+(?:2|17|29|30)(?!\d)|(?<![A-Z])LL?+[ \t]++[\"\w]"
     r"|\d\.?+[ \t]*+(?:[*/]|[-+][ \t]*+[\d.])",
 )
 
@@ -146,6 +149,11 @@ def _unknown(name: str) -> str:
     return f"{name}{MACHINES}" if name.startswith(_MACHINES) else f"{name}{UNSET}"
 
 
+def _scope(name: str) -> VariableScope:
+    # Printed: TF5200 programming manual, 207981323.
+    return VariableScope.NESTED if name.startswith("V.L.") else VariableScope.EVERYWHERE
+
+
 _NAMES = r"P\d+|V\.[A-Z]+\.[A-Z_][\w.\[\],]*"
 
 
@@ -153,5 +161,13 @@ _NAMES = r"P\d+|V\.[A-Z]+\.[A-Z_][\w.\[\],]*"
 def isg() -> MacroLanguage:
     """The statements of the ISG kernel."""
     return MacroLanguage(
-        "isg", _FORM.may_say, _FORM.read, _files, _unknown, variables=_NAMES, examples="P100 or V.P.X", made_by=isg
+        "isg",
+        _FORM.may_say,
+        _FORM.read,
+        _files,
+        _unknown,
+        variables=_NAMES,
+        examples="P100 or V.P.X",
+        scope=_scope,
+        made_by=isg,
     )

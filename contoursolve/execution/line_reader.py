@@ -6,7 +6,16 @@ from functools import cache
 
 from msgspec import Struct
 
-from contoursolve.execution.macro_language import Assign, CodeLine, Forget, MacroStatement, Strange, WordFormula
+from contoursolve.execution.macro_language import (
+    Assign,
+    CodeLine,
+    Forget,
+    FormalParameter,
+    MacroStatement,
+    ReadAs,
+    Strange,
+    WordFormula,
+)
 from contoursolve.execution.notation import Notation, UnreadableTermError, compiled
 from contoursolve.gcode import IN_BRACKETS
 from contoursolve.numeric import Constant, Indexed, Quoted, Term, Variable
@@ -25,9 +34,11 @@ class LineReader:
         self.at = 0
         self.number = ""
         self.begins: str | None = None
-        self.is_part = False
+        self.is_part = self.saves = False
         self.labels, self.words = list[str](), list[WordFormula]()
-        self.statements, self.parameters = list[MacroStatement](), list[str]()
+        self.statements, self.parameters = list[MacroStatement](), list[FormalParameter]()
+        self.read_as = list[ReadAs]()
+        """Conditions that are read as few expect."""
         self._rest = list(typed)
 
     def take(self, pattern: str) -> re.Match[str] | None:
@@ -49,7 +60,13 @@ class LineReader:
         # Lark takes a tenth of a second to import, and few programs have expressions.
         from contoursolve.execution.term_reader import read_term  # noqa: PLC0415
 
-        found, self.at = read_term(self.notation, self.text, self.at, is_value=is_value)
+        begin = self.at
+        found, self.at = read_term(self.notation, self.text, begin, is_value=is_value)
+        if self.notation.compares_last and _compares_beside(self.text[begin : self.at]):
+            from contoursolve.execution.term_writer import write_in_full  # noqa: PLC0415 - few conditions need it
+
+            meant = write_in_full(found, self.notation.name.lower())
+            self.read_as.append(ReadAs(f"{self.text[begin : self.at].strip()} is read as {meant}"))
         return found
 
     def target(self) -> Term | str:
@@ -119,7 +136,8 @@ class LineReader:
                     said, self.at, stays = [strange(self.text[begin:])], len(self.text), False
                 if said and not stays:
                     self.hide(begin, self.at)
-                found += said
+                found += [*self.read_as, *said]
+                self.read_as = []
                 break
             if self.at == begin:
                 token = compiled(form.skip).match(self.text, begin)
@@ -137,9 +155,29 @@ class LineReader:
             tuple(self.statements),
             tuple(words),
             tuple(self.parameters),
+            self.saves,
         )
 
 
+def _compares_beside(text: str) -> bool:
+    """Whether a comparison stands beside AND, OR or XOR, in no brackets of its own."""
+    if not _ABOVE_COMPARISONS.search(text):
+        return False
+    flat = text
+    while (shorter := _INNERMOST.sub(" ", flat)) != flat:
+        if any(_is_mixed(each) for each in _INNERMOST.findall(flat)):
+            return True
+        flat = shorter
+    return _is_mixed(flat)
+
+
+def _is_mixed(text: str) -> bool:
+    return _COMPARES.search(text) is not None and _ABOVE_COMPARISONS.search(text) is not None
+
+
+_INNERMOST = re.compile(r"\([^()]*+\)|\"[^\"]*+\"")
+_COMPARES = re.compile(r"==|<>|[<>]=?")
+_ABOVE_COMPARISONS = re.compile(r"(?<![\w$])X?(?:AND|OR)(?![\w$])", re.IGNORECASE)
 _GROUP = re.compile(r"\(\?P<\w+>")
 _PLAIN = re.compile(r"[ \t]*+[+-]?+[ \t]*+[\d.,]++")
 

@@ -3,12 +3,14 @@
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import chain
+from typing import Any
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.execution.evaluate import written
-from contoursolve.execution.events import EventKind, ProgramEvent
+from contoursolve.execution.events import EventKind, Follower, ProgramEvent
 from contoursolve.execution.macro_language import (
     ARGUMENT,
     SKIP_SWITCH,
@@ -16,12 +18,14 @@ from contoursolve.execution.macro_language import (
     Call,
     CallKind,
     CodeLine,
+    Definitions,
     Else,
     ElseIf,
     EndIf,
     EndLoop,
     For,
     Forget,
+    FormalParameter,
     If,
     Jump,
     JumpWay,
@@ -31,15 +35,18 @@ from contoursolve.execution.macro_language import (
     MacroStatement,
     ModalCall,
     ProgramEnd,
+    ReadAs,
+    Refused,
     Return,
     Strange,
     Unknown,
     Vacant,
+    VariableType,
     When,
     WordFormula,
 )
 from contoursolve.execution.subprograms import Absent, Library, LineRange, ProgramFile, Surroundings
-from contoursolve.execution.variables import Variables
+from contoursolve.execution.variables import VariableLevel, Variables, as_type
 from contoursolve.gcode import (
     Block,
     Caller,
@@ -50,7 +57,7 @@ from contoursolve.gcode import (
     parse_block,
     telling,
 )
-from contoursolve.numeric import Apply, Term, Variable
+from contoursolve.numeric import Apply, Indexed, Term, Variable
 
 MOST_BLOCKS = 5_000
 """Blocks that run again, or in another file, after which a program is not followed any further."""
@@ -116,15 +123,26 @@ class _Branch(Struct):
     is_undecided: bool = False
 
 
-class _Head(Struct):
-    """A line to which a jump or a loop may come back: under which mark and with which values it was reached, how often
-    it was run again, and the last line to which a way has left since."""
+class _State(Struct):
+    """What is known at a place: the variables of each level of calls, and what whoever follows knows beside. `reason`
+    decides between the ways that come there."""
 
-    mark: int
-    values: Mapping[str, Known]
-    own: Mapping[str, Known] | None
+    levels: list[VariableLevel]
+    beside: Any
+    reason: str = ""
+
+
+class _Head(Struct):
+    """A line to which a jump or a loop may come back: what was known and how much was found when it was reached, how
+    often it was run again, the last line to which a way has left since, and whether ways have come into it that were
+    kept before."""
+
+    number: int
+    known: _State
+    found: int
     passes: int = 0
     farthest: float = -1
+    is_aside: bool = False
 
 
 class _Taken(Struct, frozen=True):
@@ -138,7 +156,7 @@ Place = tuple[tuple[float, float], ...]
 """Progress of a way through a program: of two ways, the one that has come less far has to run first."""
 
 
-_Begun = tuple[str, int, int, frozenset[tuple[str, Known]]]
+_Begun = tuple[str, int, int, tuple[frozenset[tuple[str, Known]], ...]]
 
 
 class _Frame(Struct):
@@ -152,8 +170,10 @@ class _Frame(Struct):
     callers: tuple[Caller, ...] = ()
     left: int = 1
     """Number of runs left, this one included."""
-    own: dict[str, Known] | None = None
-    """Its local variables, if it has some of its own."""
+    depth: int = 1
+    """The number of levels of variables that go on where it ends."""
+    own: VariableLevel | None = None
+    """The level of variables with which each of its runs begins, if it has one of its own."""
     begun: _Begun | None = None
     """The lines that a call runs, and what all variables held then."""
     loops: list[_Loop] = field(default_factory=list)
@@ -168,6 +188,15 @@ class _Frame(Struct):
     one."""
     is_again: bool = False
     """Whether its next line runs again, nobody knows how often."""
+    entry: Any = None
+    """What whoever follows knew where it was called, if all is as it was there when it ends, or if it saves the
+    modes."""
+    saves: bool = False
+    """Whether the modes at the call are in force again where it ends."""
+    doubt: str = ""
+    """Why nobody knows how often it runs."""
+    ran: list[Block] = field(default_factory=list)
+    """What has run in it, if that has to be written back."""
 
     def go_to(self, index: int) -> None:
         """Go on at a line: what the line that runs still says is left out."""
@@ -177,12 +206,20 @@ class _Frame(Struct):
         """Another one that runs on by itself."""
         return replace(
             self,
-            own=None if self.own is None else dict(self.own),
             loops=[replace(each) for each in self.loops],
             branches=[replace(each) for each in self.branches],
             rest=[*self.rest],
             heads={at: replace(each) for at, each in self.heads.items()},
         )
+
+    def meet(self, other: "_Frame") -> None:
+        """Take in another one that has come to the same place."""
+        if len(other.branches) < len(self.branches):
+            self.branches = other.branches
+        for at, head in self.heads.items():
+            same = other.heads.get(at)
+            head.farthest = max(head.farthest, -1 if same is None else same.farthest)
+            head.is_aside = head.is_aside or (same is not None and same.is_aside)
 
     @property
     def place(self) -> Place:
@@ -195,13 +232,11 @@ class _Frame(Struct):
 
 
 class _Way(Struct):
-    """A way through the program that waits: what runs there, the values of variables, under which marks it is kept what
-    is known, and what decides between it and others."""
+    """A way through the program that waits: what runs there, what is known, and how many were kept before."""
 
     frames: list[_Frame]
-    values: dict[str, Known]
-    marks: tuple[int, ...]
-    reason: str
+    known: _State
+    number: int
 
 
 _BEHIND = ((float("inf"), 0.0),)
@@ -244,27 +279,30 @@ class Machine:
     ) -> None:
         self.language, self.library = language, library
         self.main = ProgramFile(program, language, is_other=False)
-        self.variables = Variables(language, given or {}, self._own)
+        self.variables = Variables(language, given or {})
         self._frames: list[_Frame] = []
         self._visited: set[int] = set()
         self._steps, self._limit = 0, limit or Limit()
         self._waiting: dict[Place, _Way] = {}
         """The ways that wait."""
-        self._kept_ways, self._decided = 0, ""
-        """How many ways have been kept, and what decided last between the one that runs and others."""
+        self._kept, self._decided = 0, ""
+        """How many ways and heads have been kept, and what decided last between the way that runs and others."""
+        self.found: list[Any] = []
+        """What has been found by whoever follows."""
+        self._follower = Follower()
+        self._beside: Any = None
+        """What he knows here."""
         self._named: set[tuple[str, int]] = set()
         """By file and index: lines to which jumps lead that stay as they are written."""
         self._passed: set[int] = set()
         """What was known at each jump back."""
         self._last: object = None
         """What ran the last block: contours do not go on beyond a call."""
-        self._untaken: dict[int, tuple[int, dict[str, Known]]] = {}
+        self._untaken: dict[int, tuple[int, list[VariableLevel]]] = {}
         """By the index of a line of the main file to which a decision did not lead: the mark and the values there."""
         self._marks, self._here, self._is_marking = 0, 0, False
         """How many marks there are, the one under which it is kept what is known here, and whether the next block has
         it."""
-        self.settled: int | None = None
-        """The mark to which what runs came back last, where whoever follows says that nothing new follows there."""
         self.passed_over: set[int] = set()
         """The lines of the main file that do not run, because of what was decided."""
         self.finishes = False
@@ -272,8 +310,31 @@ class Machine:
         self._is_alone, self._is_reached, self._is_passing_over = False, True, False
         """Whether calls are written out, whether what runs is reached from the main program, and whether what runs is
         passed over there."""
+        self._told: dict[str, EventKind] = {}
+        """What is wrong with the line that runs, and may run on."""
         self._has_to_decide = False
         """Whether it ends where nobody knows what is decided."""
+
+    def follow(self, ran: Iterable[Block | ProgramEvent], follower: Follower) -> Iterator[Any]:
+        """Let somebody follow what runs; all that he finds, one by one, and None for a block that waits to be read."""
+        self._follower, self._beside, blocks = follower, follower.begin(None), list[Block]()
+        for each in chain(ran, (None,)):
+            if isinstance(each, Block):
+                blocks.append(each)
+                yield None
+                continue
+            for found in self._read(blocks, each):
+                self.found.append(found)
+                yield found
+            blocks = []
+            if each is not None and each.kind.loses:
+                modes = each.kind is not EventKind.STOPPED and not each.keeps_modes
+                self._beside = follower.lose(self._beside, each.reason, each.line, modes=modes)
+            elif each is not None and each.kind is EventKind.FRESH:
+                self._beside = follower.begin(each)
+
+    def _read(self, blocks: Sequence[Block], event: ProgramEvent | None) -> Iterator[Any]:
+        self._beside = yield from self._follower.read(self._beside, blocks, event)
 
     def run_alone(self) -> Iterator[Block | ProgramEvent]:
         """The blocks of the main program and of what it calls, as one program without calls and jumps. What is set to a
@@ -341,7 +402,13 @@ class Machine:
         is_begun = code.begins is not None or bool(code.labels) or self._follows_end(index)
         self._is_passing_over = index in self._untaken or not is_begun
         why = f"nothing in this file calls {told}" if is_begun else f"{told} does not run here"
-        mark, self.variables.values = self._untaken.get(index, (0, self.variables.set_once()))
+        mark, levels = self._untaken.get(index, (0, [self.variables.set_once()]))
+        self.variables.levels = levels
+        if code.begins is not None and self.language.declares:
+            formal = self.main.head(index, self.main.section_end(index)).parameters
+            unknown = {each.name: Unknown(f"{each.name}{ARGUMENT}{code.begins}") for each in formal}
+            types = {each.name: each.of_type for each in formal}
+            levels.append(VariableLevel(code.begins, dict(unknown) | self.variables.given_of(unknown), types))
         self._here, self._is_marking = mark, False
         return ProgramEvent(EventKind.FRESH, line, why, mark)
 
@@ -351,7 +418,7 @@ class Machine:
             return
         first = next((at for at in range(first, len(self.main)) if self._says_something(at)), first)
         if first not in self._untaken:
-            self._untaken[first] = self._mark(), self.variables.all()
+            self._untaken[first] = self._mark(), self.variables.copy()
 
     def _mark(self) -> int:
         """The number under which it is kept what is known here."""
@@ -363,10 +430,6 @@ class Machine:
     def _go_on(self) -> None:
         """Whatever was known, it may be something else now."""
         self._here, self._is_marking = 0, False
-
-    def _own(self) -> dict[str, Known] | None:
-        """The local variables of the subprogram that runs."""
-        return next((frame.own for frame in reversed(self._frames) if frame.own is not None), None)
 
     def _follows_end(self, index: int) -> bool:
         """Whether a line stands behind the end of a program, so that only a call leads there."""
@@ -388,12 +451,17 @@ class Machine:
         known."""
         begin = self._begin()
         heads = (self.main.code(at) for at in range(begin, len(self.main)) if self._says_something(at))
-        head = next(heads, None)
-        for name in head.parameters if head is not None else ():
-            if name not in self.variables.given:
-                self.variables.set(name, Unknown(f"{name}{ARGUMENT}{head.begins if head else ''}"))
+        name = next((each.begins for each in heads if each.begins is not None), "")
+        for each in self.main.head(begin, self.main.section_end(begin)).parameters if len(self.main) else ():
+            self.variables.levels[0].types[each.name] = each.of_type
+            self.variables.set(each.name, Unknown(f"{each.name}{ARGUMENT}{name}"))
         self.variables.is_called = self._is_for_calls(begin)
         return begin
+
+    @property
+    def is_for_calls(self) -> bool:
+        """Whether others call the main program, so that it begins with what is in force there."""
+        return self._is_for_calls(self._begin())
 
     def _is_for_calls(self, begin: int) -> bool:
         """Whether the main program is one that others call: it returns, and nothing in it ends the run."""
@@ -444,13 +512,25 @@ class Machine:
                 for each in self._step(frame):
                     if isinstance(each, ProgramEvent) and each.kind is not EventKind.BARRIER:
                         self._go_on()
+                    elif self._has_to_decide and isinstance(each, Block):
+                        for calling in self._frames:
+                            calling.ran += [each] if calling.saves else []
+                    yield from self._tell(frame)
                     yield each
+                yield from self._tell(frame)
             except _RefusedError as error:
                 # The control stops here; what follows is examined as if it went on.
                 frame.rest = []
                 if self._is_alone:
                     yield self._as_written(frame, frame.here)
                 yield ProgramEvent(EventKind.STOPPED, self._line(frame, frame.here), str(error))
+
+    def _tell(self, frame: _Frame) -> Iterator[ProgramEvent]:
+        """What is wrong with the line that runs, and may run on."""
+        told = self._told | dict.fromkeys(self.variables.undefined, EventKind.REFUSED)
+        self._told, self.variables.undefined = {}, []
+        if not self._is_alone:
+            yield from (ProgramEvent(kind, self._line(frame, frame.here), reason) for reason, kind in told.items())
 
     def _look_beyond(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
         """The next blocks behind lines that had not run, although they have run themselves: a contour may go on
@@ -495,7 +575,7 @@ class Machine:
         """Run the words of the next line of a frame; what it says besides waits in `rest`."""
         index = frame.here = frame.at
         if index in frame.source.heads and not frame.is_again:
-            yield self._begin_head(frame, index)
+            yield from self._begin_head(frame, index)
         frame.is_again = False
         is_new = frame.source is self.main and index not in self._visited
         if frame.source is self.main:
@@ -533,7 +613,7 @@ class Machine:
             yield block
             yield ProgramEvent(EventKind.LOST, line, truth.reason)
         elif isinstance(truth, Unknown):
-            yield self._part(frame, truth.reason, lambda other: other.rest.clear())
+            yield from self._part(frame, truth.reason, lambda other: other.rest.clear())
             frame.rest = [*when.then]
             yield from self._run_words(frame, block, code)
         elif truth or (index in self._untaken and not self._is_reached):
@@ -560,11 +640,27 @@ class Machine:
         """Carry out the assignments with which a line begins; what else it says, and the statements behind them."""
         rest = iter(code.statements)
         for statement in rest:
+            if isinstance(statement, ReadAs):
+                self._told[statement.told] = EventKind.READ_AS
+                continue
             if not isinstance(statement, Assign | Forget):
                 return code, [statement, *rest]
-            if not self.variables.assign(statement) and self._is_alone:
+            is_known = self.variables.assign(statement)
+            name = self.variables.name(statement.variable)
+            if self.language.may_move(name if isinstance(name, str) else ""):
+                # Whoever reads the blocks has to see it.
+                is_one = len(code.statements) == 1 and isinstance(name, str)
+                code = replace(code, rest=self._set_anew(name, block) if is_one else block.text)
+            elif not is_known and self._is_alone:
                 code = replace(code, rest=block.text)
         return code, []
+
+    def _set_anew(self, name: str | Unknown, block: Block) -> str:
+        """The line that sets a variable to what it holds now, with a number for the name; as it is written, if that is
+        not known."""
+        value = self.variables.value(Variable(name)) if isinstance(name, str) else None
+        head = block.text[: len(block.text) - len(block.text.lstrip())]
+        return f"{head}{name}={written(value)}" if isinstance(value, float) else block.text
 
     def _run_words(self, frame: _Frame, block: Block, code: CodeLine) -> Iterator[Block | ProgramEvent]:
         """Run the words of a line."""
@@ -583,14 +679,15 @@ class Machine:
             called = self.variables.values.get(_CALLED_BEHIND)
             if called is not None and any(word.address.rstrip("0123456789") in _AXES for word in ran.words):
                 reason = called.reason if isinstance(called, Unknown) else str(called)
-                yield ProgramEvent(EventKind.CALLED, self._line(frame, frame.here), reason)
+                keeps = _LOSES_MODES not in self.variables.values
+                yield ProgramEvent(EventKind.CALLED, self._line(frame, frame.here), reason, keeps_modes=keeps)
 
     def _has_strange_words(self, block: Block, code: CodeLine) -> bool:
         """Whether what looks like assignments stands among words, to variables that nobody has declared: `G1 X5 AGN=30`
         has a word that is mistyped."""
         variables = [each.variable for each in code.statements if isinstance(each, Assign | Forget)]
         names = [each.name for each in variables if isinstance(each, Variable)]
-        is_strange = any(_is_word(name) and name not in self.variables.values for name in names)
+        is_strange = any(_is_word(name) and not self.variables.is_set(name) for name in names)
         rest = parse_block(code.rest, block.line, block.syntax) if is_strange else block
         return is_strange and any(word.address != "N" for word in rest.words)
 
@@ -605,13 +702,14 @@ class Machine:
         return False
 
     def _unclear(
-        self, frame: _Frame, index: int, reason: str, called: str = "", unread: str = ""
+        self, frame: _Frame, index: int, reason: str, called: str = "", unread: str = "", *, keeps_modes: bool = False
     ) -> Iterator[Block | ProgramEvent]:
         """A line that does what is not known; without calls, it stays as it is written."""
         is_written = self._says_words(frame, index) and frame.source.code(index).rest == frame.source.blocks[index].text
         if self._is_alone and not is_written:
             yield self._as_written(frame, index)
-        yield ProgramEvent(EventKind.LOST, self._line(frame, index), reason, called=called, unread=unread)
+        line = self._line(frame, index)
+        yield ProgramEvent(EventKind.LOST, line, reason, called=called, unread=unread, keeps_modes=keeps_modes)
 
     def _block(self, frame: _Frame, block: Block, code: CodeLine) -> Block:
         """A block with numbers in the place of variables."""
@@ -674,60 +772,66 @@ class Machine:
         told = f"{block.text.strip()}{where} cannot be decided: {reason}; {advice}"
         raise _UndecidedError(self._line(frame, frame.here), told)
 
-    def _part(self, frame: _Frame, reason: str, change: Callable[[_Frame], object]) -> ProgramEvent:
+    def _part(self, frame: _Frame, reason: str, change: Callable[[_Frame], object]) -> Iterator[ProgramEvent]:
         """Keep another way, which goes on where a change of what runs now puts it."""
-        frames = [*(each.copy() for each in self._frames[:-1]), frame.copy()]
+        line = self._line(frame, frame.here)
+        self._decided = f"program line {line} decides: {reason}"
+        yield ProgramEvent(EventKind.PART, line, self._decided)
+        frames = [each.copy() for each in self._frames]
         change(frames[-1])
         place = frames[-1].rest[0].target if frames[-1].rest and isinstance(frames[-1].rest[0], _Taken) else None
         _leave_to(frame, frames[-1].at if place is None else place)
-        self._kept_ways += 1
-        line = self._line(frame, frame.here)
-        told = self._decided = f"program line {line} decides: {reason}"
-        self._wait(_Way(frames, dict(self.variables.values), (self._kept_ways,), told))
-        return ProgramEvent(EventKind.PART, line, told, self._kept_ways)
+        self._wait(frames, self._state())
 
-    def _wait(self, way: _Way) -> None:
-        """Let a way wait until those that have come less far are there as well."""
-        place = _place(way.frames)
+    def _state(self) -> _State:
+        """What is known here."""
+        return _State(self.variables.copy(), self._beside, self._decided)
+
+    def _know(self, known: _State) -> None:
+        """Go on with what is known."""
+        self.variables.levels, self._beside, self._decided = known.levels, known.beside, known.reason
+
+    def _join(self, one: _State, other: _State, reason: str) -> _State:
+        """What is known where two ways meet."""
+        levels = self.variables.join(one.levels, other.levels, reason)
+        return _State(levels, self._follower.join((one.beside, other.beside), reason), one.reason or other.reason)
+
+    def _wait(self, frames: list[_Frame], known: _State) -> None:
+        """Let a way wait until those that have come less far are there as well; it meets one that waits there."""
+        self._kept += 1
+        place, number = _place(frames), self._kept
         other = self._waiting.get(place)
-        self._waiting[place] = way if other is None else self._join(other, way)
-
-    def _join(self, one: _Way, other: _Way) -> _Way:
-        """Two ways that have come to the same place: what they know in common."""
-        why = one.reason or other.reason
-        for ours, theirs in zip(one.frames, other.frames, strict=True):
-            if ours.own is not None and theirs.own is not None:
-                ours.own = self.variables.join(ours.own, theirs.own, why)
-            if len(theirs.branches) < len(ours.branches):
-                ours.branches = theirs.branches
-            for at, head in ours.heads.items():
-                head.farthest = max(head.farthest, theirs.heads[at].farthest if at in theirs.heads else -1)
-        values = self.variables.join(one.values, other.values, why)
-        return _Way(one.frames, values, (*one.marks, *other.marks), why)
+        if other is not None:
+            why = other.known.reason or known.reason
+            known, number = self._join(other.known, known, why), other.number
+            for ours, theirs in zip(other.frames, frames, strict=True):
+                ours.meet(theirs)
+                if ours.entry is not theirs.entry:
+                    ours.entry = self._follower.join((ours.entry, theirs.entry), why)
+            frames = other.frames
+        self._waiting[place] = _Way(frames, known, number)
 
     def _meet(self) -> Iterator[ProgramEvent]:
         """Go on with the way that has come least far, together with all others that are there."""
         if not self._waiting or (self._frames and _place(self._frames) < min(self._waiting)):
             return
+        yield ProgramEvent(EventKind.MEET)
         if self._frames:
-            self._kept_ways += 1
-            yield ProgramEvent(EventKind.PAUSE, self._next_line(), mark=self._kept_ways)
-            self._wait(_Way(self._frames, self.variables.values, (self._kept_ways,), self._decided))
+            self._wait(self._frames, self._state())
         way = self._waiting.pop(min(self._waiting))
-        self._frames, self.variables.values, self._decided = way.frames, way.values, way.reason
+        self._frames = way.frames
+        self._know(way.known)
         self._go_on()
-        yield ProgramEvent(EventKind.MEET, self._next_line(), way.reason, ways=way.marks)
+        for head in (each for frame in self._frames for each in frame.heads.values()):
+            head.is_aside = head.is_aside or way.number < head.number
 
-    def _next_line(self) -> int:
-        """The line of the main file at which the next line runs."""
-        frame = self._frames[-1]
-        return self._line(frame, min(frame.at, frame.last))
-
-    def _begin_head(self, frame: _Frame, index: int) -> ProgramEvent:
+    def _begin_head(self, frame: _Frame, index: int) -> Iterator[ProgramEvent]:
         """Keep what is known on a line to which a jump or a loop may come back."""
-        self._kept_ways += 1
-        frame.heads[index] = _Head(self._kept_ways, dict(self.variables.values), frame.own and dict(frame.own))
-        return ProgramEvent(EventKind.HEAD, self._line(frame, index), mark=self._kept_ways)
+        if not self._has_to_decide:
+            # What is written out runs once.
+            yield ProgramEvent(EventKind.HEAD, self._line(frame, index))
+        self._kept += 1
+        frame.heads[index] = _Head(self._kept, self._state(), len(self.found))
 
     def _run_again(self, frame: _Frame, first: int, reason: str) -> Iterator[Block | ProgramEvent]:
         """Go back to a line, nobody knows how often, until nothing new follows; then go on behind the one that runs."""
@@ -738,20 +842,29 @@ class Machine:
             self.variables.lose(self._assigned_in(frame, first, frame.here), reason)
             yield ProgramEvent(EventKind.LOST, line, reason)
             return
-        values = self.variables.join(head.values, self.variables.values, told)
-        own = None if frame.own is None else self.variables.join(head.own or {}, frame.own, told)
+        yield ProgramEvent(EventKind.MEET)
+        both = self._join(head.known, self._state(), told)
         # The deeper a loop is in others, the less often it runs each time.
         within = sum(bool(each.reason) and each.lines.first != first for each in frame.loops)
         is_last = self._is_alone or head.passes >= max(MOST_PASSES - within, 1)
-        self.settled = None
-        yield ProgramEvent(EventKind.AGAIN, line, told, head.mark, is_last=is_last)
-        is_settled = self.settled == head.mark and (values, own) == (head.values, head.own)
+        is_same = self._follower.is_same(both.beside, head.known.beside)
+        is_settled = is_same and both.levels == head.known.levels
         if is_last or is_settled:
-            changed = [name for name, value in {**values, **(own or {})}.items() if isinstance(value, Unknown)]
-            self.variables.lose([*changed, *self._assigned_in(frame, first, frame.here)], reason)
+            self.variables.levels = both.levels
+            self.variables.lose(self._assigned_in(frame, first, frame.here), reason)
+            if not is_last:
+                # What follows has run.
+                self._beside = self._follower.join((), told)
+            elif not is_same:
+                self._beside = self._follower.lose(self._beside, told, line, in_passes=True)
             return
-        self.variables.values, frame.own = values, own
-        head.values, head.own, head.passes = dict(values), own and dict(own), head.passes + 1
+        if not head.is_aside:
+            # All of it is found anew.
+            del self.found[head.found :]
+        both.reason = self._decided
+        head.passes += 1
+        self._know(both)
+        head.known = self._state()
         frame.go_to(first)
         frame.is_again = True
 
@@ -807,9 +920,14 @@ class Machine:
                 told = f"which stands twice, in program lines {places}: give each its own number"
                 yield f"program line {line} names {what} {name}, {told}"
 
-    def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Block | ProgramEvent]:
+    def _do_assign(self, frame: _Frame, index: int, statement: Assign | Forget) -> Iterator[Block | ProgramEvent]:
         self.variables.assign(statement)
-        yield from ()
+        name = self.variables.name(statement.variable)
+        if self.language.may_move(name if isinstance(name, str) else ""):
+            block = frame.source.blocks[index]
+            text = self._set_anew(name, block)
+            ran = parse_block(text, block.line, block.syntax)
+            yield replace(ran, callers=frame.callers, file=frame.source.name)
 
     def _do_end(self, _frame: _Frame, _index: int, _statement: ProgramEnd) -> Iterator[Block | ProgramEvent]:
         self._frames = []
@@ -818,19 +936,33 @@ class Machine:
     def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Block | ProgramEvent]:
         self.variables.lose_all(statement.reason)
         frame.jumped = statement.reason if statement.jumps else frame.jumped
-        yield from self._unclear(frame, index, statement.reason, unread=statement.unread)
+        keeps = statement.is_beside
+        yield from self._unclear(frame, index, statement.reason, unread=statement.unread, keeps_modes=keeps)
+
+    def _do_definitions(self, _frame: _Frame, _index: int, statement: Definitions) -> Iterator[Block | ProgramEvent]:
+        self.variables.defines = statement.begin
+        yield from ()
+
+    def _do_told(self, _frame: _Frame, _index: int, statement: Refused | ReadAs) -> Iterator[Block | ProgramEvent]:
+        is_refused = isinstance(statement, Refused)
+        self._told[statement.told] = EventKind.REFUSED if is_refused else EventKind.READ_AS
+        yield from ()
 
     def _do_modal_call(self, frame: _Frame, index: int, call: ModalCall) -> Iterator[Block | ProgramEvent]:
         if not call.reason:
             called = self.variables.values.pop(_CALLED_BEHIND, None)
             if called is not None:
                 reason = called.reason if isinstance(called, Unknown) else str(called)
+                keeps = self.variables.values.pop(_LOSES_MODES, None) is None
                 yield from self._stay(frame, index) if not self._says_words(frame, index) else ()
-                yield ProgramEvent(EventKind.LOST, self._line(frame, index), reason, is_told=True)
+                line = self._line(frame, index)
+                yield ProgramEvent(EventKind.LOST, line, reason, keeps_modes=keeps, is_told=True)
             return
         self.variables.lose_all(call.reason)
         self.variables.values[_CALLED_BEHIND] = call.reason
-        yield from self._unclear(frame, index, call.reason, unread=call.name)
+        if not call.keeps_modes:
+            self.variables.values[_LOSES_MODES] = call.reason
+        yield from self._unclear(frame, index, call.reason, unread=call.name, keeps_modes=call.keeps_modes)
 
     def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Block | ProgramEvent]:
         truth = self.variables.truth(when.condition)
@@ -849,7 +981,7 @@ class Machine:
             if any(isinstance(each, Return | ProgramEnd) for each in when.then):
                 _leave_to(frame, float("inf"))
             then = _ends_last(when.then)
-            yield self._part(frame, truth.reason, lambda other: other.rest.__setitem__(slice(0, 0), then))
+            yield from self._part(frame, truth.reason, lambda other: other.rest.__setitem__(slice(0, 0), then))
             return
         for jump in jumps:
             yield from self._jump(frame, index, replace(jump, condition=when.condition))
@@ -896,7 +1028,7 @@ class Machine:
             self._named.add((frame.source.name, target))
             yield from self._stay(frame, index)
             taken = _Taken(target, reason)
-            yield self._part(frame, reason, lambda other: other.rest.__setitem__(slice(None), [taken]))
+            yield from self._part(frame, reason, lambda other: other.rest.__setitem__(slice(None), [taken]))
         elif not self._is_alone:
             # Where it jumps, the control stops; what follows runs where it does not.
             yield ProgramEvent(EventKind.MAY_STOP, self._line(frame, index), told)
@@ -937,8 +1069,8 @@ class Machine:
     def _check_repetition(self, frame: _Frame, index: int, target: int) -> None:
         """Refuse to go back to a line where everything was the same before: that would go on for ever."""
         if self._repeats(frame, index, target):
-            line, values = self._line(frame, index), self.variables.all().values()
-            if any(isinstance(each, Unknown) for each in values):
+            line = self._line(frame, index)
+            if any(isinstance(each, Unknown) for level in self.variables.levels for each in level.values.values()):
                 told = f"program line {line} goes back again and again: what ends that is not known"
                 raise _RefusedError(f"{told}, so it is followed no further")
             raise _RefusedError(f"program line {line} runs for ever: nothing changes from pass to pass")
@@ -947,14 +1079,10 @@ class Machine:
         """Whether everything was the same before where a line leads back."""
         calls = tuple((each.source.name, each.at, each.left) for each in self._frames)
         # Values have no order; what they were is all that matters.
-        now = hash((frame.source.name, index, target, calls, self._values()))
+        now = hash((frame.source.name, index, target, calls, self.variables.all()))
         known = now in self._passed
         self._passed.add(now)
         return known
-
-    def _values(self) -> frozenset[tuple[str, Known]]:
-        """The values of all variables."""
-        return frozenset(self.variables.all().items())
 
     def _target(self, frame: _Frame, index: int, jump: Jump) -> int | None:
         last = frame.last if frame.call is None or frame.call.kind is not CallKind.PROFILE else len(frame.source) - 1
@@ -982,7 +1110,7 @@ class Machine:
                     if isinstance(name, str):
                         yield name
                     elif name is not None:
-                        yield from [*self.variables.values]
+                        yield from [name for level in self.variables.levels for name in level.values]
 
     # Branches
 
@@ -991,7 +1119,7 @@ class Machine:
         if isinstance(truth, Unknown):
             self._decide(frame, truth.reason)
             yield from self._stay(frame, index)
-            yield self._part(frame, truth.reason, partial(_begin_part, first=index, lines=lines))
+            yield from self._part(frame, truth.reason, partial(_begin_part, first=index, lines=lines))
             frame.branches.append(_Branch(lines, has_run=True, is_undecided=True))
             return
         frame.branches.append(_Branch(lines, truth))
@@ -1069,11 +1197,11 @@ class Machine:
         """Run a loop once more, of which nobody knows whether it does."""
         self._decide(frame, reason)
         if not self._is_alone and not (known is not None and known.reason):
-            yield self._begin_head(frame, lines.first)
+            yield from self._begin_head(frame, lines.first)
         if self._is_alone:
             yield from self._unclear(frame, lines.first, reason)
         _leave_loop(frame, lines)
-        yield self._part(frame, reason, lambda other: other.go_to(lines.last + 1))
+        yield from self._part(frame, reason, lambda other: other.go_to(lines.last + 1))
         frame.loops.append(_Loop(lines, reason=reason))
 
     def _count(self, frame: _Frame, loop: For, lines: LineRange, known: _Loop | None) -> Iterator[Block | ProgramEvent]:
@@ -1114,7 +1242,7 @@ class Machine:
             self._decide(frame, reason)
             yield from self._stay(frame, index)
             if isinstance(until, Unknown):
-                yield self._part(frame, reason, lambda other: _leave_loop(other, loop.lines))
+                yield from self._part(frame, reason, lambda other: _leave_loop(other, loop.lines))
             yield from self._run_again(frame, loop.lines.first, reason)
             if not frame.is_again:
                 frame.loops.remove(loop)
@@ -1141,8 +1269,7 @@ class Machine:
         text = frame.source.blocks[index].text.strip()
         found = self.library.find_called(call, frame.source, index, self.main, self.variables.resolve)
         if isinstance(found, Unknown):
-            is_bare = isinstance(call.target, str) and not call.arguments and not frame.source.name
-            yield from self._cannot_call(frame, index, found, str(call.target) if is_bare else "")
+            yield from self._cannot_call(frame, index, call, found)
             return
         source, first, last = found
         if last < first:
@@ -1150,8 +1277,9 @@ class Machine:
         if len(self._frames) >= DEEPEST:
             yield from self._unwind(source, first)
             raise _RefusedError(f"program line {line} calls itself again and again: {DEEPEST} calls in one another")
-        if isinstance(count, Unknown):
-            yield from self._unclear(frame, index, f"how often {text} runs is not known: {count.reason}")
+        doubt = f"how often {text} runs is not known: {count.reason}" if isinstance(count, Unknown) else ""
+        if doubt:
+            yield from self._unclear(frame, index, doubt)
         times = int(count) if isinstance(count, float) else 1
         if times < 1:
             return
@@ -1168,27 +1296,51 @@ class Machine:
                 told = f"{call.cycle} cuts a profile that is written elsewhere, which a program without calls has not"
                 yield ProgramEvent(EventKind.BARRIER, line, told)
             return
-        own = self._arguments(call, source, first)
+        yield from self._begin_call(frame, index, call, found, times)
+        if self._frames[-1] is not frame:
+            self._frames[-1].doubt = doubt
+        if call.kind is CallKind.PROFILE and is_behind:
+            frame.at = last + 1
+
+    def _begin_call(
+        self, frame: _Frame, index: int, call: Call, found: tuple[ProgramFile, int, int], times: int
+    ) -> Iterator[Block | ProgramEvent]:
+        """Run what a call has found, with a level of variables and the modes at its entry."""
+        source, first, last = found
+        line, text = self._line(frame, index), frame.source.blocks[index].text.strip()
+        head, depth = source.head(first, last), len(self.variables.levels)
+        own = self._level_of(call, head, text)
+        if isinstance(own, Unknown):
+            self.variables.lose_all(own.reason)
+            yield from self._unclear(frame, index, own.reason)
+            return
         begun = self._begun(line, source, first, last, own)
         caller = Caller(line, text, call.cycle, self._is_reached)
-        if call.kind is CallKind.PROFILE:
-            yield ProgramEvent(EventKind.ENTER, line, call.cycle)
-            if is_behind:
-                frame.at = last + 1
-        self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own, begun))
+        called = _Frame(source, first, first, last, call, (*frame.callers, caller), times, depth, own, begun)
+        called.saves = head.saves and call.kind is CallKind.PROGRAM
+        if call.kind is CallKind.PROFILE or called.saves:
+            yield ProgramEvent(EventKind.BARRIER if called.saves else EventKind.ENTER, line, call.cycle)
+            called.entry = self._beside
+        self._frames.append(called)
+        if own is not None:
+            self.variables.levels.append(own.copy())
 
-    def _cannot_call(self, frame: _Frame, index: int, why: Unknown, called: str) -> Iterator[Block | ProgramEvent]:
-        """A call of what is not found, and its name. That a file is not there is told where a contour depends on it,
+    def _cannot_call(self, frame: _Frame, index: int, call: Call, why: Unknown) -> Iterator[Block | ProgramEvent]:
+        """A call of what is not found. That a file is not there is told where a contour depends on it,
         and that the program names what it has not in any case."""
         self.variables.lose_all(why.reason)
         if isinstance(why, Absent):
             raise _RefusedError(why.reason)
-        yield from self._unclear(frame, index, why.reason, called)
+        name = call.target if isinstance(call.target, str) else ""
+        called = "" if call.arguments or frame.source.name else name
+        keeps_modes = call.kind is CallKind.PROFILE or bool(re.fullmatch(self.language.own_cycles, name))
+        yield from self._unclear(frame, index, why.reason, called, keeps_modes=keeps_modes)
 
-    def _begun(self, line: int, source: ProgramFile, first: int, last: int, own: Mapping[str, Known] | None) -> _Begun:
+    def _begun(self, line: int, source: ProgramFile, first: int, last: int, own: VariableLevel | None) -> _Begun:
         """The identity of a call with its values. Raises _RefusedError for a call that runs already with the same ones:
         it would call itself for ever."""
-        begun = source.name, first, last, frozenset({**self.variables.values, **(own or {})}.items())
+        levels = [self.variables.levels[0], *([own] if own is not None else self.variables.levels[1:])]
+        begun = source.name, first, last, tuple(frozenset(each.values.items()) for each in levels)
         if any(each.begun == begun for each in self._frames):
             raise _RefusedError(f"program line {line} calls itself again and again: nothing changes from call to call")
         return begun
@@ -1206,17 +1358,48 @@ class Machine:
         block, code = frame.source.blocks[index], frame.source.code(index)
         return any(word.address != "N" for word in parse_block(code.rest, block.line, block.syntax).words)
 
-    def _arguments(self, call: Call, source: ProgramFile, first: int) -> dict[str, Known] | None:
-        values = {name: self.variables.value(term) for name, term in call.arguments}
-        formal = source.code(first).parameters if source.blocks else ()
-        if formal:
-            given = list(values.values())
-            values = {name: given[place] for place, name in enumerate(formal) if place < len(given)}
-        if call.is_local:
-            return dict(values)
-        for name, value in values.items():
-            self.variables.set(name, value)
-        return None
+    def _level_of(self, call: Call, head: CodeLine, text: str) -> VariableLevel | Unknown | None:
+        """The level of variables with which a call begins; None for one that has none of its own, Unknown where it is
+        not known what it hands over. Raises _RefusedError."""
+        if not call.is_local:
+            for name, term in call.arguments:
+                self.variables.set(name, self.variables.value(term))
+            return None
+        level = VariableLevel(str(self.variables.resolve(call.target)))
+        if not self.language.declares:
+            level.values |= {name: self.variables.value(term) for name, term in call.arguments}
+            return level
+        if len(call.arguments) > len(head.parameters):
+            most = len(head.parameters)
+            raise _RefusedError(f"{text} hands over {len(call.arguments)} values, and {level.program} takes {most}")
+        given, links = dict(enumerate(term for _, term in call.arguments)), dict[str, tuple[int, str]]()
+        for place, formal in enumerate(head.parameters):
+            handed = given.get(place)
+            if formal.is_reference and handed is not None:
+                link = self._link(formal, handed, text)
+                if isinstance(link, Unknown):
+                    return link
+                links[formal.name] = link
+                continue
+            value: Known = "" if formal.of_type is VariableType.STRING else 0.0
+            if handed is not None:
+                value = self.variables.value(handed)
+            elif formal.has_default:
+                value = Unknown(f"{formal.name} has a value of its own, which is not read")
+            level.types[formal.name] = formal.of_type
+            typed = as_type(value, formal.of_type, formal.name)
+            level.values[formal.name] = self.variables.stated(formal.name, typed)
+        return replace(level, links=links)
+
+    def _link(self, formal: FormalParameter, term: Term, text: str) -> tuple[int, str] | Unknown:
+        """The variable that a subprogram has by reference: its level, and its name there. Raises _RefusedError."""
+        if not isinstance(term, Variable | Indexed):
+            told = f"{text} hands over no variable for {formal.name}, which {text.partition('(')[0]} changes (VAR)"
+            raise _RefusedError(f"{told}; write a variable there")
+        name = self.variables.name(term)
+        if isinstance(name, Unknown):
+            return Unknown(f"which variable {text} hands over for {formal.name} is not known: {name.reason}")
+        return self.variables.place(name)
 
     def _return(self, frame: _Frame, _index: int, end: Return) -> Iterator[Block | ProgramEvent]:
         if frame.call is None:
@@ -1236,7 +1419,7 @@ class Machine:
                 raise _RefusedError("the subprogram returns to a block that is not there")
             caller.at = target
 
-    def _unwind(self, source: ProgramFile, first: int) -> Iterator[ProgramEvent]:
+    def _unwind(self, source: ProgramFile, first: int) -> Iterator[Block | ProgramEvent]:
         """End what calls itself at all depths: otherwise, the calls behind each of its calls multiply."""
         outermost = next(
             (at for at, each in enumerate(self._frames) if (each.source, each.first) == (source, first)), 1
@@ -1245,17 +1428,50 @@ class Machine:
             frame.left = 1
             yield from self._leave(frame)
 
-    def _leave(self, frame: _Frame) -> Iterator[ProgramEvent]:
+    def _leave(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
         """The end of what a frame runs: it runs again, or what called it goes on."""
         frame.left -= 1
         self._last = self._last if _is_loop(frame.call) else frame
+        if frame.saves:
+            yield from self._bring_back(frame)
         if frame.left > 0:
             frame.at, frame.loops, frame.branches, frame.heads = frame.first, [], [], {}
+            if frame.own is not None and self.language.declares:
+                self.variables.leave(frame.depth)
+                self.variables.levels.append(frame.own.copy())
             return
         self._frames.pop()
+        if frame.own is not None:
+            self.variables.leave(frame.depth)
         self._go_on()
+        if frame.doubt:
+            self.variables.lose_all(frame.doubt)
+            yield ProgramEvent(EventKind.LOST, frame.callers[-1].line, frame.doubt, is_told=True)
         if frame.call is not None and frame.call.kind is CallKind.PROFILE:
             yield ProgramEvent(EventKind.LEAVE, frame.callers[-1].line, frame.call.cycle)
+            self._beside = frame.entry
+
+    def _bring_back(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
+        """Put the modes in force again that were in force where a subprogram was called."""
+        line = self._line(frame, frame.here)
+        yield ProgramEvent(EventKind.BARRIER, line)
+        told = f"the coordinate system is again that of {frame.callers[-1].text}, by SAVE"
+        if self._has_to_decide:
+            yield from self._write_back(frame, line)
+        self._beside = self._follower.restore(frame.entry, self._beside, told, line)
+        self._go_on()
+
+    def _write_back(self, frame: _Frame, line: int) -> Iterator[Block | ProgramEvent]:
+        """Blocks that say what SAVE brings back. Raises _UndecidedError where there are none."""
+        call, back = frame.callers[-1], self._follower.write_back(frame.entry, self._beside, frame.ran)
+        if back.refused:
+            raise _UndecidedError(line, f"SAVE behind {call.text} cannot be written out: {back.refused}")
+        if back.left_out:
+            yield ProgramEvent(EventKind.BARRIER, line, f"SAVE behind {call.text}: {back.left_out}")
+        for text in back.lines:
+            block = parse_block(text, call.line, frame.source.blocks[frame.first].syntax)
+            yield replace(block, callers=frame.callers, file=frame.source.name)
+        frame.ran = []
 
 
 def _is_loop(call: Call | None) -> bool:
@@ -1308,6 +1524,9 @@ _DO: Mapping[type[MacroStatement | _Taken], Callable[..., Iterator[Block | Progr
     For: Machine._begin_loop,
     EndLoop: Machine._end_loop,
     Strange: Machine._do_strange,
+    Definitions: Machine._do_definitions,
+    Refused: Machine._do_told,
+    ReadAs: Machine._do_told,
     ModalCall: Machine._do_modal_call,
 }
 
@@ -1365,6 +1584,7 @@ def _first(values: Iterable[int | None]) -> int | None:
 
 _CALLED_BEHIND = "a call after each move"
 """Under this name it is known what a modal call does: ways that meet agree on it as on variables."""
+_LOSES_MODES = "the modes behind that call"
 _AXES = frozenset("XYZUVWABC")
 """Addresses of what moves."""
 

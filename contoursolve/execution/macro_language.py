@@ -1,5 +1,6 @@
 """Statements of a program besides words with numbers: variables, jumps, loops and calls, for every control."""
 
+import re
 from collections.abc import Callable, Mapping
 from enum import Enum
 from typing import Any
@@ -48,22 +49,67 @@ class WordFormula(Struct, frozen=True):
         return line[: self.begin] + number + line[self.end :]
 
 
+class VariableType(Enum):
+    """Type of a variable that a program defines."""
+
+    REAL = "REAL"
+    INT = "INT"
+    BOOL = "BOOL"
+    CHAR = "CHAR"
+    STRING = "STRING"
+    AXIS = "AXIS"
+    FRAME = "FRAME"
+
+
+class VariableScope(Enum):
+    """Where a variable is known that no program defines by its type."""
+
+    EVERYWHERE = "everywhere"
+    LEVEL = "in one level of calls"
+    """Each call has its own, empty unless it gives them: #1 to #33 of Fanuc."""
+    NESTED = "in one level and in those that it calls"
+    """V.L. of the ISG kernel."""
+
+
+class FormalParameter(Struct, frozen=True):
+    """A variable that a call sets by its place; one by reference is the caller's own under another name."""
+
+    name: str
+    of_type: VariableType = VariableType.REAL
+    is_reference: bool = False
+    has_default: bool = False
+    """Whether it has a value of its own where a call leaves it out, instead of 0."""
+
+
 class Assign(Struct, frozen=True, tag=True):
-    """A variable gets a value."""
+    """A variable gets a value; with a type, it is defined here: the program that runs has it for itself."""
 
     variable: Variable | Indexed
     value: Term
+    of_type: VariableType | None = None
 
 
 class Forget(Struct, frozen=True, tag=True):
-    """A variable gets a value that the program does not say: `FN 18`, a result of probing."""
+    """A variable gets a value that the program does not say: `FN 18`, a result of probing; with a type, it is defined
+    here."""
 
     variable: Variable | Indexed
     reason: str
+    of_type: VariableType | None = None
+
+
+class Definitions(Struct, frozen=True, tag=True):
+    """Definitions begin or end: of one name in several levels, an assignment there means that of its own level."""
+
+    begin: bool
 
 
 SKIP_SWITCH = Variable("/")
 """Switch at the machine that decides if blocks with / run; no program reads it."""
+
+
+LENGTH_INCREMENT, ANGLE_INCREMENT = Variable("@LENGTH"), Variable("@ANGLE")
+"""What an argument without a decimal point counts, in the program's units; no program names them."""
 
 
 class JumpWay(Enum):
@@ -109,8 +155,10 @@ class Call(Struct, frozen=True, tag=True):
     count: Term = Constant(1.0)
     arguments: tuple[tuple[str, Term], ...] = ()
     """Variables of the subprogram that the call sets, by name: G65 P100 A5. sets `#1`."""
+    counted: str = ""
+    """The letters of arguments without a decimal point, which count least increments of their address."""
     is_local: bool = False
-    """Whether the subprogram has local variables of its own (G65)."""
+    """Whether the subprogram has local variables of its own: G65, a call of SINUMERIK."""
     cycle: str = ""
     """The cycle that runs a profile: `G71`."""
 
@@ -187,6 +235,20 @@ class Strange(Struct, frozen=True, tag=True):
     unread: str = ""
     jumps: bool = False
     """Whether it jumps, so that any block with a number or a label may follow."""
+    is_beside: bool = False
+    """Whether it runs beside the program, and moves an axis."""
+
+
+class Refused(Struct, frozen=True, tag=True):
+    """A statement that the control refuses with an alarm, and why; what follows is read as if it went on."""
+
+    told: str
+
+
+class ReadAs(Struct, frozen=True, tag=True):
+    """A condition that is read otherwise than it seems, and how."""
+
+    told: str
 
 
 class ModalCall(Struct, frozen=True, tag=True):
@@ -195,11 +257,14 @@ class ModalCall(Struct, frozen=True, tag=True):
     reason: str = ""
     name: str = ""
     """The word of the control that makes it."""
+    keeps_modes: bool = False
+    """Whether it leaves the modes as they were."""
 
 
 MacroStatement = (
     Assign
     | Forget
+    | Definitions
     | Jump
     | Call
     | Return
@@ -213,6 +278,8 @@ MacroStatement = (
     | EndLoop
     | When
     | Strange
+    | Refused
+    | ReadAs
     | ModalCall
 )
 
@@ -235,8 +302,10 @@ class CodeLine(Struct, frozen=True):
     """Whether that is a subprogram by its first line: `%_N_L10_SPF`, `%L SUB`, PROC."""
     statements: tuple[MacroStatement, ...] = ()
     words: tuple[WordFormula, ...] = ()
-    parameters: tuple[str, ...] = ()
-    """The variables that a call's arguments set, in order: PROC NAME(REAL A, REAL B)."""
+    parameters: tuple[FormalParameter, ...] = ()
+    """The variables that a call's arguments set, in order: PROC NAME(REAL A, VAR INT B)."""
+    saves: bool = False
+    """Whether the modes at a call are in force again where the subprogram ends: PROC NAME SAVE."""
 
 
 class MacroLanguage(Struct, frozen=True, eq=False):
@@ -262,14 +331,27 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """Pattern of further names that a program may declare; none if it is empty."""
     examples: str = ""
     """Names of variables, for a reader: the first one has a number."""
+    moving: str = ""
+    """Pattern of variables of the machine whose values move the coordinate system; none if it is empty."""
     always_empty: str = ""
     """The variable that is always empty, where variables may be: `#0`."""
     passes_return: bool = False
     """Whether the end of a subprogram does nothing where none was called: LBL 0."""
+    scope: Callable[[str], VariableScope] = lambda _: VariableScope.EVERYWHERE
+    """Where a variable is known that no program defines by its type."""
+    shows_main: bool = True
+    """Whether subprograms know what the main program defines."""
+    own_cycles: str = ""
+    """Pattern of names of the maker's own cycles, which leave the modes as they were; none if it is empty."""
     with_names: "Callable[[tuple[str, ...]], MacroLanguage] | None" = None
     """The same where some more names are those of commands, which call no subprogram; None where a name calls none."""
     made_by: Callable[[], "MacroLanguage"] | None = None
     """The function that makes it, by whose name it is sent to another process."""
+
+    def may_move(self, name: str) -> bool:
+        """Whether a variable of this name moves the coordinate system; any may be one whose index is not known, which
+        has no name."""
+        return bool(self.moving) and (not name or re.fullmatch(self.moving, name) is not None)
 
     def value_of(self, name: str, values: Mapping[str, Known]) -> Known:
         """The value of a variable by its name, given those of others."""

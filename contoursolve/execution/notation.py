@@ -34,6 +34,8 @@ class Notation(Struct, frozen=True, eq=False, dict=True):
     inverts: str = ""
     """Name of the operator that inverts a condition."""
     functions_need_brackets: bool = True
+    compares_last: bool = False
+    """Whether comparisons bind least, so that one may be compared with another."""
     has_quotient_of_arctangent: bool = False
     """Whether `ATAN[y]/[x]` is the direction of x and y."""
     writes_point: bool = True
@@ -164,6 +166,7 @@ SINUMERIK = Notation(
     brackets="()",
     number=r"(\d+\.?\d*|\.\d+)(EX[+-]?\d+)?",
     inverts="NOT",
+    compares_last=True,
 )
 ISG = Notation(
     "ISG",

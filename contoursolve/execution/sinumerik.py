@@ -16,6 +16,7 @@ from contoursolve.execution.macro_language import (
     EndLoop,
     For,
     Forget,
+    FormalParameter,
     If,
     Jump,
     JumpWay,
@@ -24,8 +25,10 @@ from contoursolve.execution.macro_language import (
     MacroStatement,
     ModalCall,
     ProgramEnd,
+    Refused,
     Return,
     Strange,
+    VariableType,
 )
 from contoursolve.execution.notation import SINUMERIK, UnreadableTermError
 from contoursolve.gcode import IN_BRACKETS, IN_PARENTHESES
@@ -132,11 +135,11 @@ def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
         # A call stands in a block of its own: it is a command that is not known.
         return
     arguments = tuple(_given(line))
-    yield Call(CallKind.PROGRAM, name, count=_count(line), arguments=arguments)
+    yield Call(CallKind.PROGRAM, name, count=_count(line), arguments=arguments, is_local=True)
 
 
 def _call_letter(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
-    yield Call(CallKind.PROGRAM, found["name"].upper(), arguments=tuple(_given(line)))
+    yield Call(CallKind.PROGRAM, found["name"].upper(), arguments=tuple(_given(line)), is_local=True)
 
 
 _MOVES = re.compile(r"(?<![A-Z_$])[XYZ](?:[ \t]*+=|[ \t]*+[-+.\d])", re.IGNORECASE)
@@ -151,8 +154,8 @@ def _call_by_name(line: LineReader, found: re.Match[str]) -> Iterator[MacroState
         line.at = len(line.text)
         yield strange(found[0] + line.text[begin:])
         return
-    arguments = tuple(_given(line))
-    yield Call(CallKind.PROGRAM, _program_name(name["text"] or name["bare"]), count=_count(line), arguments=arguments)
+    arguments, program = tuple(_given(line)), _program_name(name["text"] or name["bare"])
+    yield Call(CallKind.PROGRAM, program, count=_count(line), arguments=arguments, is_local=True)
 
 
 def _between(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
@@ -178,45 +181,75 @@ def _profile(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     if len(labels) == 2 and (cycle == "CYCLE95" or not name or labels[0].startswith("E_LAB_A")):  # noqa: PLR2004
         yield Call(CallKind.PROFILE, labels[0], labels[1], cycle=cycle)
     elif name and not labels:
-        yield Call(CallKind.PROFILE, _program_name(name), cycle=cycle)
+        yield Call(CallKind.PROFILE, _program_name(name), cycle=cycle, is_local=True)
     else:
         yield strange(found[0])
 
 
-_PARAMETER = re.compile(r"([A-Z_]\w*+)[ \t]*+(?:\[[^\]]*\][ \t]*+)?(?:=[^,]*)?\Z", re.IGNORECASE)
+_TYPES = "REAL|INT|BOOL|CHAR|STRING|AXIS|FRAME"
+_PARAMETER = re.compile(
+    rf"(?:(?P<var>VAR)[ \t]++)?(?:(?P<type>{_TYPES})\b[ \t]*+(?:\[[^\]]*\][ \t]*+)?)?"
+    r"(?P<name>[A-Z_]\w*+)[ \t]*+(?:\[[^\]]*\][ \t]*+)?(?P<default>=[^,]*)?\Z",
+    re.IGNORECASE,
+)
+_BETWEEN_PARAMETERS = re.compile(r",(?![^\[]*\])")
 
 
 def _procedure(line: LineReader, found: re.Match[str]) -> Iterable[MacroStatement]:
     line.begins, line.is_part = found["name"].upper(), True
-    names = (_PARAMETER.search(each) for each in (found["formal"] or "")[1:-1].split(","))
-    line.parameters += [name[1].upper() for name in names if name]
+    line.saves = re.search(r"\bSAVE\b", found["words"], re.IGNORECASE) is not None
+    formal = (_PARAMETER.search(each) for each in _BETWEEN_PARAMETERS.split((found["formal"] or "")[1:-1]))
+    line.parameters += [
+        FormalParameter(
+            each["name"].upper(),
+            VariableType[(each["type"] or "REAL").upper()],
+            each["var"] is not None,
+            each["default"] is not None,
+        )
+        for each in formal
+        if each
+    ]
     line.hide(found.start(), found.end())
     return ()
 
 
 def _define(line: LineReader, kind: re.Match[str]) -> Iterator[MacroStatement]:
     """Variables and fields are 0, and texts empty, where nothing else is said."""
-    empty = Quoted("") if kind["text"] else Constant(0.0)
+    of_type = VariableType[kind["type"].upper()]
+    empty = Quoted("") if of_type is VariableType.STRING else Constant(0.0)
     while True:
         found = line.need(r"(?P<name>[A-Z_]\w*+)[ \t]*+(?P<size>\[[\d, \t]++\])?+")
         name = found["name"].upper()
         ends = [range(int(each)) for each in re.findall(r"\d+", found["size"] or "")]
         elements = [f"{name}[{','.join(map(str, each))}]" for each in itertools.product(*ends)] if ends else [name]
+        if not _IS_NAME.match(name):
+            told = f"DEF {name}: the first two characters of a variable's name are letters or underscores"
+            line.at = len(line.text)
+            yield Forget(Variable(name), told)
+            yield Refused(told)
+            return
+        if of_type in (VariableType.AXIS, VariableType.FRAME):
+            line.take(r"=[^,]*+")
+        if ends:
+            yield Assign(Variable(name), empty, of_type)
         if line.take("="):
-            yield from _initial(line, elements)
+            yield from _initial(line, elements, of_type)
         elif len(elements) <= _MOST_ELEMENTS:
-            yield from (Assign(Variable(each), empty) for each in elements)
+            yield from (Assign(Variable(each), empty, of_type) for each in elements)
         if not line.take(","):
             return
 
 
-def _initial(line: LineReader, elements: list[str]) -> Iterator[MacroStatement]:
+_IS_NAME = re.compile("[A-Z_]{2}")
+
+
+def _initial(line: LineReader, elements: list[str], of_type: VariableType) -> Iterator[MacroStatement]:
     is_list = line.take(r"(?:SET|REP)?[ \t]*+(?=\()") if len(elements) > 1 else None
     values = [value for _, value in _given(line)] if is_list else [line.term()]
     if is_list and is_list[0].strip().upper() == "REP":
         values = values[:1] * min(len(elements), _MOST_ELEMENTS)
     for name, value in zip(elements, values, strict=False):
-        yield Assign(Variable(name), value)
+        yield Assign(Variable(name), value, of_type)
 
 
 def _equals(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
@@ -247,7 +280,15 @@ def _key(word: str) -> str:
     return word + _BEHIND
 
 
-_MODAL_CALL = ModalCall("contoursolve does not read MCALL yet: it calls a subprogram after each move", "MCALL")
+_OWN_CYCLES = r"(?:CYCLE\d++|HOLES\d|POCKET\d|SLOT\d|LONGHOLE)"
+"""Recalled: the maker's cycles begin with PROC NAME SAVE."""
+
+
+def _modal_call(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    reason = "contoursolve does not read MCALL yet: it calls a subprogram after each move"
+    yield ModalCall(reason, "MCALL", found["cycle"] is not None)
+
+
 SYNCHRONOUS = r"(?:IDS?[ \t]*+=[ \t]*+\d++[ \t]*+)?(?:WHEN|WHENEVER|FROM|EVERY|DO)\b"
 """Beginning of a synchronous action, which runs beside the program whenever its condition holds."""
 MOVES_BESIDE = r".*\b(?:(?:POSA?|MOV)[ \t]*+\[|DO\b.*(?<![A-Z_$\[])[XYZ][ \t]*+=?+[ \t]*+[-+.\d])"
@@ -259,7 +300,7 @@ def _synchronous(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatem
     shown = strange(found[0]).reason.removesuffix(" cannot be read")
     line.hide(found.start(), found.end())
     if found["moves"]:
-        yield Strange(f"{shown} moves an axis beside the program")
+        yield Strange(f"{shown} moves an axis beside the program", is_beside=True)
     for name in re.findall(r"(?<!\w)R\d+(?=[ \t]*=(?!=))", found[0], re.IGNORECASE):
         yield Forget(Variable(name.upper()), f"{shown} sets {name.upper()} beside the program")
     # What else it does bears on nothing that is known.
@@ -273,11 +314,11 @@ _TABLE = (
     Spelling(
         _key(
             r"DEF[ \t]++(?>(?:(?:NCK|CHAN|SYN[RW]{1,2})[ \t]++)*)"
-            r"(?:REAL|INT|BOOL|CHAR|(?P<text>STRING)[ \t]*+\[[^\]]*+\])"
+            r"(?P<type>REAL|INT|BOOL|CHAR|AXIS|FRAME|STRING(?=[ \t]*+\[))(?>(?:(?<=STRING)[ \t]*+\[[^\]]*+\])?)"
         ),
         _define,
     ),
-    Spelling(_key(rf"PROC[ \t]++(?P<name>\w++)[ \t]*+(?P<formal>{IN_PARENTHESES})?+") + ".*+", _procedure),
+    Spelling(rf"PROC[ \t]++(?P<name>\w++)[ \t]*+(?P<formal>{IN_PARENTHESES})?+(?P<words>.*+)", _procedure),
     Spelling(_key("(?:DEF|EXTERN|REDEF|DEFINE)") + ".*+", nothing),
     Spelling(_key("IF"), _if),
     Spelling(_key("ELSE"), lambda *_: [Else()]),
@@ -295,7 +336,7 @@ _TABLE = (
     Spelling(_key("CASE"), _case),
     Spelling(_key(rf"CALL[ \t]++BLOCK[ \t]++(?P<first>{_LABEL})[ \t]++TO[ \t]++(?P<last>{_LABEL})"), _between),
     Spelling(_key("(?:CALL|PCALL|EXTCALL)"), _call_by_name),
-    Spelling(_key("MCALL") + "(?=[ \t]*+[A-Z]).*+", lambda *_: [_MODAL_CALL]),
+    Spelling(_key("MCALL") + rf"(?=[ \t]*+[A-Z])[ \t]*+(?P<cycle>{_OWN_CYCLES}(?!\w))?.*+", _modal_call),
     Spelling(_key("MCALL"), lambda *_: [ModalCall()]),
     Spelling(_key("RET"), _return),
     Spelling(rf"(?P<cycle>CYCLE(?:95|62))[ \t]*+(?P<given>{IN_PARENTHESES})", _profile),
@@ -311,6 +352,8 @@ _TABLE = (
     Spelling(r"(?P<name>[A-Z_]{2}\w*+)(?![\[=])", _call),
 )
 _RESERVED = ("TO", "OF", "DEFAULT", "SAVE", "ENDLABEL", "AC", "IC", "DC", "ACP", "ACN", "REAL", "INT", "BOOL", "CHAR")
+_FRAMES = ("CTRANS", "CFINE", "CROT", "CROTS", "CSCALE", "CMIRROR")
+"""Functions that make a frame."""
 _KINDS = ("STRING", "AXIS", "FRAME", "PROC", "BLOCK", "PRIO", "ASUP")
 _ENDINGS = (".SPF", ".MPF", ".ARC", "", ".txt")
 
@@ -330,7 +373,7 @@ _DECLARED = r"[A-Z_]\w*"
 
 def sinumerik(names: Iterable[str]) -> MacroLanguage:
     """The statements of SINUMERIK. The names are those of words and commands: others call subprograms."""
-    known = frozenset(name.upper() for name in (*names, *_RESERVED, *_KINDS))
+    known = frozenset(name.upper() for name in (*names, *_RESERVED, *_KINDS, *_FRAMES))
     long = "|".join(sorted((re.escape(name) for name in known if len(name) > 1), key=len, reverse=True))
     form = LineForm(
         SINUMERIK,
@@ -356,5 +399,6 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
         _unknown,
         variables=_NAMES,
         declared=_DECLARED,
+        own_cycles=_OWN_CYCLES,
         examples="R100 or a name such as _ANG",
     )

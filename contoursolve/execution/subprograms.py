@@ -134,6 +134,19 @@ class ProgramFile:
                 found.setdefault(name.upper(), index)
         return found
 
+    def head(self, first: int, last: int) -> CodeLine:
+        """The line with the formal parameters of a program, which may stand behind the one that names it; else its
+        first one."""
+        for index in range(first, last + 1):
+            code = self.code(index)
+            if code.parameters or code.saves:
+                return code
+            if code.statements or (
+                code.begins is None and any(word.address != "N" for word in self.blocks[index].words)
+            ):
+                break
+        return self.code(first)
+
     def called(self) -> Iterator[str]:
         """The programs that a program of the file calls by name; not those that call themselves."""
         name = ""

@@ -25,8 +25,8 @@ def _grammar(notation: Notation) -> str:
     """Lark's grammar of a notation: a rule for each row of its operators, the loosest first."""
     rules = ["?term: level0", "?value: SIGN value -> sign | primary"]
     for place, row in enumerate(notation.operators):
-        # A comparison has no other one beside it.
-        left = place + 1 if "equal" in row.values() else place
+        # A comparison has no other one beside it, but where comparisons come last.
+        left = place + 1 if "equal" in row.values() and not notation.compares_last else place
         rules += (
             f"?level{place}: level{place + 1} | level{left} OPERATOR{place} level{place + 1} -> operation",
             f"OPERATOR{place}.2: /{_choice(row)}/",
@@ -80,6 +80,10 @@ def indexed(prefix: str, indices: Sequence[Term], suffix: str = "") -> Variable 
     return Variable(name) if isinstance(name, str) else Indexed(prefix, tuple(indices), suffix)
 
 
+_R_NUMBER = re.compile(r"\AR0+(?=\d+\Z)")
+"""R01 is R1: printed, SINUMERIK fundamentals 11/2006 p. 62."""
+
+
 @v_args(inline=True)
 class _Builder(Transformer):  # type: ignore[type-arg]
     """Makes expressions of what Lark finds; a method for each rule."""
@@ -96,7 +100,7 @@ class _Builder(Transformer):  # type: ignore[type-arg]
         return Quoted(text[1:-1])
 
     def variable(self, name: str) -> Term:
-        return Variable("".join(name.upper().split()))
+        return Variable(_R_NUMBER.sub("R", "".join(name.upper().split())))
 
     def constant(self, name: str) -> Term:
         return _CONSTANTS.get(name.upper()) or Apply("pi", ())
@@ -152,7 +156,7 @@ def _usual(notation: Notation, *, is_value: bool) -> re.Pattern[str]:
 
 def _operand(sign: str, number: str | None, name: str) -> Term:
     """A number or a variable with its sign."""
-    term = Variable(name.upper()) if number is None else Constant(float(number))
+    term = Variable(_R_NUMBER.sub("R", name.upper())) if number is None else Constant(float(number))
     return apply("negate", [term]) if sign == "-" else term
 
 

@@ -1,5 +1,6 @@
 """Writes expressions for a control, by the tables with which they are read."""
 
+import re
 from collections.abc import Callable, Mapping
 
 from contoursolve.execution.evaluate import CONDITIONS, written
@@ -74,6 +75,11 @@ def write_term(term: Term, target: str) -> str:
     Raises UnwritableTermError for what the language cannot say. Variables are written by their names.
     """
     return _Writer(NOTATIONS[target]).write(term)
+
+
+def write_in_full(term: Term, target: str) -> str:
+    """The same with brackets about each operation in another one, as it is computed."""
+    return re.sub(r"(?<=\d)\.(?!\d)", "", _FullWriter(NOTATIONS[target]).write(term))
 
 
 def _is_condition(term: Term) -> bool:
@@ -159,3 +165,10 @@ class _Writer:
 
     def _lacks(self, what: str) -> UnwritableTermError:
         return UnwritableTermError(f"{self._notation.name} has no {what}")
+
+
+class _FullWriter(_Writer):
+    """Writes each operation in another one in brackets."""
+
+    def _operand(self, term: Term, level: int) -> str:
+        return super()._operand(term, self._tightest if isinstance(term, Apply) else level)

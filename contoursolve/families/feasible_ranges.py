@@ -119,6 +119,8 @@ class Feasible(Shown, Struct, frozen=True):
     """Premises of the contours beside the words."""
     holds: str = "with a contour"
     """The verb of a sentence about the ranges."""
+    warnings: tuple[str, ...] = ()
+    """Warnings that no value of the word ends."""
 
     @property
     def is_complete(self) -> bool:
@@ -127,8 +129,9 @@ class Feasible(Shown, Struct, frozen=True):
 
     @property
     def largest(self) -> float:
-        """The upper end of the last range; 0 without one."""
-        return self.intervals[-1].high.value if self.intervals else 0.0
+        """The value up to which all from the least one on have the contour; 0 where that one has none."""
+        first = self.intervals[0] if self.intervals else None
+        return first.high.value if first is not None and first.low.reason is None else 0.0
 
     def __contains__(self, value: float) -> bool:
         return any(value in each for each in self.intervals)

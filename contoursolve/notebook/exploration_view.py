@@ -447,7 +447,10 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
             [_stop(each.low, field, found.unit, 1), _stop(each.high, field, found.unit, -1)] for each in found.intervals
         ],
         "ends": [
-            [_end_text(each, found.unit).replace(called(name), label) for each in (one.low, one.high)]
+            [
+                _end_text(each, found.unit, way).replace(called(name), label)
+                for each, way in ((one.low, -1), (one.high, 1))
+            ]
             for one in found.intervals
         ],
         "low": max(low, found.within[0]),
@@ -468,7 +471,7 @@ def _range_of_tool(exploration: Exploration, field: Mapping[str, Any]) -> Data:
     if answer is None or not own or largest is None:
         return {"low": field["low"], "high": field["high"], "note": "every tool fits" if own else ""}
     most = floor(largest / float(answer.unit.in_mm) * 1e4) / 1e4
-    told = {"note": f"R ≤ {most:g}", "ends": [["", "the tool does not fit"]], "stops": [[0.0, most]], "snaps": []}
+    told = {"note": f"R ≤ {most:.10g}", "ends": [["", "the tool does not fit"]], "stops": [[0.0, most]], "snaps": []}
     return {"intervals": [[0.0, most]], "low": 0.0, "high": field["high"], "whole": "", "reason": "", **told}
 
 
@@ -501,11 +504,11 @@ def _stop(end: End, field: Mapping[str, Any], unit: str, way: int) -> float:
     return float(value)
 
 
-def _end_text(end: End, unit: str) -> str:
+def _end_text(end: End, unit: str, way: int) -> str:
     """The reason why a word cannot go on; empty if only the search ended."""
     if end.way is Way.RANGE:
         return ""
-    return end.reason.text if end.reason is not None else written(end.value, unit)
+    return end.reason.text if end.reason is not None else written(end.value, unit, way, is_included=end.is_included)
 
 
 def _reasons(found: Feasible) -> list[str]:

@@ -167,7 +167,7 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
             label,
             where,
             selects,
-            str(each.certificate),
+            str(printed_certificate(each.certificate)),
         )
         rows.append((each, row))
     return rows

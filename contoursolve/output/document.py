@@ -4,12 +4,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from tempfile import SpooledTemporaryFile
 from typing import TYPE_CHECKING, Any
 
-from contoursolve.diagnosis import DECIMALS, Answer, AskedValue, decimals_of, list_solutions, printed_certificate, rank
+from contoursolve.diagnosis import Answer, AskedValue, decimals_of, list_solutions, printed_certificate, rank
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Fix, Span, json_text, members, plain
 from contoursolve.output.listing import Collected, Totals, findings_of
 from contoursolve.output.premises import premise_data
 from contoursolve.program import Result, Run
-from contoursolve.solving import ArcSegment, Certificate, Contour, Point, Proof, Segment
+from contoursolve.solving import DECIMALS, ArcSegment, Certificate, Contour, Point, Proof, Segment
 
 if TYPE_CHECKING:
     from contoursolve.tool_radius import ToolReport

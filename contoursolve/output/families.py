@@ -40,6 +40,7 @@ def range_lines(found: Feasible) -> Iterator[str]:
 def range_notes(found: Feasible) -> Iterator[str]:
     """Notes of a search for ranges: doubts, the refusal of the block as it stands, and the premises."""
     yield from (f"not proven: {each}" for each in found.doubts)
+    yield from (f"warning: {each}" for each in found.warnings)
     if found.refusal:
         yield f"as it stands, the block has none: {found.refusal}"
     yield from rest_lines(found)
@@ -80,16 +81,16 @@ def _end_cells(end: End, unit: str, way: int) -> tuple[str, str]:
     if end.reason is None:
         return written(end.value, unit, way), "end of the range searched"
     text = end.reason.text if end.is_verified else f"{end.reason.text} (not confirmed on both sides)"
-    return written(
-        end.value, unit, way
-    ), text if end.is_included else f"{text}; at this value itself there is no contour"
+    # A limit is shown so that the contour exists there; a value alone, or what is too narrow, as it is.
+    text += "; at this value itself there is no contour" * (not way and not end.is_included)
+    return written(end.value, unit, way, is_included=end.is_included), text
 
 
 def range_data(found: Feasible) -> dict[str, Any]:
     """The ranges of a word as plain data: schema contoursolve/range/1. Values are as the word is written."""
     return {
         "schema": "contoursolve/range/1",
-        **members(found, "word unit stated within complete=is_complete doubts"),
+        **members(found, "word unit stated within complete=is_complete doubts warnings"),
         **({"stated": None} if found.is_open else {}),
         "refusal": found.refusal or None,
         **premise_data(found.premises),
@@ -111,11 +112,21 @@ def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[
     least, rows = least_of(found), []
     whole = f"all {len(found)} contours" if len(found) > 1 else "the contour"
     largest = f"largest tool for {whole}: {written(least.largest, least.unit, 1)}"
-    yield largest if least.intervals else f"no tool of the range searched cuts {whole}"
+    yield largest if least.largest else f"no tool of the range searched cuts {whole}"
     for place, (lines, each) in enumerate(found.items(), 1):
-        end = _end_cells(each.intervals[0].high, each.unit, 1) if each.intervals else ("none", each.refusal)
-        rows.append((f"{place}.", f"lines {lines[0]} to {lines[-1]}" if len(lines) > 1 else f"line {lines[0]}", *end))
+        where = f"lines {lines[0]} to {lines[-1]}" if len(lines) > 1 else f"line {lines[0]}"
+        rows += [(f"{place}.", where, "none", each.refusal)] * (not each.intervals)
+        for number, part in enumerate(each.intervals):
+            ends = [(_end_cells(part.high, each.unit, 1))]
+            if part.low.reason is not None:
+                ends = [
+                    (f"{word} {value}", text)
+                    for word, (value, text) in (("from", _end_cells(part.low, each.unit, -1)), ("to", *ends))
+                ]
+            rows += [(*(("", "") if number or row else (f"{place}.", where)), *end) for row, end in enumerate(ends)]
     yield from columns(rows, left=(0, 1, 3))
+    warnings = dict.fromkeys(text for each in found.values() for text in each.warnings)
+    yield from (f"  warning: {each}" for each in warnings)
     for reason in dict.fromkeys(each.reason for each in unfollowed):
         places = ", ".join(str(each.line) for each in unfollowed if each.reason == reason)
         yield f"  not looked at: program line {places} ({reason})"

@@ -7,7 +7,7 @@ from math import dist
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, length_limit
 from contoursolve.geometry import Turn
 from contoursolve.pictures import (
     Closeup,
@@ -23,7 +23,7 @@ from contoursolve.pictures import (
     number,
     remarks_of,
 )
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, along, direction, middle, on_arc
+from contoursolve.solving import LEAST, ArcSegment, LineSegment, Point, Segment, along, direction, middle, on_arc
 from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius import (
     NOTICED,
@@ -86,7 +86,9 @@ def tool_text(report: ToolReport, line: int) -> str:
         return ""
     kind, fits = "nose" if each.run.is_lathe else "cutter", "fits" if each.path is not None else "does not fit"
     most = each.largest_radius
-    told = f"every {kind} does" if most is None else f"a {kind} up to R{number(most, each.run.unit)} cuts all of it"
+    shown = "" if most is None else f"{length_limit(most, each.run.unit).normalize():f}"
+    told = f"a {kind} up to R{shown} cuts all of it" if most is not None else f"every {kind} does"
+    told = told if most is None or most >= LEAST else f"no {kind} does"
     return f"{each.title}: it {fits}; {told}"
 
 

@@ -202,9 +202,10 @@ def _remarks(found: Feasible) -> Iterator[tuple[str, Role]]:
     """The value that the block has, and what fails beyond each end."""
     yield f"the block has {written(found.stated, found.unit)}", Role.GIVEN
     ends = list(_ends(found))
-    for end, way in ends[:_MOST]:
+    for end, word in ends[:_MOST]:
+        shown = written(end.value, found.unit, -1 if word == "from" else 1, is_included=end.is_included)
         reason = f": {visible(end.reason.text)}" if end.reason is not None else ""
-        yield f"{way} {written(end.value, found.unit)}{reason}", Role.INK
+        yield f"{word} {shown}{reason}", Role.INK
     if len(ends) > _MOST:
         yield f"and {len(ends) - _MOST} more ends", Role.MUTED
     if not found.intervals:

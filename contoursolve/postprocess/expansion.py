@@ -46,7 +46,8 @@ def expand_lines(
     machine = None
     if is_run:
         whole = tuple(each_block([*blocks], 0))
-        blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, asked.around)
+        program = Program("", "", whole, dialect.modes.syntax)
+        blocks, machine = whole, machine_for(program, dialect, asked.around, asked.unit)
 
     def leave(event: ProgramEvent) -> None:
         is_end = event.kind is EventKind.UNDECIDED

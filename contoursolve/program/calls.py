@@ -2,17 +2,20 @@
 
 import re
 from collections.abc import Iterable, Iterator, Sequence, Set
+from decimal import Decimal
 from itertools import pairwise
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report, status_text
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
-from contoursolve.execution import ARGUMENT, MACHINES, Limit, Machine, Surroundings, machine_of
-from contoursolve.gcode import Block, Caller, Program, Substitution, typed_span
+from contoursolve.execution import ARGUMENT, MACHINES, Call, Limit, Machine, Surroundings, counts_in
+from contoursolve.gcode import Block, Caller, Program, Substitution, spell, typed_span
+from contoursolve.geometry import Length
 from contoursolve.program.cycle_profiles import CycleProfile, profiles_of, turns_back
+from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import Dialect, ReadIssue, Rule, State
+from contoursolve.reading import Dialect, ReadIssue, Rule, State, machine_in
 from contoursolve.solving import ArcSegment
 
 MOST_TOLD = 10
@@ -22,10 +25,35 @@ _ALIKE = 6
 """Decimals of mm to which two paths are compared."""
 
 
-def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Machine | None:
-    """The machine that runs a program; None for one that neither calls, jumps nor computes."""
+def machine_for(program: Program, dialect: Dialect, around: Surroundings, unit: Length) -> Machine | None:
+    """The machine that runs a program, which begins in a unit; None for one that neither calls, jumps nor computes."""
     limit = Limit(dialect.modes.most_blocks, f"{dialect.name}.{Limit().setting}")
-    return machine_of(program, dialect.modes.language, dialect.modes.syntax, around, limit)
+    return machine_in(program, dialect.modes, around, unit, limit)
+
+
+def arguments_without_point(machine: Machine, asked: Request) -> Iterator[Diagnostic]:
+    """The arguments of calls in a program that have no decimal point, with what the called program gets."""
+    context, given = Context(asked.rules, asked.unit), machine.variables.given
+    for index, block in enumerate(machine.main.blocks):
+        said = [each for each in machine.main.code(index).statements if isinstance(each, Call)]
+        letters = "".join(each.counted for each in said)
+        words = [each for each in block.words if each.address in letters and each.number and not each.has_point]
+        if not words:
+            continue
+        numbers = [each.number or Decimal(0) for each in words]
+        scales = [given.get(counts_in(each.address)) for each in words]
+        read = [number * Decimal(repr(scale or 0.0)) for number, scale in zip(numbers, scales, strict=True)]
+        texts = [f"{each.normalize():f}" for each in read]
+        yield report(
+            replace(context, place=block.span),
+            ReadIssue.ARGUMENT_IN_INCREMENTS,
+            Basis.RULE,
+            words,
+            actual=join(texts) if None not in scales else "least increments",
+            expected=join([f"{each:f}" for each in numbers]),
+            meant=join([f"{each.text.strip()}." for each in words]),
+            same=join([spell(each.address, text) for each, text in zip(words, texts, strict=True)]),
+        )
 
 
 def in_text_order(

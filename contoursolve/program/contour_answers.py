@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Depth, examine, may_be_suspected, may_have_odd_points
-from contoursolve.diagnostics import Diagnostic, Severity
+from contoursolve.diagnosis import Answer, Depth, context_of, examine, may_be_suspected, may_have_odd_points, report
+from contoursolve.diagnostics import Basis, Diagnostic, Severity
 from contoursolve.gcode import Block
 from contoursolve.program.named_words import mark_trusted, with_named_words
 from contoursolve.program.outside_contours import NEAR
@@ -35,11 +35,46 @@ def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: P
     """The answer to a contour, with the values that it asks for filled in; its findings are not explained yet."""
     behind = islice(pending.view, pending.after, None)
     answer = examine(found, asked.rules, asked.policy, lambda: next_place(behind, found, dialect.modes), asked.depth)
+    if pending.view.end_at_call and answer.contour is None:
+        answer = replace(answer, diagnostics=tuple(_at_call(each, answer, dialect) for each in answer.diagnostics))
+    elif answer.contour is None and (moving := _moving(pending, dialect)) is not None:
+        answer = replace(answer, diagnostics=tuple(_at_moved_zero(each, moving) for each in answer.diagnostics))
     if answer.contour is not None and any(value.value is not None for value in answer.answers):
         from contoursolve.diagnosis import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
         return replace(answer, filled=fill_in(answer, pending.step.before, dialect))
     return answer
+
+
+_CUT_OFF = {"corner-without-next": "a corner", "end-missing": "a line by its angle alone"}
+"""What needs the next element, by the ends of the codes of what is said where none follows."""
+
+
+def _at_call(finding: Diagnostic, answer: Answer, dialect: Dialect) -> Diagnostic:
+    """What is said of a contour right before a call or a return, behind which nobody looks for its next element."""
+    what = next((each for code, each in _CUT_OFF.items() if finding.code.endswith(f"-{code}")), None)
+    if what is None:
+        return finding
+    words = [word for word in answer.claim.words.values() if word.span == finding.span]
+    name = f"{what} right before a call or a return"
+    told = report(context_of(answer.claim, dialect.rules), ReadIssue.NOT_READ, Basis.RULE, words, name=name)
+    help_ = "write the next cutting move right after it, in the same program"
+    return replace(told, severity=finding.severity, help=help_)
+
+
+def _moving(pending: Pending, dialect: Dialect) -> Block | None:
+    """The next block, if it moves the coordinate system."""
+    block = next((each for each in pending.view[pending.after : pending.after + BEHIND] if each.says_something), None)
+    return block if block is not None and dialect.modes.zero.rows_in(block) else None
+
+
+def _at_moved_zero(finding: Diagnostic, moving: Block) -> Diagnostic:
+    """What is said of a contour right before such a block."""
+    if not any(finding.code.endswith(f"-{code}") for code in _CUT_OFF):
+        return finding
+    text = " ".join(word.text.strip() for word in moving.words)
+    told = f"{text} in program line {moving.line} moves the coordinate system first; move it before the contour"
+    return replace(finding, message=f"{finding.message}: {told}")
 
 
 def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts) -> Answer:

@@ -35,7 +35,6 @@ from contoursolve.reading import (
     PlainLines,
     ReadIssue,
     State,
-    Ways,
     WithoutPoint,
     advance,
     advance_plainly,
@@ -234,18 +233,7 @@ class Examination:
         """Every block and every contour from a cursor, or from the beginning, in order, contours as they are found; and
         the cursor before each."""
         cursor, ahead = cursor or self.begin, Lookahead(lines)
-        ways = Ways(lambda: self.begin.state, self.dialect.modes)
-        while (line := ahead.line) is not None:
-            if isinstance(line, ProgramEvent):
-                if line.kind is EventKind.LEAVE:
-                    # Where the profile of a cycle ended.
-                    yield Step((), cursor.state, findings=cursor.findings), cursor
-                    cursor = replace(cursor, findings=())
-                cursor = replace(self.happen(line, cursor), state=ways.state_behind(line, cursor.state))
-                ahead.go_on(1)
-                continue
-            if isinstance(line, Block) and line.mark:
-                ways.marked[line.mark] = cursor.state
+        while ahead.line is not None:
             taken = self._next(ahead, cursor)
             if taken is None:
                 ahead.read_on()
@@ -284,13 +272,17 @@ class Examination:
     def steps(self, lines: Iterable[Line]) -> Iterator[Step]:
         """The same with all contours solved, and with those findings outside contours that are told. Plain lines of
         blocks that are not kept are not read."""
-        outside = Outside(self.dialect, is_strict=self.asked.is_strict)
         is_whole = isinstance(lines, Sequence) and not isinstance(lines, Blocks)
+        walk = self.walk(self._passages(lines) if isinstance(lines, Blocks) else lines)
+        return self.told((step for step, _ in walk), is_whole=is_whole)
+
+    def told(self, steps: Iterator[Step | Pending], *, is_whole: bool = False) -> Iterator[Step]:
+        """Steps with all contours solved, and with those findings outside contours that are told."""
+        outside = Outside(self.dialect, is_strict=self.asked.is_strict)
         size, most = (_WHOLE, _WHOLE) if is_whole else (_FIRST, _WINDOW)
         if self.queue.together is None:
             size, most = 1, 1
-        walk = self.walk(self._passages(lines) if isinstance(lines, Blocks) else lines)
-        while window := [step for step, _ in islice(walk, size)]:
+        while window := [*islice(steps, size)]:
             self.queue.settle()
             yield from tell(window, outside)
             size = min(2 * size, most)
@@ -324,6 +316,10 @@ def _findings_of_event(event: ProgramEvent, context: Context, dialect: Dialect) 
         stopped = report(context, context.row(ReadIssue.NOT_FOLLOWED), Basis.RULE, [], reason=event.reason)
         help_ = "write the block or the label; where it jumps, the control stops"
         yield replace(stopped, help=help_) if event.kind is EventKind.MAY_STOP else stopped
+    if event.kind is EventKind.REFUSED:
+        yield report(context, context.row(ReadIssue.VARIABLE_REFUSED), Basis.RULE, [], reason=event.reason)
+    if event.kind is EventKind.READ_AS:
+        yield report(context, context.row(ReadIssue.COMPARISON_LAST), Basis.RULE, [], meant=event.reason)
     if event.unread:
         yield report(context, context.row(ReadIssue.NOT_READ), Basis.RULE, [], name=event.unread)
     if event.called:

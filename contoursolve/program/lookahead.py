@@ -4,11 +4,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice, takewhile
 from typing import overload
 
-from contoursolve.execution import ProgramEvent
 from contoursolve.gcode import ISO, Block, Passage, blocks_in, words_of
 
-Line = Block | Passage | ProgramEvent
-"""A line of a program, or several, read as far as it was needed; or what happens between two lines."""
+Line = Block | Passage
+"""A line of a program, or several, read as far as it was needed."""
 
 
 _FIRST, _BATCH = 16, 1_000
@@ -72,16 +71,17 @@ class Lookahead:
 
 
 class View(Sequence[Block]):
-    """The blocks from a place up to an event of the program; plain lines are read into words when somebody looks at
-    them. `reach` is how many were looked at; one that is not there counts, too."""
+    """The blocks from a place on; plain lines are read into words when somebody looks at them. `reach` is how many were
+    looked at; one that is not there counts, too. If they `end_at_call`, others run behind the last one, at which
+    nobody looks."""
 
-    def __init__(self, held: Sequence[Line], index: int) -> None:
-        self.held, self.first, self.reach = held, index, 0
+    def __init__(self, held: Sequence[Line], index: int, *, end_at_call: bool = False) -> None:
+        self.held, self.first, self.reach, self.end_at_call = held, index, 0, end_at_call
         self.blocks: list[Block] = []
         self.rest = each_block(held, index)
 
     def __len__(self) -> int:
-        return sum(_count(each) for each in _up_to_event(self.held, self.first))
+        return sum(map(_count, _from(self.held, self.first)))
 
     @overload
     def __getitem__(self, index: int) -> Block: ...
@@ -97,21 +97,14 @@ class View(Sequence[Block]):
         return self.blocks[index]
 
     def holds(self, count: int) -> bool:
-        """Whether there are at least so many lines, or all that there are up to an event."""
-        if len(self.held) - self.first >= count:
-            # Each is a line or more, or an event.
-            return True
-        for place in range(self.first, len(self.held)):
-            each = self.held[place]
-            count -= _count(each)
-            if count <= 0 or isinstance(each, ProgramEvent):
-                return True
-        return False
+        """Whether there are at least so many lines."""
+        # Each is a line or more.
+        return len(self.held) - self.first >= count or len(self) >= count
 
     def telling(self, first: int, count: int) -> Iterator[Block]:
         """Of so many lines from an index on the blocks, without plain lines that nobody has read into words."""
         self.reach, number = max(self.reach, first + count), 0
-        for each in _up_to_event(self.held, self.first):
+        for each in _from(self.held, self.first):
             if number >= first + count:
                 return
             if number >= first and not isinstance(each, Passage):
@@ -119,12 +112,10 @@ class View(Sequence[Block]):
             number += _count(each)
 
     def says_something(self, first: int) -> bool:
-        """Whether any block from an index on has more than its number, or an event of the program comes."""
+        """Whether any block from an index on has more than its number."""
         place, number = self.first, 0
         while place < len(self.held):
             each = self.held[place]
-            if isinstance(each, ProgramEvent):
-                return True
             lines, at = each.lines if isinstance(each, Passage) else (each,), max(0, first - number)
             if any(words_of(one, each.syntax) if isinstance(one, str) else one.says_something for one in lines[at:]):
                 return True
@@ -133,24 +124,20 @@ class View(Sequence[Block]):
 
 
 def each_block(held: Sequence[Line], index: int) -> Iterator[Block]:
-    """The blocks from an index up to an event of the program."""
-    for each in _up_to_event(held, index):
+    """The blocks from an index on."""
+    for each in _from(held, index):
         if isinstance(each, Passage):
             yield from blocks_in(each)
         else:
             yield each
 
 
-def _up_to_event(held: Sequence[Line], index: int) -> Iterator[Block | Passage]:
-    for place in range(index, len(held)):
-        each = held[place]
-        if isinstance(each, ProgramEvent):
-            return
-        yield each
+def _from(held: Sequence[Line], index: int) -> Iterator[Line]:
+    return (held[at] for at in range(index, len(held)))
 
 
 def _count(each: Line) -> int:
-    """The number of lines; an event counts as one."""
+    """The number of lines."""
     return each.count if isinstance(each, Passage) else 1
 
 

@@ -1,12 +1,13 @@
 """For which values of a variable that is not known a contour exists."""
 
 from collections.abc import Iterator
+from decimal import Decimal
 from itertools import groupby
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Depth, Policy, examine, join
+from contoursolve.diagnosis import Answer, Depth, Policy, examine, inward, join
 from contoursolve.execution import MacroLanguage, Unknown, evaluate, variables_of, written
 from contoursolve.gcode import Block, parse_block
 from contoursolve.numeric import Variable
@@ -57,12 +58,6 @@ def _names(language: MacroLanguage, text: str) -> Iterator[str]:
             yield variable.name if isinstance(variable, Variable) else ""
 
 
-def _rounded(value: float) -> str:
-    """A value with three decimals; what is almost 0 has no sign."""
-    text = f"{value:.3f}"
-    return text.lstrip("-") if float(text) == 0 else text
-
-
 class _Search:
     """Values of one variable of a contour."""
 
@@ -82,7 +77,7 @@ class _Search:
                 runs[at][end] if 0 <= at < len(runs) else None for at, end in ((number - 1, -1), (number + 1, 0))
             )
             low, high = self._end(run[0], before), self._end(run[-1], after)
-            begin, end = _rounded(low[0]), _rounded(high[0])
+            begin, end = self._inward(low[0], run[0], -1), self._inward(high[0], run[-1], 1)
             if before:
                 ranges.append(f"from {begin} to {end}" if after else f"from {begin} on")
             else:
@@ -95,6 +90,16 @@ class _Search:
         more = f"; and {len(ranges) - _MOST} more ranges" if len(ranges) > _MOST else ""
         found = f"{self.name} makes a contour {join(ranges[:_MOST])}{more}"
         return [found, *(f"{self.name} {each}" for each in reasons[: 2 * _MOST])]
+
+    def _inward(self, limit: float, tried: _Trial, way: int) -> str:
+        """An upper (`way` 1) or a lower limit as it is told, rounded towards a value that was tried: typed in like
+        that, it has the contour. With all decimals where rounding leaves nothing of the range."""
+        exact = Decimal(repr(limit))
+        shown = inward(exact, self.answer.unit.value, way) + 0
+        goes_beyond = way * (shown - Decimal(repr(tried.value))) < 0
+        if goes_beyond and not self._try(float(shown), Depth.TRIAL).is_solved:
+            return f"{exact.normalize():f}"
+        return f"{abs(shown) if shown == 0 else shown:f}"
 
     def _values(self) -> list[float]:
         """The values that are tried."""

@@ -20,7 +20,7 @@ from contoursolve.program.named_words import has_named, with_named
 from contoursolve.program.no_contour import conclusions, look_without_control, nothing_to_solve
 from contoursolve.program.recognise import begins_for_another
 from contoursolve.program.request import Request
-from contoursolve.program.running import KeptSteps, Running, lines_alone, steps_as_run
+from contoursolve.program.running import KeptSteps, Running, lines_alone, steps_as_run, steps_written_out
 from contoursolve.program.solve_queue import Step, Together
 from contoursolve.program.told_outside import Outside
 from contoursolve.reading import Dialect, ReadIssue, contours_of, state_facts
@@ -168,7 +168,7 @@ class Run:
         self.profiles: list[CycleProfile] = []
         """The profiles of cycles that ran, when all is examined."""
         self.asked, self._together, self._kept = asked, together, kept
-        self._machine = machine_for(program, dialect, asked.around) if dialect is not None else None
+        self._machine = machine_for(program, dialect, asked.around, asked.unit) if dialect else None
 
     @cached_property
     def _running(self) -> Running | None:
@@ -234,14 +234,20 @@ def walk(
     together: Together | None = None,
     machine: Machine | None = None,
     told: Callable[[ProgramEvent], None] | None = None,
+    *,
+    is_whole: bool = False,
 ) -> Iterator[Step]:
     """Every block and every contour of a program in order; lines that are not a sequence are read as they are needed,
     so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
     are read into words only where that matters. Contours are solved one by one, or `together`. Where a machine runs the
-    program, it has its lines; with `told`, its calls are written out."""
-    examination = Examination(asked, cast("Dialect", asked.dialect), together, is_run=machine is not None)
+    program, it has its lines; with `told`, its calls are written out, and with `is_whole`, what nothing calls as
+    well."""
+    is_run = machine is not None and not is_whole
+    examination = Examination(asked, cast("Dialect", asked.dialect), together, is_run=is_run)
     if machine is None:
         return examination.steps(lines)
-    return (
-        steps_as_run(Running(examination, machine)) if told is None else examination.steps(lines_alone(machine, told))
-    )
+    if is_whole:
+        return steps_written_out(examination, machine, machine.run_all_alone())
+    if told is not None:
+        return steps_written_out(examination, machine, lines_alone(machine, told))
+    return steps_as_run(Running(examination, machine))

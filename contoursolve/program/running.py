@@ -1,10 +1,10 @@
 """The walk over a program that calls or computes: as it runs, on each of its ways."""
 
 from collections import Counter, deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import chain
-from typing import cast
+from typing import Any, cast
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -13,17 +13,17 @@ from contoursolve.diagnosis import Answer, Context
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.execution import EventKind, Machine, ProgramEvent
 from contoursolve.gcode import Block
-from contoursolve.program.calls import in_text_order
+from contoursolve.program.calls import arguments_without_point, in_text_order
 from contoursolve.program.contour_answers import AnswersInPasses, Learned
 from contoursolve.program.cycle_profiles import CycleProfile
 from contoursolve.program.examination import Cursor, Examination, tell, tell_rest
-from contoursolve.program.lookahead import Line, View
+from contoursolve.program.lookahead import View
 from contoursolve.program.outside_contours import NEAR
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Pending, Step
 from contoursolve.program.tape_markers import Marks
 from contoursolve.program.told_outside import Outside
-from contoursolve.reading import State, Ways
+from contoursolve.reading import Paths, State, TakenBlocks, Ways
 
 _OPENING = (EventKind.LOST, EventKind.STOPPED, EventKind.UNDECIDED)
 """Events behind which it is not known what runs, or where the tool is."""
@@ -42,11 +42,12 @@ def steps_as_run(
         context = Context(asked.rules, asked.unit)
         marks, found = Marks().look(blocks, context)
         told = [*found, *marks.finish(context)]
+    told += arguments_without_point(machine, asked)
     deque(running.walk, 0)
     examination.queue.settle()
     yield from in_text_order(
         blocks,
-        chain(tell(running.found, outside), tell_rest(outside)),
+        chain(tell(machine.found, outside), tell_rest(outside)),
         machine.passed_over,
         asked.rules,
         told,
@@ -65,6 +66,7 @@ class _KeptStep(Struct, frozen=True):
     behind: Cursor
     reach: int
     blocks: Sequence[Block] = ()
+    ends_at_call: bool = False
     here: Cursor | None = None
     learned: Learned = Learned((), ())
 
@@ -92,6 +94,8 @@ class KeptSteps:
         here: Cursor,
         answers: AnswersInPasses,
         make: Callable[[], _KeptStep | None],
+        *,
+        ends_at_call: bool,
     ) -> _KeptStep | None:
         """The step at a block: that of the last run where it holds, else the one that is made."""
         block = held[index]
@@ -103,6 +107,7 @@ class KeptSteps:
             found is None
             or found.here != here
             or found.blocks != held[index : index + found.reach]
+            or (found.reach > len(held) - index and found.ends_at_call is not ends_at_call)
             or not answers.recall(found.learned)
         ):
             answers.begin()
@@ -116,76 +121,96 @@ class KeptSteps:
         return found
 
 
-class Running:
-    """One run of a program, made by whoever goes on with its `walk`; what is `found` is complete at its end. Ways are
-    followed in turn: the cursor goes from one to the other. Steps that are `kept` of an earlier run are not taken
-    again."""
+class Running(Ways):
+    """One run of a program, made by whoever goes on with its `walk`; what the machine has `found` is complete at its
+    end. Ways are followed in turn: the cursor goes from one to the other. Steps that are `kept` of an earlier run are
+    not taken again."""
 
-    def __init__(self, examination: Examination, machine: Machine, kept: KeptSteps | None = None) -> None:
-        self.examination, self.machine, self.cursor = examination, machine, examination.begin
+    def __init__(
+        self,
+        examination: Examination,
+        machine: Machine,
+        kept: KeptSteps | None = None,
+        lines: Iterable[Block | ProgramEvent] | None = None,
+    ) -> None:
+        begin = examination.begin
+        if machine.is_for_calls:
+            # Which shifts are in force there, the caller says.
+            begin = replace(begin, state=replace(begin.state, zero={}))
+        super().__init__(lambda: begin.state, examination.dialect.modes, self._read)
+        self.examination, self.machine, self.cursor = examination, machine, begin
         self.kept = kept
         if kept is not None:
             kept.begin(examination.asked)
-        self.ways = Ways(lambda: examination.begin.state, examination.dialect.modes)
-        self.found: list[Step | Pending] = []
         self._last: tuple[Sequence[Block], int] | None = None
         """The blocks that were read last, and the index behind what was taken of them."""
+        self._is_at_call = False
+        """Whether a call or a return comes behind the blocks that are read."""
+        self._lines, self.goes_beyond = lines, lines is None
         self.walk = self._go()
 
-    def _go(self) -> Iterator[None]:
-        yield from self.ways.follow(self.machine.run(), self._read, self.found, self._happen)
+    def _go(self) -> Iterator[Any]:
+        yield from self.machine.follow(self.machine.run() if self._lines is None else self._lines, self)
         first = self.examination.dialect.initial_state(self.examination.asked.unit)
-        self.found += self.examination.end(replace(self.cursor, state=first))
+        rest = [*self.examination.end(replace(self.cursor, state=first))]
+        self.machine.found += rest
+        yield from rest
 
-    def _read(self, held: Sequence[Block], index: int, state: State, is_open: bool) -> tuple[int, State] | None:
-        """Take what begins at a block, on the way that has come to it; see `Ways.follow`."""
-        if held[index].mark:
-            self.ways.marked[held[index].mark] = state
-        goes_on = self._last is not None and self._last[0] is held and self._last[1] == index
+    def steps(self) -> Iterator[Step | Pending]:
+        """The steps, as they are found."""
+        return (each for each in self.walk if each is not None)
+
+    def read(self, known: Paths, blocks: Sequence[Block], event: ProgramEvent | None) -> Generator[Any, None, Paths]:
+        self._is_at_call = event is not None and event.kind is EventKind.BARRIER
+        known = yield from super().read(known, blocks, event)
+        if event is not None and event.kind is EventKind.LEAVE:
+            # Where the profile of a cycle ended.
+            for way in known.ways:
+                yield Step((), way.state, findings=self.cursor.findings)
+                self.cursor = replace(self.cursor, findings=())
+        if event is not None:
+            self.cursor = self.examination.happen(event, self.cursor)
+        return known
+
+    def _read(self, blocks: Sequence[Block], index: int, state: State, is_open: bool) -> TakenBlocks | None:
+        """Take what begins at a block, on the way that has come to it."""
+        goes_on = self._last is not None and self._last[0] is blocks and self._last[1] == index
         here = replace(self.cursor, state=state, ahead=self.cursor.ahead if goes_on else ())
-        make = partial(self._take, held, index, here, is_open=is_open)
+        make = partial(self._step, blocks, index, here, is_open=is_open)
         answers = cast("AnswersInPasses", self.examination.answers)
-        taken = make() if self.kept is None else self.kept.take(held, index, here, answers, make)
+        kept, is_at_call = self.kept, self._is_at_call
+        taken = make() if kept is None else kept.take(blocks, index, here, answers, make, ends_at_call=is_at_call)
         if taken is None:
             return None
-        self._last, self.cursor = (held, index + taken.lines), taken.behind
-        self.found.append(taken.step)
-        return taken.lines, self.cursor.state
+        self._last, self.cursor = (blocks, index + taken.lines), taken.behind
+        return TakenBlocks(taken.lines, self.cursor.state, taken.step)
 
-    def _take(self, held: Sequence[Block], index: int, here: Cursor, *, is_open: bool) -> _KeptStep | None:
+    def _step(self, held: Sequence[Block], index: int, here: Cursor, *, is_open: bool) -> _KeptStep | None:
         """The step at a block; None where it depends on what comes behind the last one."""
         taken = self.examination.pass_block(held, index, here)
         if taken is not None:
             return _KeptStep(taken.step, taken.lines, taken.behind(), 1 + NEAR)
-        view = View(held, index)
+        view = View(held, index, end_at_call=self._is_at_call)
         found = self.examination.find(view, here.state)
         if is_open and view.reach > len(held) - index:
             return None
         taken = self.examination.take(view, found, here)
         behind = taken.behind()
-        return _KeptStep(taken.step, taken.lines, behind, view.reach)
-
-    def _happen(self, event: ProgramEvent) -> bool:
-        """Take in an event of the program; whether all that was found since a head is found anew."""
-        if event.kind is EventKind.LEAVE:
-            # Where the profile of a cycle ended.
-            for way in self.ways.now:
-                self.found.append(Step((), way.state, findings=self.cursor.findings))
-                self.cursor = replace(self.cursor, findings=())
-        self.cursor = self.examination.happen(event, self.cursor)
-        is_anew = self.ways.happen(event)
-        self.machine.settled = self.ways.settled
-        return is_anew
+        return _KeptStep(taken.step, taken.lines, behind, view.reach, ends_at_call=self._is_at_call)
 
 
-def lines_alone(machine: Machine, told: Callable[[ProgramEvent], None]) -> Iterator[Line]:
+def steps_written_out(
+    examination: Examination, machine: Machine, lines: Iterable[Block | ProgramEvent]
+) -> Iterator[Step]:
+    """The steps of a program as one without calls, in the order of its lines."""
+    return examination.told(Running(examination, machine, lines=lines).steps())
+
+
+def lines_alone(machine: Machine, told: Callable[[ProgramEvent], None]) -> Iterator[Block | ProgramEvent]:
     """The lines of a program as one without calls and jumps; `told` is called where it is not known what runs."""
     for each in machine.run_alone():
         if isinstance(each, ProgramEvent):
             is_unknown = each.kind in _OPENING and not each.is_told
             if is_unknown or (each.kind is EventKind.BARRIER and each.reason):
                 told(each)
-            if each.kind is EventKind.HEAD:
-                # What is written out runs once.
-                continue
         yield each

@@ -1,3 +1,8 @@
+from .call_arguments import (
+    ARGUMENTS as ARGUMENTS,
+    machine_in as machine_in,
+    unit_of_calls as unit_of_calls,
+)
 from .contour_builder import (
     ContourBuilder as ContourBuilder,
 )
@@ -19,6 +24,8 @@ from .contour_form import (
     stated_sets as stated_sets,
 )
 from .control_flow import (
+    Paths as Paths,
+    TakenBlocks as TakenBlocks,
     Ways as Ways,
 )
 from .dialect import (
@@ -77,7 +84,20 @@ from .modal_state import (
     not_read as not_read,
     positions as positions,
     rows_of as rows_of,
+    state_moved as state_moved,
     unread_state as unread_state,
+)
+from .moved_zero import (
+    LENGTH as LENGTH,
+    TOOL as TOOL,
+    WORK as WORK,
+    Entry as Entry,
+    Offset as Offset,
+    ZeroMove as ZeroMove,
+    ZeroRow as ZeroRow,
+    ZeroTable as ZeroTable,
+    shift_zero as shift_zero,
+    table_of as table_of,
 )
 from .parsed_contour import (
     ParsedContour as ParsedContour,

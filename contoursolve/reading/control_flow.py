@@ -1,18 +1,18 @@
 """The ways through a program that runs: nobody knows which of them it takes, and where they meet only what all of them
 agree on is known."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from decimal import Decimal
 from functools import partial, reduce
-from itertools import chain
 from typing import Any, overload
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics import Span
-from contoursolve.execution import EventKind, ProgramEvent
+from contoursolve.execution import EventKind, Follower, ProgramEvent, WrittenBack
 from contoursolve.gcode import Block
+from contoursolve.reading.brought_back import bring_back, write_back
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Mode, Modes, Position, State, with_diameters
 
@@ -24,19 +24,20 @@ Lines = Mapping[Mode, int]
 
 
 class ControlFlowPath(Struct, frozen=True):
-    """One way, in a state. `unread` are its last blocks: what they are depends on what comes behind them. `entered` are
-    the states to which it comes back, `lines` where modes were set."""
+    """One way, in a state. `unread` are its last blocks: what they are depends on what comes behind them. `lines` tells
+    where modes were set."""
 
     state: State
     unread: tuple[Block, ...] = ()
-    entered: tuple[State, ...] = ()
     lines: Lines = {}
 
 
-Read = Callable[[Sequence[Block], int, State, bool], tuple[int, State] | None]
-"""(blocks, the index of one of them, the state before it, whether a contour may go on behind the last one) to how many
-blocks belong to what begins there, and the state behind it; None where that depends on what comes behind the
-last one."""
+class Paths(Struct, frozen=True):
+    """The ways on which a program has come to a place, and what decides between them; none where all that follows from
+    them has been read."""
+
+    ways: Sequence[ControlFlowPath]
+    reason: str = ""
 
 
 class Ahead(Sequence[Block]):
@@ -60,137 +61,101 @@ class Ahead(Sequence[Block]):
         return self.blocks[index]
 
 
-class Ways:
-    """The ways on which a program has come to a place; none where all that follows from them has been looked at.
+class Ways(Follower):
+    """Follows a program on each of its ways. `first` gives the state in which nothing has run, and `take` finds what
+    begins at a block."""
 
-    `first` gives the state in which nothing has run.
-    """
+    goes_beyond = True
+    """Whether a contour may go on beyond an event."""
 
-    def __init__(self, first: Callable[[], State], modes: Modes) -> None:
-        self.modes, self._first = modes, first
-        self.now: list[ControlFlowPath] = [ControlFlowPath(first())]
+    def __init__(self, first: Callable[[], State], modes: Modes, take: "Take") -> None:
+        self.modes, self._first, self._take = modes, first, take
         self.marked: dict[int, State] = {}
         """The states before blocks, by their marks."""
-        self._kept: dict[int, list[ControlFlowPath]] = {}
-        self._reason, self._is_beyond = "", False
-        """What decides between those that met last, and whether what follows has been read."""
-        self._heads: dict[int, tuple[list[ControlFlowPath], bool]] = {}
-        """Where something may run again: on which ways that was reached, and whether others have come into it."""
-        self.settled: int | None = None
-        """The mark of the last of these of which nothing new followed."""
+        self._is_beyond = False
+        """Whether the next blocks have been read."""
 
-    def read_on(self, blocks: Sequence[Block], read: Read, *, is_open: bool) -> Iterator[None]:
+    def begin(self, event: ProgramEvent | None) -> Paths:
+        state = self._first()
+        if event is not None and event.mark in self.marked:
+            state = self.marked[event.mark]
+        elif event is not None:
+            told = f"{event.reason}; say with --start where the tool is when it begins"
+            unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
+            state = state.lose_all(unknown, told, Span(event.line, 1, 2))
+        return Paths((ControlFlowPath(state),))
+
+    def read(self, known: Paths, blocks: Sequence[Block], event: ProgramEvent | None) -> Generator[Any, None, Paths]:
         """Follow each way through some blocks, step by step, as far as it is known what they are; ways that have come
-        equally far meet. `is_open` tells whether a contour may go on behind them."""
-        moving = [_Moving(way, [*way.unread, *blocks] if way.unread else blocks) for way in self.now]
+        equally far meet."""
+        is_open = event is not None and event.kind.is_open and self.goes_beyond
+        moving = [_Moving(way, [*way.unread, *blocks] if way.unread else blocks) for way in known.ways]
         stopped = list[ControlFlowPath]()
         while moving and not (self._is_beyond and min(each.place for each in moving) >= 0):
             place = min(each.place for each in moving)
             here = [each for each in moving if each.place == place]
             if place >= 0 and len(here) > 1:
-                met = _meet_all([replace(each.way, unread=()) for each in here], self._reason, self.modes)
+                met = _meet_all([replace(each.way, unread=()) for each in here], known.reason, self.modes)
                 here = [_Moving(met[0], blocks, place)]
                 moving = [*(each for each in moving if each.place != place), *here]
             one = here[0]
-            found = None if place >= len(blocks) else read(one.blocks, one.index, one.way.state, is_open)
-            if found is None:
+            if place < len(blocks) and (mark := one.blocks[one.index].mark):
+                self.marked[mark] = one.way.state
+            taken = None if place >= len(blocks) else self._take(one.blocks, one.index, one.way.state, is_open)
+            if taken is None:
                 moving.remove(one)
                 stopped.append(replace(one.way, unread=tuple(one.blocks[one.index :])))
                 continue
-            one.index += found[0]
-            one.way = _behind(one.way, found[1], one.blocks[one.index - 1].line)
-            yield
-        self.now = [] if self._is_beyond else _meet_all(stopped, self._reason, self.modes)
+            one.index += taken.blocks
+            one.way = _behind(one.way, taken.state, one.blocks[one.index - 1].line)
+            yield taken.found
+        was_beyond, self._is_beyond = self._is_beyond, event is not None and event.kind is EventKind.BEYOND
+        return Paths(() if was_beyond else _meet_all(stopped, known.reason, self.modes), known.reason)
 
-    def follow(
-        self,
-        lines: Iterable[Block | ProgramEvent],
-        read: Read,
-        found: list[Any],
-        happen: Callable[[ProgramEvent], bool],
-    ) -> Iterator[None]:
-        """Follow each way through a program as it runs, step by step. What was `found` since a head is dropped where
-        `happen` says that it is found anew."""
-        heads, blocks = dict[int, int](), list[Block]()
-        for line in chain(lines, (None,)):
-            if isinstance(line, Block):
-                blocks.append(line)
-                yield
-                continue
-            yield from self.read_on(blocks, read, is_open=line is not None and line.kind.is_open)
-            blocks = []
-            if line is None:
-                return
-            if line.kind is EventKind.HEAD:
-                heads[line.mark] = len(found)
-            if happen(line):
-                del found[heads[line.mark] :]
+    def join(self, several: Sequence[Paths], reason: str) -> Paths:
+        return Paths(_meet_all([way for each in several for way in each.ways], reason, self.modes), reason)
 
-    def happen(self, event: ProgramEvent) -> bool:
-        """Take in what happens between two blocks; whether all that was found since its head is found anew."""
-        span, self._is_beyond = Span(event.line, 1, 2), event.kind is EventKind.BEYOND
-        match event.kind:
-            case EventKind.FRESH:
-                self.now = [ControlFlowPath(self._fresh(event))]
-                self._kept, self._heads = {}, {}
-            case EventKind.ENTER:
-                self.now = [replace(each, entered=(*each.entered, each.state)) for each in self.now]
-            case EventKind.LEAVE:
-                self.now = [
-                    replace(each, state=each.entered[-1], entered=each.entered[:-1]) if each.entered else each
-                    for each in self.now
-                ]
-            case EventKind.LOST | EventKind.STOPPED | EventKind.CALLED:
-                axes = self.modes.axes
-                self.now = [replace(each, state=each.state.lose(axes, event.reason, span)) for each in self.now]
-            case EventKind.PART:
-                self._kept[event.mark] = self.now
-            case EventKind.PAUSE:
-                self._kept[event.mark], self.now = self.now, []
-            case EventKind.MEET:
-                self._reason = event.reason
-                ways = [way for mark in event.ways for way in self._kept.pop(mark, ())]
-                self.now = _meet_all(ways, event.reason, self.modes)
-                self._heads = {
-                    mark: (kept, is_aside or min(event.ways) < mark) for mark, (kept, is_aside) in self._heads.items()
-                }
-            case EventKind.HEAD:
-                self._heads[event.mark] = self.now, False
-            case EventKind.AGAIN:
-                return self._run_again(event)
-            case _:
-                pass
-        return False
+    def is_same(self, one: Paths, other: Paths) -> bool:
+        return [*map(_known, one.ways)] == [*map(_known, other.ways)]
 
-    def state_behind(self, event: ProgramEvent, state: State) -> State:
-        """The state behind an event of a program that is followed on one way, in a state before it."""
-        self.now = [replace(each, state=state) for each in self.now]
-        self.happen(event)
-        return self.now[0].state if self.now else state
+    def restore(self, entry: Paths, now: Paths, reason: str, line: int) -> Paths:
+        if not entry.ways:
+            return now
+        # No contour goes on beyond a call, so that the ways have met there.
+        before, span = entry.ways[0], Span(line, 1, 2)
+        ways = [
+            replace(each, state=bring_back(before.state, each.state, reason, span), lines=before.lines)
+            for each in now.ways
+        ]
+        return replace(now, ways=ways)
 
-    def _run_again(self, event: ProgramEvent) -> bool:
-        """Go back to where something begins that runs again, with what is known there in all of its passes."""
-        kept, is_aside = self._heads.get(event.mark, ([], True))
-        both = _meet_all([*kept, *self.now], event.reason, self.modes)
-        is_settled = not self.now or _are_same(both, kept)
-        self.settled = event.mark if is_settled else None
-        if event.is_last and not is_settled:
-            told = "the contour goes on" if any(each.unread for each in self.now) else "it is another place"
-            told, span = f"{told} from pass to pass; {event.reason}", Span(event.line, 1, 2)
-            self.now = [replace(each, state=each.state.lose(self.modes.axes, told, span)) for each in self.now]
-        if event.is_last:
-            return False
-        self._heads[event.mark] = both, is_aside
-        self.now = [] if is_settled else both
-        return not is_settled and not is_aside
+    def write_back(self, entry: Paths, now: Paths, ran: Sequence[Block]) -> WrittenBack:
+        if not (entry.ways and now.ways):
+            return WrittenBack()
+        return write_back(entry.ways[0].state, now.ways[0].state, ran, self.modes)
 
-    def _fresh(self, event: ProgramEvent) -> State:
-        if event.mark in self.marked:
-            return self.marked[event.mark]
-        state = self._first()
-        told = f"{event.reason}; say with --start where the tool is when it begins"
-        unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
-        return state.lose(unknown, told, Span(event.line, 1, 2))
+    def lose(self, known: Paths, reason: str, line: int, *, modes: bool = False, in_passes: bool = False) -> Paths:
+        if in_passes:
+            told = "the contour goes on" if any(each.unread for each in known.ways) else "it is another place"
+            reason = f"{told} from pass to pass; {reason}"
+        axes, span = self.modes.axes, Span(line, 1, 2)
+        states = [each.state.lose_all(axes, reason, span) for each in known.ways]
+        if modes:
+            states = [each.doubt(self.modes, f"{reason}{_on_line(line)}") for each in states]
+        return replace(known, ways=[replace(way, state=state) for way, state in zip(known.ways, states, strict=True)])
+
+
+class TakenBlocks(Struct, frozen=True):
+    """What begins at a block: how many blocks belong to it, the state behind it, and what is found there."""
+
+    blocks: int
+    state: State
+    found: Any = None
+
+
+Take = Callable[[Sequence[Block], int, State, bool], TakenBlocks | None]
+"""(blocks, the index of one of them, the state before it, whether a contour may go on behind the last one) to what
+begins there; None where that depends on what comes behind the last one."""
 
 
 class _Moving:
@@ -207,25 +172,11 @@ class _Moving:
 
 def _behind(way: ControlFlowPath, state: State, line: int) -> ControlFlowPath:
     """A way behind what ends on a line."""
-    before, now = _in_force(way.state), _in_force(state)
+    before, now = way.state.in_force(), state.in_force()
     if before == now:
-        return ControlFlowPath(state, (), way.entered, way.lines)
-    changed = (mode for mode, old, new in zip(_MODES, before, now, strict=True) if old != new)
-    return ControlFlowPath(state, (), way.entered, {**way.lines, **dict.fromkeys(changed, line)})
-
-
-_MODES = (Mode.MOTION, Mode.PLANE, Mode.UNIT, Mode.INCREMENTS, Mode.COMPENSATION, Mode.DIAMETER)
-
-
-def _in_force(state: State) -> tuple[Any, ...]:
-    """The values of `_MODES`."""
-    plane = (state.plane.code, state.plane.axes)
-    return state.motion, plane, state.unit, state.is_incremental, state.compensation, state.diameter
-
-
-def _values(state: State) -> dict[Mode, Any]:
-    """The modes of a state."""
-    return dict(zip(_MODES, _in_force(state), strict=True))
+        return ControlFlowPath(state, (), way.lines)
+    changed = (mode for mode, old in before.items() if old != now[mode])
+    return ControlFlowPath(state, (), {**way.lines, **dict.fromkeys(changed, line)})
 
 
 # Where ways meet -------------------------------------------------------------------------------------------------
@@ -250,7 +201,7 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
     ours, theirs, why = one.state, other.state, f"; {reason}" if reason else ""
     axes = {axis: _meet_positions(at, theirs.axes[axis], why) for axis, at in ours.axes.items()}
     doubts = {**theirs.doubts, **ours.doubts}
-    first, second = _values(ours), _values(theirs)
+    first, second = ours.in_force(), theirs.in_force()
     for mode, value in first.items():
         if value != second[mode]:
             texts = (
@@ -279,10 +230,10 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
         axes=axes,
         motion=ours.motion if ours.motion == theirs.motion else motion,
         memory=memory if _memories(ours) != _memories(theirs) else ours.memory,
+        zero={name: value for name, value in ours.zero.items() if theirs.zero.get(name) == value},
         doubts=doubts,
     )
-    entered = tuple(one.entered) if len(one.entered) <= len(other.entered) else tuple(other.entered)
-    return ControlFlowPath(with_diameters(state), one.unread, entered, {**other.lines, **one.lines})
+    return ControlFlowPath(with_diameters(state), one.unread, {**other.lines, **one.lines})
 
 
 def _meet_positions(one: Position, other: Position, why: str) -> Position:
@@ -331,14 +282,8 @@ def _memories(state: State) -> dict[str, object]:
     return {name: _said(word) for name, word in state.memory.items()}
 
 
-def _are_same(ways: Sequence[ControlFlowPath], others: Sequence[ControlFlowPath]) -> bool:
-    """Whether the same is known on some ways and on others."""
-    return [_known(each) for each in ways] == [_known(each) for each in others]
-
-
 def _known(way: ControlFlowPath) -> object:
     """The knowledge on a way."""
     state = way.state
     places = {axis: None if at.value is None else round(at.value, 9) for axis, at in state.axes.items()}
-    entered = tuple(_known(ControlFlowPath(each)) for each in way.entered)
-    return tuple(map(_key, way.unread)), places, _values(state), _memories(state), {*state.doubts}, entered
+    return tuple(map(_key, way.unread)), places, state.in_force(), _memories(state), {*state.doubts}, state.zero

@@ -156,5 +156,6 @@ class Dialect:
             compensation=40,
             diameter=self.diameter,
             travel=self.modes.travel,
+            zero=self.modes.zero.first,
         )
         return with_diameters(state)

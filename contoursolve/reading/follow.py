@@ -4,14 +4,13 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from operator import lt
-from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.execution import Machine, ProgramEvent
+from contoursolve.execution import Machine
 from contoursolve.gcode import Block, Directive, Program, Word
-from contoursolve.reading.control_flow import Ahead, Ways
+from contoursolve.reading.control_flow import Ahead, TakenBlocks, Ways
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Modes, State, advance, apply_modes, codes_of
 from contoursolve.reading.parsed_contour import ParsedContour, leave, next_place
@@ -60,33 +59,28 @@ def contours_as_run(
     """Every contour of a main program on each of its ways, each time that it runs, with where the line of the next
     block ends, mm, if that is known; the next one begins where `end_of` says. `machine` runs what is not a row of
     blocks."""
-    ways, met, reached = Ways(lambda: first, modes), list[Any](), set[int]()
+    reached = set[int]()
 
-    def read(held: Sequence[Block], index: int, state: State, is_open: bool) -> tuple[int, State] | None:
+    def take(held: Sequence[Block], index: int, state: State, is_open: bool) -> TakenBlocks | None:
         ahead, block = Ahead(held), held[index]
         is_reached = all(each.is_reached for each in block.callers)
         if is_reached and not block.file:
             reached.add(block.line)
-        if block.mark:
-            ways.marked[block.mark] = state
         found = find(ahead, index, state, modes)
         if is_open and ahead.is_passed:
             return None
         if found is None or not found.form.is_contour:
-            return 1, advance(state, block, modes)
+            return TakenBlocks(1, advance(state, block, modes))
         reach = reach_of(found, held, index)
-        if not block.file and (is_reached or block.line not in reached):
-            met.append((found, next_place(held[index + reach :], found, modes)))
-        return reach, leave(found, end_of(found), modes, "the contour before has no path")
+        is_own = not block.file and (is_reached or block.line not in reached)
+        met = (found, next_place(held[index + reach :], found, modes)) if is_own else None
+        return TakenBlocks(reach, leave(found, end_of(found), modes, "the contour before has no path"), met)
 
-    def happen(event: ProgramEvent) -> bool:
-        is_anew = ways.happen(event)
-        if machine is not None:
-            machine.settled = ways.settled
-        return is_anew
-
-    deque(ways.follow(machine.run() if machine is not None else blocks, read, met, happen), 0)
-    return met
+    ways = Ways(lambda: first, modes, take)
+    if machine is None:
+        return [each for each in ways.read(ways.begin(None), blocks, None) if each is not None]
+    deque(machine.follow(machine.run(), ways), 0)
+    return [each for each in machine.found if each is not None]
 
 
 def reach_of(contour: ParsedContour, blocks: Sequence[Block], index: int = 0) -> int:

@@ -32,6 +32,18 @@ from contoursolve.gcode import (
 from contoursolve.geometry import Length, Plane, Start
 from contoursolve.reading.contour_form import Convention, Setting
 from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon
+from contoursolve.reading.moved_zero import (
+    NOTHING_MOVES,
+    Moved,
+    Zero,
+    ZeroRow,
+    ZeroTable,
+    change_entries,
+    entries_of_assignment,
+    forget_shifts,
+    is_along_axes,
+    move_zero,
+)
 from contoursolve.tolerance import RADIUS_DIFFERENCE, TRAVEL
 
 
@@ -140,6 +152,9 @@ _SETS: Mapping[Effect, tuple[Mode, ...]] = {
 """The modes that are known behind a G code."""
 
 
+_MODES_IN_FORCE = (Mode.MOTION, Mode.PLANE, Mode.UNIT, Mode.INCREMENTS, Mode.COMPENSATION, Mode.DIAMETER)
+
+
 class State(Struct, frozen=True):
     """The modes in force before a block, and the position."""
 
@@ -156,6 +171,8 @@ class State(Struct, frozen=True):
     """Words that stay in force, by their address."""
     travel: float = TRAVEL
     """mm. How far from the start point the control can make a contour."""
+    zero: Zero = {}
+    """The offsets and shifts of the coordinate system that are known to be in force (see `ZeroTable`)."""
     doubts: Mapping["Mode | str", str] = {}
     """The rest that is not known to be in force, as ways that meet do not agree on it, and why: modes, and by their
     address words that stay in force."""
@@ -189,7 +206,13 @@ class State(Struct, frozen=True):
         words = tuple((name, word.text) for name, word in self.memory.items())
         plane, doubts = (self.plane.code, self.plane.axes, self.plane.diameters), tuple(self.doubts.items())
         modes = self.motion, plane, self.unit, self.is_incremental, self.compensation, self.diameter
-        return places, modes, words, doubts
+        return places, modes, words, doubts, tuple(self.zero.items())
+
+    def in_force(self) -> "dict[Mode, object]":
+        """The modes in force, without whether they are known."""
+        plane = (self.plane.code, self.plane.axes)
+        values = self.motion, plane, self.unit, self.is_incremental, self.compensation, self.diameter
+        return dict(zip(_MODES_IN_FORCE, values, strict=True))
 
     def counts_diameters(self) -> bool:
         """Whether a plain word of X is a diameter, where codes switch that."""
@@ -200,6 +223,18 @@ class State(Struct, frozen=True):
     def lose(self, axes: Mapping[str, Position] | tuple[str, ...], reason: str, span: Span) -> "State":
         """The state with the position on these axes unknown."""
         return self.move({axis: Position(None, reason, span) for axis in axes})
+
+    def doubt(self, modes: "Modes", reason: str) -> "State":
+        """The state in which no mode is known, nor any word that stays in force. Where no G codes are programmed, each
+        block says how it moves, and the head of a program its unit."""
+        names: list[Mode | str] = [*dict.fromkeys([*modes.lasting, *self.memory])]
+        own = (Mode.PLANE, Mode.COMPENSATION) if modes.follow is not None else tuple(Mode)
+        names += (mode for mode in own if mode is not Mode.DIAMETER or self.diameter is not None)
+        return replace(self, doubts=dict.fromkeys(names, reason))
+
+    def lose_all(self, axes: tuple[str, ...], reason: str, span: Span) -> "State":
+        """The same where it is not known either which offsets are in force."""
+        return replace(self.lose(axes, reason, span), zero={})
 
 
 def unread_state(unit: Length) -> State:
@@ -236,6 +271,8 @@ class Modes:
     """Addresses of words that stay in force and change the path, each with the word that ends it."""
     separate: frozenset[int] = field(default=frozenset(), kw_only=True)
     """G codes of blocks that belong to a contour and move nothing."""
+    zero: ZeroTable = field(default=NOTHING_MOVES, kw_only=True)
+    """What moves the coordinate system."""
     language: MacroLanguage | None = field(default=None, kw_only=True)
     """Its variables, jumps and calls."""
     follow: Callable[[State, Block, "Modes"], State] | None = field(default=None, kw_only=True)
@@ -341,18 +378,80 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
                 state = replace(state, is_incremental=code.effect is Effect.INCREMENTAL)
             case Effect.COMPENSATION:
                 state = replace(state, compensation=code.number)
-            case Effect.SHIFT | Effect.FRAME:
+            case Effect.SHIFT | Effect.FRAME if code.number not in modes.zero.codes:
                 reason = f"{code.text} changes the coordinate system"
                 state = state.lose(modes.axes, reason, block.span)
+                state = replace(state, zero=forget_shifts(state.zero) if code.is_read else {})
+            case Effect.PRESET:
+                state = replace(state, zero=forget_shifts(state.zero))
             case _:
                 pass
         if code.diameter is not None:
             state = replace(state, diameter=code.diameter).settle(Mode.DIAMETER)
-    if state.doubts:
-        state = state.settle(*(mode for code in codes for mode in _SETS.get(code.effect, ())))
+    state = _settled(state, codes, block, modes) if state.doubts else state
     if modes.remember is not None:
         state = state.remember(modes.remember(state.memory, block))
-    return with_diameters(state)
+    state = with_diameters(state)
+    moving = modes.zero.rows_in(block)
+    return _move_zero(state, block, moving, modes) if moving or block.macro is not None else state
+
+
+def _move_zero(state: State, block: Block, moving: Sequence[tuple[ZeroRow, Word]], modes: Modes) -> State:
+    """The state with the coordinate system moved by words of a block, or by the variable that it sets."""
+    numbers = _shifts_in(state, block, modes) if moving else {}
+    for row, word in moving:
+        mm = partial(_shift_of, state)
+        moved = move_zero(state.zero, row, word, block, numbers, modes.axes, state.plane.code, mm)
+        state = state if moved is None else state_moved(state, moved, block.span)
+    entries = [*entries_of_assignment(modes.zero, block)]
+    if entries:
+        moved = change_entries(state.zero, entries, modes.axes, f"{block.text.strip()} changes an offset")
+        state = state if moved is None else state_moved(state, moved, block.span)
+    return state
+
+
+def _settled(state: State, codes: Sequence[Code], block: Block, modes: Modes) -> State:
+    """The state in which it is known what a block says: modes, and words that stay in force or end."""
+    said = [mode for code in codes for mode in _SETS.get(code.effect, ())]
+    return state.settle(*said, *(word.address for word in block.words if word.address in modes.lasting))
+
+
+def _shift_of(state: State, axis: str, number: Decimal) -> Decimal | None:
+    """A shift by a number, mm. Where X is a diameter, it is not known whether a shift is one, too."""
+    is_open = (axis == TURNED and state.counts_diameters()) or not state.doubts.keys().isdisjoint(_OF_SHIFTS)
+    return None if is_open else number * state.unit.in_mm
+
+
+_OF_SHIFTS = (Mode.UNIT, Mode.DIAMETER, Mode.PLANE)
+
+
+def _shifts_in(state: State, block: Block, modes: Modes) -> dict[str, Decimal | None]:
+    """The values of a block's axis words, mm, as shifts."""
+    words, found = modes.words(state), dict[str, Decimal | None]()
+    for word in axis_words(block, modes):
+        axis, value = _axis(word, modes), words.value(word, state.unit)
+        is_open = axis in found or _shift_of(state, axis, Decimal(0)) is None
+        found[axis] = None if is_open else value
+    return found
+
+
+def state_moved(state: State, moved: Moved, span: Span) -> State:
+    """The state behind what moves the coordinate system: where the tool is has other coordinates."""
+    changes = dict[str, Position]()
+    for axis, by in moved.by.items():
+        at = state.axes[axis]
+        if by is None:
+            changes[axis] = Position(None, moved.reason, span)
+        elif isinstance(at, Awaited):
+            changes[axis] = at.then(partial(_shifted, by=by, reason=moved.reason, span=span))
+        else:
+            changes[axis] = _shifted(at, by, moved.reason, span)
+    return replace(state.move(changes), zero=moved.zero)
+
+
+def _shifted(at: Position, by: Decimal, reason: str, span: Span) -> Position:
+    """The coordinate of a place after the zero has moved, mm."""
+    return at if at.value is None else Position(at.value - by, reason, span, at.is_skippable)
 
 
 def with_diameters(state: State) -> State:
@@ -378,20 +477,23 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
     if COMMENTED in state.memory and modes.remember is not None:
         return state.remember(modes.remember(state.memory, block))
     if block.macro is Macro.FLOW:
-        return state.lose(modes.axes, "a macro statement may jump", block.span)
+        return state.lose_all(modes.axes, "a macro statement may jump", block.span)
     state = apply_modes(state, block, modes)
     if block.find("O"):
         # What is stated apart from the program holds for its beginning.
         stated = [axis for axis, at in state.axes.items() if at.span is not None and at.span.line > 0]
         state = state.lose(tuple(stated), "a new program begins", block.span)
+        state = replace(state, zero={}) if stated else state
     for word in block.words:
         if modes.is_call(word) or modes.is_unread_call(word):
-            return state.lose(modes.axes, modes.why_lost(word), word.span)
+            why = modes.why_lost(word)
+            state = state.doubt(modes, why) if modes.is_unread_call(word) else state
+            return state.lose_all(modes.axes, why, word.span)
     codes = codes_of(block, modes)
     for code in codes:
         if isinstance(code, Word):
             # Whatever it does, it may do to every axis.
-            return state.lose(modes.axes, f"{code.text} is not known to contoursolve", code.span)
+            return state.lose_all(modes.axes, f"{code.text} is not known to contoursolve", code.span)
     lost = _lost_by_faults(block, modes)
     words = axis_words(block, modes)
     codes = [code for code in codes if words or isinstance(code, Word) or not code.needs_axes]
@@ -399,10 +501,17 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
     if effect is Effect.NO_MOTION:
         return state
     if effect is Effect.SINGLE or (effect is Effect.CYCLE and words):
-        axes = tuple(dict.fromkeys(_axis(word, modes) for word in words)) or modes.axes
-        return state.lose(axes, reason, block.span)
+        axes = tuple(dict.fromkeys(_axis(word, modes) for word in words))
+        # Where axes are turned, an axis of the machine moves others of the program.
+        is_alone = axes and (effect is not Effect.SINGLE or is_along_axes(state.zero, modes.zero.first))
+        return state.lose(axes if is_alone else modes.axes, reason, block.span)
     if words:
         state = state.move(positions(state, words, modes, block.is_skippable))
+    preset = next((code for code in rows_of(block, modes) if code.effect is Effect.PRESET), None)
+    if preset is not None and state.is_incremental:
+        rows = (modes.lexicon.addresses[word.address] for word in words)
+        open_axes = tuple(row.axis for row in rows if row.follows_increments)
+        state = state.lose(open_axes, f"what {preset.text} sets where increments are in force is not known", block.span)
     state = _lose_ends(state, block, modes)
     return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
 

@@ -11,7 +11,21 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import Block, Directive, Word
-from contoursolve.geometry import Choice, Fact, Given, Layout, Line, Pick, Plane, Profile, Question, Radius, Side
+from contoursolve.geometry import (
+    Choice,
+    Coordinate,
+    Fact,
+    Given,
+    Layout,
+    Line,
+    Offset,
+    Pick,
+    Plane,
+    Profile,
+    Question,
+    Radius,
+    Side,
+)
 from contoursolve.reading.contour_form import Assumption, ContourForm, Convention, lay_out
 from contoursolve.reading.lexicon import TURNED, Lexicon
 from contoursolve.reading.modal_state import Mode, Modes, Position, State, apply_modes, axis_words, positions
@@ -29,6 +43,7 @@ class ReadIssue(Enum):
     SUSPECTED = "suspected"
     START_IN_INCREMENTS = "start-in-increments"
     MOVE_IN_INCREMENTS = "move-in-increments"
+    ARGUMENT_IN_INCREMENTS = "argument-in-increments"
     COMMA_MISSING = "comma-missing"
     COMMA_WORD_UNKNOWN = "comma-word-unknown"
     WORD_MISTYPED = "word-mistyped"
@@ -49,6 +64,8 @@ class ReadIssue(Enum):
     SUBPROGRAM_REFUSED = "subprogram-refused"
     SUBPROGRAM_SOLVED = "subprogram-solved"
     NOT_FOLLOWED = "not-followed"
+    VARIABLE_REFUSED = "variable-refused"
+    COMPARISON_LAST = "comparison-last"
     PROFILE_TURNS_BACK = "profile-turns-back"
     SKIPPABLE_START = "skippable-start"
     NO_CONTOUR = "no-contour"
@@ -124,8 +141,6 @@ class ParsedContour:
     """The settings that the manual does not state and that the reading rests on."""
     selected: Plane | None = None
     """The plane in force behind it, where a parallel axis may stand for an axis of that."""
-    is_end_absolute: bool = False
-    """Whether its last block states its end as coordinates even where increments are in force."""
     makes: tuple[tuple[str, ...], ...] = ()
     """The names of what each block makes, where that is not one element and the corner behind it."""
     limits: Mapping[str, Decimal] = field(default_factory=dict)
@@ -300,15 +315,13 @@ def leave(
 ) -> State:
     """The modes of a contour's blocks, and the position where it ends, mm.
 
-    Where it has no end, for this reason, whose `cause` may lie in a line before it, an axis that its last block
-    programs is still known.
+    Where it has no end, for this reason, whose `cause` may lie in a line before it, what its words say of the end is
+    still known.
     """
     state, last, axes = claim.left, claim.blocks[-1], claim.after.plane.axes
+    before = claim.before.axes
+    is_skippable = any(block.is_skippable for block in claim.blocks) or any(before[axis].is_skippable for axis in axes)
     if end is not None:
-        before = claim.before.axes
-        is_skippable = any(block.is_skippable for block in claim.blocks) or any(
-            before[axis].is_skippable for axis in axes
-        )
         ends = zip(axes, end, strict=True)
         state = state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
         return _move_beside(state, claim, modes)
@@ -317,8 +330,40 @@ def leave(
         return lost
     # Increments count from where the last block begins, which is known of an only one.
     origin = state if len(claim.blocks) == 1 else lost
-    told = replace(origin, is_incremental=state.is_incremental and not claim.is_end_absolute)
-    return lost.move(positions(told, axis_words(last, modes), modes, last.is_skippable))
+    moved = positions(origin, axis_words(last, modes), modes, last.is_skippable)
+    is_read = all(word.number is not None for word in claim.words.values())
+    if is_read and not (claim.repeated or claim.doubts or any(block.faults for block in claim.blocks)):
+        for axis, value in zip(axes, _stated_end(claim), strict=True):
+            # Where the coordinate system moves between two blocks, only the last one says where it is.
+            if state.axes[axis] is before[axis] and (axis not in moved or moved[axis].value != value):
+                moved[axis] = lost.axes[axis] if value is None else Position(value, _END, last.span, is_skippable)
+    return lost.move(moved)
+
+
+def _stated_end(claim: ParsedContour) -> tuple[Decimal | None, Decimal | None]:
+    """The coordinates of the end that words state, mm, whatever becomes of its corners: along each axis back from point
+    to point, to a coordinate or to the start."""
+    profile = read(claim, frozenset())
+    facts = {(fact.point, fact.axis): fact for fact in profile.facts if isinstance(fact, Coordinate | Offset)}
+
+    def along(axis: int) -> Decimal | None:
+        point, total = profile.figure.path[-1].head, Decimal(0)
+        while point != profile.figure.start:
+            fact = facts.pop((point, axis), None)
+            given = profile.givens.get(fact.given) if fact is not None else None
+            if fact is None or given is None or given.value is None:
+                return None
+            total += given.value
+            if isinstance(fact, Coordinate):
+                return total
+            point = fact.origin
+        first = profile.start.values[axis]
+        return None if first is None else total + first
+
+    return along(0), along(1)
+
+
+_END = "the end of this contour"
 
 
 def _move_beside(state: State, claim: ParsedContour, modes: Modes) -> State:
@@ -333,7 +378,7 @@ def _move_beside(state: State, claim: ParsedContour, modes: Modes) -> State:
 
 def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> Position:
     """The position where a contour ends on an axis, mm; `span` is its last block."""
-    return Position(Decimal(value), "the end of this contour", span, is_skippable)
+    return Position(Decimal(value), _END, span, is_skippable)
 
 
 def next_place(blocks: Iterable[Block], claim: ParsedContour, modes: Modes) -> tuple[Decimal, Decimal] | None:
@@ -341,8 +386,10 @@ def next_place(blocks: Iterable[Block], claim: ParsedContour, modes: Modes) -> t
     block = next((block for block in blocks if block.words), None)
     if block is None or block.faults:
         return None
-    state = apply_modes(claim.left, block, modes)
-    if state.motion not in (0, 1, None):
+    left = claim.left
+    state = apply_modes(left, block, modes)
+    if state.motion not in (0, 1, None) or any(state.axes[axis] is not left.axes[axis] for axis in state.plane.axes):
+        # What moves the coordinate system gives other coordinates to the same place.
         return None
     unknown = state.lose(modes.axes, "the contour before it is not solved yet", block.span)
     found = positions(unknown, axis_words(block, modes), modes, is_skippable=False)

@@ -179,6 +179,7 @@ from .sketch import (
     Sketch as Sketch,
 )
 from .solution import (
+    DECIMALS as DECIMALS,
     Certificate as Certificate,
     CornerSolution as CornerSolution,
     Note as Note,

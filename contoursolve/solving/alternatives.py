@@ -18,18 +18,19 @@ from contoursolve.geometry import (
     assemble,
     scalar,
 )
-from contoursolve.numeric import COSINE, SINE, Created, Number, ball, direction
+from contoursolve.numeric import COSINE, SINE, Created, Number, ball
+from contoursolve.solving.certify import certificate_of
 from contoursolve.solving.checks import MeasuredFigure, unverified
 from contoursolve.solving.compare import compare_fact, increments_of
-from contoursolve.solving.compile import compile_path
+from contoursolve.solving.compile import compile_corners, compile_path
 from contoursolve.solving.determinacy import analyse, groups_of, spare_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Enumeration, ExactSolution, enumerate_solutions
 from contoursolve.solving.events import NoteKind, RefusalKind, Status, Topic, refusals_about
 from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range, vanishing_lines
-from contoursolve.solving.krawczyk import Prover, radius_of
-from contoursolve.solving.numbers import corner_of, scalars_of, sizes_of
+from contoursolve.solving.krawczyk import Prover
+from contoursolve.solving.numbers import corner_of
 from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.picks import Alternative, Alternatives, pick
 from contoursolve.solving.sides import BOTH, sides_of
@@ -117,18 +118,21 @@ def _agrees(item: Alternative, choices: Sequence[Choice]) -> bool:
 
 
 def _alternative(profile: Profile, system: System, prover: Prover, found: ExactSolution) -> Alternative:
-    proof, boxes = prover.prove(found.scalars, found.signs)
+    proven = prover.prove(found.scalars, found.signs)
+    boxes = found.scalars if proven is None else proven
     starts = [float(value) for value in profile.start.values if value is not None]
     scalars = {name: ball.middle(value) for name, value in boxes.items()}
     machine = compile_path(system)
-    values, points = _path_values(profile, system, boxes)
+    numbers = _path_numbers(profile, system, boxes)
+    values = {name: ball.middle(value) for name, value in numbers.items()}
     at = prover.ground.values(boxes, found.signs, system)
-    measures = machine.path.read(machine.function(values).__getitem__)
-    refusals, remarks = _compare(profile, system, at, scalars)
+    out = machine.function(values)
+    measures = machine.path.read(out.__getitem__)
+    residuals = [fact.residual(at) for fact in system.facts]
+    refusals, remarks = _compare(profile, system, residuals, at, scalars)
     if not refusals:
-        sizes = _sizes(profile, scalars)
-        numbers = Values(scalars_of(points), {}, {})
-        measured = MeasuredFigure(system.figure, numbers, measures, increments_of(profile))
+        sizes = {name: ball.middle(value) for name, value in _sizes(profile, boxes).items()}
+        measured = MeasuredFigure(system.figure, Values(values, {}, {}), measures, increments_of(profile))
         path = MeasuredPath(
             profile, measured, sizes, lambda sizes: machine.path.read(machine.function({**values, **sizes}).__getitem__)
         )
@@ -144,10 +148,15 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: ExactS
         subject = _touching(system, found)
         kind = NoteKind.TOUCHES if sides.get(subject) == BOTH else NoteKind.DOUBLE
         remarks.append(Note(kind, subject, (), {}))
-    radius = radius_of(boxes, scalars) if proof is not Proof.UNKNOWN or found.doubles else inf
-    certificate = Certificate(proof, radius, "", gap)
-    if proof is Proof.UNKNOWN:
-        certificate = _doubtful(found, radius, gap)
+    places = [(box, scalars[name]) for name, box in boxes.items()]
+    if proven is None:
+        certificate = _doubtful(found, places, gap)
+    else:
+        corners = None if refusals else _corner_places(profile, numbers, out)
+        certificate = certificate_of([*places, *(corners or ())], residuals, gap)
+        if corners is None and not refusals:
+            reason = "interval arithmetic cannot decide a corner"
+            certificate = Certificate(Proof.VERIFIED, certificate.radius, reason, gap)
     absolute = {name: (scalars[scalar(name, FIRST)], scalars[scalar(name, SECOND)]) for name in system.figure.points}
     absolute[system.figure.start] = starts[FIRST], starts[SECOND]
     solution = Solution(
@@ -157,17 +166,37 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: ExactS
         corners=_corners(system, values, measures, starts) if not refusals else {},
         refusals=tuple(refusals),
         remarks=tuple(remarks),
-        error_bound=radius,
+        error_bound=certificate.radius,
         certificate=certificate,
         scalars=scalars if not refusals else {},
     )
     return Alternative(solution, scalars, sides, certificate)
 
 
-def _doubtful(found: ExactSolution, radius: float, gap: float | None) -> Certificate:
+def _doubtful(found: ExactSolution, places: Sequence[tuple[Number, float]], gap: float | None) -> Certificate:
     if found.doubles:
+        radius = certificate_of(places).radius
         return Certificate(Proof.VERIFIED, radius, "two solutions have become one, so no proof can part them", gap)
-    return Certificate(Proof.UNKNOWN, radius, "nothing near it could be proven to hold this solution alone", gap)
+    return Certificate(Proof.UNKNOWN, inf, "nothing near it could be proven to hold this solution alone", gap)
+
+
+def _corner_places(
+    profile: Profile, numbers: Mapping[str, Number], out: Mapping[str, float]
+) -> list[tuple[Number, float]] | None:
+    """The places of the corners, each with its float among the outputs of the path, of which `numbers` are the inputs;
+    None where balls do not tell which way one turns."""
+    if not profile.figure.corners:
+        return []
+    function, axes = compile_corners(assemble(profile))
+    try:
+        found = function.replay([numbers[name] for name in function.inputs])
+    except (ArithmeticError, ValueError):
+        return None
+    origin = [value for value in profile.start.values if value is not None]
+    return [
+        (value + ball.exact(origin[axis]), out[name] + float(origin[axis]))
+        for value, (name, axis) in zip(found, axes, strict=True)
+    ]
 
 
 def _status(refusals: list[Refusal], remarks: list[Note]) -> Status:
@@ -178,33 +207,25 @@ def _status(refusals: list[Refusal], remarks: list[Note]) -> Status:
     return Status.OVERDETERMINED if agrees else Status.SOLVED
 
 
-def _path_values(
-    profile: Profile, system: System, boxes: Mapping[str, Number]
-) -> tuple[dict[str, float], dict[str, Point]]:
-    """All inputs of the path at these points, and the points, counted from the start."""
+def _path_numbers(profile: Profile, system: System, boxes: Mapping[str, Number]) -> dict[str, Number]:
+    """All inputs of the path at these points, which count from the start."""
     figure = system.figure
     origin = [ball.exact(value) for value in profile.start.values if value is not None]
-    relative = {
-        scalar(point, axis): ball.middle(boxes[scalar(point, axis)] - origin[axis])
-        for point in figure.points
-        for axis in (FIRST, SECOND)
-    }
-    values = {name: ball.middle(value) for name, value in boxes.items()} | relative
-    values |= {scalar(figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
-    values |= _sizes(profile, values)
+    numbers = dict(boxes)
+    for axis in (FIRST, SECOND):
+        numbers |= {scalar(point, axis): boxes[scalar(point, axis)] - origin[axis] for point in figure.points}
+        numbers[scalar(figure.start, axis)] = ball.exact(0.0)
+    numbers |= _sizes(profile, numbers)
     for given in profile.givens.values():
         if given.unit is Unit.DEGREE:
-            values[given.name + COSINE], values[given.name + SINE] = direction(given.value)
+            numbers[given.name + COSINE], numbers[given.name + SINE] = ball.direction(given.value)
         else:
-            values.setdefault(given.name, float(given.value))
+            numbers.setdefault(given.name, ball.exact(given.value))
     for place in figure.places:
         for axis in (FIRST, SECOND):
             name = scalar(place, axis)
-            values[name] = ball.middle(ball.exact(profile.givens[name].value) - origin[axis])
-    points = {
-        name: (values[scalar(name, FIRST)], values[scalar(name, SECOND)]) for name in (figure.start, *figure.points)
-    }
-    return values, points
+            numbers[name] = ball.exact(profile.givens[name].value) - origin[axis]
+    return numbers
 
 
 def _corners(
@@ -219,18 +240,19 @@ def _corners(
     return {name: corner_of(measures.corners[name], size, absolute) for name, size in corners.items()}
 
 
-def _sizes(profile: Profile, scalars: Mapping[str, float]) -> dict[str, float]:
+def _sizes(profile: Profile, numbers: Mapping[str, Number]) -> dict[str, Number]:
     """The sizes of all corners by the words that state or ask for them."""
-    found = {
-        corner.size: scalars[f"{corner.name}.radius"]
-        for corner in profile.figure.corners
-        if f"{corner.name}.radius" in scalars
-    }
-    return {**found, **sizes_of(profile)}
+    found, givens = dict[str, Number](), profile.givens
+    for corner in profile.figure.corners:
+        if f"{corner.name}.radius" in numbers:
+            found[corner.size] = numbers[f"{corner.name}.radius"]
+        if corner.size in givens:
+            found[corner.size] = ball.exact(givens[corner.size].value)
+    return found
 
 
 def _compare(
-    profile: Profile, system: System, at: Values, scalars: Mapping[str, float]
+    profile: Profile, system: System, residuals: Sequence[Number], at: Values, scalars: Mapping[str, float]
 ) -> tuple[list[Refusal], list[Note]]:
     """Every original equation in exact arithmetic; what was not needed must agree as well as words can."""
     refusals: list[Refusal] = []
@@ -243,8 +265,8 @@ def _compare(
         at.headed,
         at.signs,
     )
-    for index, fact in enumerate(system.facts):
-        off = ball.distance(fact.residual(at), 0.0)
+    for index, (fact, residual) in enumerate(zip(system.facts, residuals, strict=True)):
+        off = ball.distance(residual, 0.0)
         if index in basis:
             if not off <= RESIDUAL:  # true for NaN
                 refusals.append(unverified(off))

@@ -1,13 +1,14 @@
-"""Certifies a contour that was solved in closed form: the same steps once more, in exact numbers and balls."""
+"""Certifies contours: how far the exact places may be from the floats, and whether they are what is printed. Of one
+that was solved in closed form, the same steps are done once more in exact numbers and balls."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 
 from contoursolve.geometry import INCREMENT_OF, Profile, System
 from contoursolve.numeric import Number, ball
 from contoursolve.solving.compile import ExactFunction, compile_decision, compile_proof
 from contoursolve.solving.numbers import inputs_as
-from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit
+from contoursolve.solving.solution import DECIMALS, Certificate, Proof, up_to_one_digit
 
 BITS = 128
 """Bits of the balls: enough for a radius far below the rounding of the floats that are certified."""
@@ -33,15 +34,27 @@ def certify(profile: Profile, system: System, out: Mapping[str, float], bound: f
         for index, name, axis in proof.coordinates:
             exact, rounded = start[axis]
             places.append((results[index] + exact, out[name] + rounded))
-        radius = ball.largest_distance(places)
-        # A fact that was not needed agrees as well as words do; another has been compared before.
-        if (
-            radius == 0
-            and all(ball.is_exact(value) for value, _ in places)
-            and not any(ball.sign(results[index]) for index in proof.residuals)
-        ):
-            return Certificate(Proof.EXACT, 0.0)
-    return Certificate(Proof.UNIQUE, up_to_one_digit(radius))
+        return certificate_of(places, (results[index] for index in proof.residuals))
+
+
+def certificate_of(
+    places: Iterable[tuple[Number, float]], residuals: Iterable[Number] = (), gap: float | None = None
+) -> Certificate:
+    """The certificate of a solution that is proven to be the only one in its box, by whatever way it was found.
+
+    `places` are its coordinates and radii, each in a ball with the float that stands for it; `residuals` are what the
+    equations leave. It is exact if all numbers that are printed of it are the rational ones that solve every equation.
+    """
+    places = tuple(places)
+    is_exact = all(map(_is_printed, places)) and not any(map(ball.sign, residuals))
+    radius = up_to_one_digit(ball.largest_distance(places))
+    return Certificate(Proof.EXACT if is_exact else Proof.UNIQUE, radius, "", gap)
+
+
+def _is_printed(place: tuple[Number, float]) -> bool:
+    """Whether a number is the very decimal that is printed for its float."""
+    exact, value = place
+    return ball.is_exact(exact) and bool(exact == ball.exact(Decimal(repr(round(value, DECIMALS)))))
 
 
 DECISION = 256

@@ -334,10 +334,7 @@ def compile_proof(system: System) -> ExactOutputs:
     """The closed form of a determined system for exact numbers and balls."""
     machine, figure = compile_system(system), system.figure
     signs = dict(pair for measures in machine.measures for pair in measures.signs())
-    pairs = [(scalar(point, FIRST), scalar(point, SECOND)) for point in figure.points]
-    for corner in machine.path.corners.values():
-        pairs += [place for place in (corner.begin, corner.end, corner.center) if place is not None]
-    axes = {name: axis for pair in pairs for axis, name in enumerate(pair)}
+    axes = {scalar(point, axis): axis for point in figure.points for axis in (FIRST, SECOND)} | _corner_axes(machine)
     residuals = (*machine.residuals, *machine.compared)
     names = tuple(dict.fromkeys((*signs, *residuals, *figure.radii, *axes)))
     places = {name: place for place, name in enumerate(names)}
@@ -348,6 +345,21 @@ def compile_proof(system: System) -> ExactOutputs:
         tuple((places[name], name) for name in figure.radii),
         tuple((places[name], name, axis) for name, axis in axes.items()),
     )
+
+
+def _corner_axes(machine: Construction) -> dict[str, int]:
+    """The axis of each coordinate of a corner among the outputs."""
+    places = (place for each in machine.path.corners.values() for place in (each.begin, each.end, each.center) if place)
+    return {name: axis for place in places for axis, name in enumerate(place)}
+
+
+@lru_cache(maxsize=1024)
+def compile_corners(system: System) -> tuple[ExactFunction, tuple[tuple[str, int], ...]]:
+    """The places of the corners at given points for exact numbers and balls: the function, and of each output its name
+    and its axis."""
+    machine = compile_path(system)
+    axes = _corner_axes(machine)
+    return _exactly(machine.tape, tuple(axes), Exactly), tuple(axes.items())
 
 
 def _exactly(tape: Tape, outputs: Sequence[str], functions: Any) -> ExactFunction:

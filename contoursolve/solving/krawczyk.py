@@ -8,7 +8,6 @@ from contoursolve.geometry import System
 from contoursolve.numeric import Number, ball, expressions
 from contoursolve.solving.exact_inputs import Ground
 from contoursolve.solving.partition import Group
-from contoursolve.solving.solution import Proof, up_to_one_digit
 from contoursolve.solving.step_equations import Kernel, Local, local_of, make_kernel
 
 
@@ -99,10 +98,6 @@ MARGIN = 2.0**-100
 """The distance by which the box that is tested reaches beyond a solution's ball, as a share of the coordinates."""
 
 
-Box = tuple[Proof, Sequence[Number]]
-"""The proof of a step's solution, and a ball for each of its unknowns."""
-
-
 class Prover:
     """Proves solutions of one system on one ground; a step that solutions have in common is tested once."""
 
@@ -110,42 +105,35 @@ class Prover:
         self.steps = [local_of(system, group) for group in groups]
         self.ground = ground
 
-    def prove(self, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> tuple[Proof, dict[str, Number]]:
-        """The proof of a solution, and a box for every unknown that holds the exact solution.
+    def prove(self, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> dict[str, Number] | None:
+        """A box for every unknown that is proven to hold exactly one solution; None where none could be proven.
 
         The steps are tested one after the other, each for all values that the ones before may have: the product of
         their boxes then holds exactly one solution of all equations.
         """
         boxes: dict[str, Number] = {}
-        proof = Proof.EXACT
         for step in self.steps:
             kernel = make_kernel(step)
             values = (scalars[name] for name in kernel.unknowns)
             inputs = (self.ground.number(name, boxes, signs) for name in kernel.arguments[len(kernel.unknowns) :])
-            own, found = _test(step, ball.SameNumbers([*values, *inputs]))
-            if own is Proof.UNKNOWN:
-                return Proof.UNKNOWN, dict(scalars)
-            if own is not Proof.EXACT:
-                proof = own
+            found = _test(step, ball.SameNumbers([*values, *inputs]))
+            if found is None:
+                return None
             boxes.update(zip(kernel.unknowns, found, strict=True))
-        return proof, boxes
+        return boxes
 
 
 @lru_cache(maxsize=8192)
-def _test(step: Local, numbers: ball.SameNumbers) -> Box:
-    """The proof of a step's solution, at the values of its unknowns and then of its other inputs."""
+def _test(step: Local, numbers: ball.SameNumbers) -> Sequence[Number] | None:
+    """A ball for each unknown of a step, which hold one solution, at the values of its unknowns and then of its other
+    inputs."""
     kernel, size = make_kernel(step), len(step.group.unknowns)
     values, inputs = numbers.numbers[:size], dict(zip(kernel.arguments[size:], numbers.numbers[size:], strict=True))
     if all(map(ball.is_exact, numbers.numbers)):
         # Rational numbers are tried in the equations themselves.
         found = kernel.equations(numbers.numbers)[: len(kernel.facts)]
         if all(each == 0 for each in found):
-            return Proof.EXACT, values
+            return values
     margin = MARGIN * max(1.0, *(abs(ball.middle(each)) for each in values))
     content, image = content_of(kernel, [ball.wider(each, margin) for each in values], inputs)
-    return (Proof.UNIQUE, refine(kernel, image, inputs)) if content is Content.ONE else (Proof.UNKNOWN, values)
-
-
-def radius_of(boxes: Mapping[str, Number], values: Mapping[str, float]) -> float:
-    """The largest distance of an exact value from its float, rounded up to one digit, mm."""
-    return up_to_one_digit(max((ball.distance(boxes[name], value) for name, value in values.items()), default=0.0))
+    return refine(kernel, image, inputs) if content is Content.ONE else None

@@ -8,12 +8,15 @@ from msgspec import Struct, field
 
 from contoursolve.solving.events import NoteKind, RefusalKind, Status
 
+DECIMALS = 12
+"""Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
+
 
 class Proof(Enum):
     """The grades of what is proven about a solution; the values are those of the JSON."""
 
     EXACT = "exact"
-    """Its numbers satisfy the equations exactly, in rational arithmetic."""
+    """Its numbers, as they are printed, satisfy the equations exactly, in rational arithmetic."""
     UNIQUE = "unique"
     """A box about it holds exactly one solution of the equations, by interval arithmetic."""
     VERIFIED = "verified"

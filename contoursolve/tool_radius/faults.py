@@ -138,6 +138,11 @@ class ToolFaultKind(Enum):
         "a lower F in this block",
         Severity.INFO,
     )
+    RUNS_CROSS = _Row(
+        "program lines {wall} and {line}, the run-in and the run-off, cross at {cross}: what lies beyond counts as air",
+        "let both lines end there if what lies beyond belongs to the contour",
+        Severity.INFO,
+    )
     LEFT_OUT = _Row(
         "the {tool} leaves out {left}: {short} stays there{beside}",
         "a smaller tool leaves less",

@@ -36,11 +36,13 @@ from contoursolve.tool_radius.clearance import gaps_below
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import (
+    FittingRadii,
     OffsetElement,
     OffsetPath,
+    RunsCrossing,
     are_walls,
+    fitting_radii,
     flank_faults,
-    largest_radius,
     shifted,
     stub,
     tip_faults,
@@ -122,11 +124,12 @@ class ToolRun(Struct, frozen=True, dict=True):
 
     @cached_property
     def largest_radius(self) -> float | None:
-        """The largest radius (mm) of a tool that cuts all of it (tried); None where every tool does."""
+        """The largest radius (mm) up to which each tool cuts all of it (tried); None where every tool does."""
         fit = min((each.largest for each in self.faults if each.largest is not None), default=LARGEST)
-        if not self.rules.stops(self.run, fit):
-            return fit if fit < LARGEST else None
-        return largest_radius(lambda size: self.rules.stops(self.run, size), fit)[0]
+        found = self.rules.fitting(self.run, fit)
+        if not found or found[0].low:
+            return 0.0
+        return found[0].high if found[0].high < LARGEST else None
 
     @cached_property
     def uncompensated(self) -> tuple[Segment, ...]:
@@ -167,7 +170,15 @@ class ToolRules(Struct, frozen=True):
         """The faults that keep a tool of a radius (mm) from a run."""
         strict = replace(self, settings=replace(self.settings, leaves=False))
         found = strict.at(with_radius(own, radius)).stops
-        return [each for each in found if self.is_error(each.kind) or each.kind is ToolFaultKind.TIP_AGAINST_SIDE]
+        return [each for each in found if self.is_error(each.kind)]
+
+    def fitting(self, own: CuttingRun, most: float) -> list[FittingRadii]:
+        """All radii (mm) up to one with which nothing keeps a tool from a run."""
+        return fitting_radii(lambda radius: self.stops(own, radius), self.crossing(own), most)
+
+    def crossing(self, own: CuttingRun) -> RunsCrossing | None:
+        """Where the run-in and the run-off of a run cross."""
+        return OffsetPath(own.elements, 0.0, own.side.sign, self.settings, own.levels).crossing
 
     def entry_of(self, own: CuttingRun) -> OffsetPath | None:
         """The path beside the move to a contour and its first element, where the setting has that as an element."""
@@ -312,6 +323,13 @@ def runs_beside(
     return dialect, path, rules, find_runs(path, wanted, dialect)
 
 
+def _crossing(made: OffsetPath) -> list[ToolFault]:
+    """The place where the run-in and the run-off cross, if one of them is cut short there."""
+    if (found := made.crossing) is None or [*made.walls.items()] == [*enumerate(made.elements)]:
+        return []
+    return [ToolFault(ToolFaultKind.RUNS_CROSS, found.coming[0], working=found.going[0], at=found.at)]
+
+
 class ToolFindings:
     """Faults as findings about the lines and words of one program."""
 
@@ -330,6 +348,7 @@ class ToolFindings:
         told += [fault for fault in _of_words(own, tool_run.rules.axes) if not tool_run.rules.is_error(fault.kind)]
         told += [ToolFault(ToolFaultKind.NO_D, 0)] if own.lacks_d else []
         told += [ToolFault(ToolFaultKind.NO_RADIUS, 0)] if own.radius <= LENGTH else []
+        told += _crossing(tool_run.offset)
         told += [ToolFault(ToolFaultKind.STILL_ON, len(own.elements) - 1)] if own.still_on else []
         # What interrupts one run stands before the next one; of a contour without a solution, its own finding tells.
         self.broken |= {line for each in self.result.answers if each.contour is None for line in each.lines}
@@ -455,6 +474,7 @@ class ToolFindings:
             "short": length_in(short, unit),
             "length": length_in(fault.length, unit),
             "needs": length_in(fault.length + short, unit),
+            "cross": coordinates(fault.at, own.plane, unit) if fault.at is not None else "",
             "wall": str(own.travels[fault.element].line),
             "line": str(own.travels[working].line),
             "begin": str(own.lines[0]),

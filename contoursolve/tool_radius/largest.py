@@ -1,8 +1,7 @@
 """The largest tool: up to which radius tools cut contours, and what ends it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
-from functools import partial
 from typing import Unpack
 
 from msgspec.structs import replace
@@ -26,14 +25,19 @@ from contoursolve.geometry import Length
 from contoursolve.program import Request, Result
 from contoursolve.reading import join_premises
 from contoursolve.tolerance import LARGEST
-from contoursolve.tool_radius.faults import ToolFaultKind
+from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.findings import ToolFindings, runs_beside, with_radius
-from contoursolve.tool_radius.offset import GOUGE, largest_radius
+from contoursolve.tool_radius.offset import GOUGE, FittingRadii
 from contoursolve.tool_radius.runs import ToolRequest, nothing_cut
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, make_tool
 
 _REACH = 1000.0
 """mm. Up to which a radius is looked for where no range is given, as for any length."""
+
+_ASIDE = 1e-6
+"""mm. How far below the least radius a tool is tried, to tell what stops it."""
+
+_TRIED = "a smaller tool is taken to fit wherever a larger one does, as long as the same lines and arcs are in its way"
 
 _UNSTATED = Tool(Decimal(1))
 """The tool with which runs are found where none is stated."""
@@ -55,30 +59,63 @@ class ToolTrials:
         own = self.runs[number]
         unit, scale = own.unit.value, float(own.unit.in_mm)
         low, high = (0.0, _REACH / scale) if within is None else read_limits(TOOL, within, LARGEST / scale, unit)
-        stops = partial(self.rules.stops, own)
         if low < 0:
             raise ToolError(f"the radius of a tool is not below 0; search from 0, such as 0:{high:g}")
-        end = End(high, Way.RANGE, None, True, None, None)
-        if stops(high * scale):
-            largest, beyond = largest_radius(stops, high * scale)
-            more = float(inward(Decimal(repr(beyond / scale)), unit, -1)) * scale
-            reason = self._reason(number, largest, more if stops(more) else beyond)
-            largest = round(largest / scale, 12)
-            end = End(largest, Way.BISECTION, reason, True, largest, beyond / scale)
-        begin, has_any = End(low, Way.RANGE, None, True, None, None), end.value >= max(low, GOUGE)
+        every = self.rules.fitting(own, high * scale)
+        found = [each for each in every if each.high >= max(low * scale, GOUGE)]
+        intervals = tuple(Interval(self._begin(number, each, low), self._end(number, each, high)) for each in found)
         is_open = own.tool.radius is _UNSTATED.radius
-        about = TOOL, unit, 0.0 if is_open else own.radius / scale, (low, high), (Interval(begin, end),) * has_any
-        refusal = "" if end.reason is None or has_any else end.reason.text
-        return Feasible(*about, (), refusal, False, is_open, self.premises, "of tools that cut the contour")
+        about = TOOL, unit, 0.0 if is_open else own.radius / scale, (low, high), intervals, (_TRIED,)
+        reason = None if found else self._end(number, every[-1], high).reason
+        refusal = "" if reason is None else reason.text
+        held = "of tools that cut the contour"
+        return Feasible(*about, refusal, False, is_open, self.premises, held, tuple(self._warnings(number)))
 
-    def _reason(self, number: int, largest: float, beyond: float) -> Reason:
-        """The finding about a tool beyond the largest, with its place."""
+    def _begin(self, number: int, fits: FittingRadii, low: float) -> End:
+        unit = self.runs[number].unit
+        scale = float(unit.in_mm)
+        if fits.low <= low * scale:
+            return End(low, Way.RANGE, None, True, None, None)
+        value, below = fits.low / scale, fits.low - _ASIDE
+        less = float(inward(Decimal(repr(below / scale)), unit.value, 1)) * scale
+        reason = self._reason(number, fits.low, self._stopped(number, less, below), -1)
+        return End(value, Way.CLOSED_FORM, reason, True, value, below / scale)
+
+    def _end(self, number: int, fits: FittingRadii, high: float) -> End:
+        unit = self.runs[number].unit
+        scale = float(unit.in_mm)
+        if fits.beyond is None:
+            return End(high, Way.RANGE, None, True, None, None)
+        more = float(inward(Decimal(repr(fits.beyond / scale)), unit.value, -1)) * scale
+        beyond = self._stopped(number, more, fits.beyond)
+        largest = round(fits.high / scale, 12)
+        reason = self._reason(number, fits.high, beyond, 1)
+        return End(largest, Way.BISECTION, reason, True, largest, fits.beyond / scale)
+
+    def _stopped(self, number: int, *radii: float) -> float:
+        """The first of some radii that is stopped, or else the last one, mm."""
+        return next((each for each in radii if self.rules.stops(self.runs[number], each)), radii[-1])
+
+    def _warnings(self, number: int) -> Iterator[str]:
+        """What the tool is warned of, whatever its radius."""
+        own = self.runs[number]
+        for fault in self.warned(number):
+            message = fault.kind.value.message.format(**self.told.texts(own, fault))
+            yield f"program line {own.travels[fault.element].line}: {message}"
+
+    def warned(self, number: int) -> list[ToolFault]:
+        """The faults of the tip of a tool, which no radius ends, and which leave a path."""
+        return [each for each in self.rules.at(self.runs[number]).stops if each.kind is ToolFaultKind.TIP_AGAINST_SIDE]
+
+    def _reason(self, number: int, limit_mm: float, beyond: float, way: int) -> Reason:
+        """The finding about a tool beyond the largest (`way` 1) or below the least one (-1), with its place."""
         fault, made = self.rules.stops(self.runs[number], beyond)[0], with_radius(self.runs[number], beyond)
         word = self.told.word(made, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
         where = f"program line {made.travels[fault.element].line}{f', {word.text}' if word is not None else ''}"
         message = fault.kind.value.message.format(**self.told.texts(made, fault))
-        limit = f"tool at most {limit_text(largest / float(made.unit.in_mm), made.unit.value, 1)}"
-        return Reason(f"{where}: {message}: {limit if largest >= GOUGE else 'no tool fits'}", fault.kind.code, message)
+        shown = limit_text(limit_mm / float(made.unit.in_mm), made.unit.value, way)
+        limit = f"tool at {'most' if way > 0 else 'least'} {shown}" if limit_mm >= GOUGE else "no tool fits"
+        return Reason(f"{where}: {message}: {limit}", fault.kind.code, message)
 
 
 def largest_tools(
@@ -126,8 +163,9 @@ def find_tools(
     Radii are in the unit of the program. Raises ToolError for a tool that there cannot be, for a side that
     nothing says, and without a cutting move.
 
-    A smaller tool fits wherever a larger one does, so there is one range at most; both sides of its end are tried. What
-    no path shows, such as a cycle, is left out; `contoursolve find` lists it.
+    A smaller tool is taken to fit wherever a larger one does, and both sides of each end are tried. Where a large tool
+    reaches from the run-in to the run-off, which cross, less of them is in its way than in that of a small one: there
+    may be two ranges. What no path shows, such as a cycle, is left out; `contoursolve find` lists it.
 
     >>> blocks = "G01 X20. Z-14.6\\nG02 X20.8 Z-15. R0.4\\nG01 X40. Z-15."
     >>> found = find_tools(blocks, side="right", tip=3, start="X20. Z0.", control="fanuc-lathe")

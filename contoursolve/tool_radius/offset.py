@@ -1,7 +1,7 @@
 """The path of a tool's centre beside a contour, and what of the contour it cannot cut."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from math import atan2, cos, degrees, dist, hypot, pi, radians, tan
 
@@ -75,6 +75,17 @@ class Gouge(Struct, frozen=True):
 _USUAL = ToolSettings()
 
 
+class RunsCrossing(Struct, frozen=True):
+    """The place where the straight run-in and the straight run-off of a contour cross in an outside corner, or would if
+    they went on; the numbers of their elements; and the least radius (mm) of a tool that reaches from one to the
+    other."""
+
+    at: Point
+    coming: tuple[int, ...]
+    going: tuple[int, ...]
+    least: float
+
+
 class UncutRest(Struct, frozen=True):
     """The rest that a tool leaves where its centre goes on from one element to a later one: how deep (mm), beside which
     elements (their numbers), and by how much of the first and the last one it does not cut (mm)."""
@@ -89,7 +100,7 @@ class UncutRest(Struct, frozen=True):
 class OffsetPath:
     """The path of the centre of a tool of a radius (mm) to the left (`side` +1) or right (-1) of elements, square to
     the first and the last one at its ends. `levels` are the numbers of the pass of each, from 1, negative for what is
-    no surface, into which nothing can cut."""
+    no surface, into which nothing can cut. Of a part of a path, `walls` are those of the whole one."""
 
     def __init__(
         self,
@@ -98,10 +109,12 @@ class OffsetPath:
         side: int,
         settings: ToolSettings = _USUAL,
         levels: Sequence[int] | None = None,
+        walls: Mapping[int, Segment] | None = None,
     ) -> None:
         self.elements, self.radius, self.side, self.settings = elements, radius, side, settings
         self.levels = levels or [1] * len(elements)
         self.joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
+        self.walls = self._walls() if walls is None else walls
 
     @cached_property
     def stops(self) -> tuple[ToolFault, ...]:
@@ -118,31 +131,38 @@ class OffsetPath:
         """The same, each with the largest radius that fits at its place."""
         return tuple(self._with_largest(self.stops))
 
-    @cached_property
-    def walls(self) -> Mapping[int, Segment]:
-        """The surface of the part, by the numbers of elements. Where straight run-in and run-off cross in an outside
-        corner, or would if they went on while the tool reaches the other one, each is part of it up to there."""
+    def _walls(self) -> Mapping[int, Segment]:
+        """The surface of the part, by the numbers of elements. Where the run-in and the run-off cross, each is part of
+        it up to there."""
         found = {number: each for number, each in enumerate(self.elements) if self.levels[number] > 0}
-        every = range(len(self.elements))
-        coming, going = self._straight(every), self._straight(every[::-1])
-        if not coming or not going or coming[-1] + 1 >= going[-1] or self.levels[0] != self.levels[-1]:
+        crossing = self.crossing
+        if crossing is None or self.radius < crossing.least:
             return found
-        one = LineSegment("", self.elements[0].start, self.elements[coming[-1]].end)
-        other = LineSegment("", self.elements[going[-1]].start, self.elements[-1].end)
-        turn, at = self.side * turn_of(other, one), next(crossings(one, other), None)
-        reach = self.radius / tan(-turn / 2) if turn < 0 else 0.0
-        if at is None or turn >= 0 or not is_on(one, at, reach) or not is_on(other, at, reach):
-            return found
-        if one.length - way_to(one, at) <= AGREEMENT or way_to(other, at) <= AGREEMENT:
-            return found
-        for number in (*coming, *going):
-            own, is_first = self.elements[number], number in coming
-            way = way_to(own, at)
+        for number in (*crossing.coming, *crossing.going):
+            own, is_first = self.elements[number], number in crossing.coming
+            way = way_to(own, crossing.at)
             if 0 < way < own.length:
-                found[number] = replace(own, start=at) if is_first else replace(own, end=at)
+                found[number] = replace(own, start=crossing.at) if is_first else replace(own, end=crossing.at)
             elif (way > 0) is is_first:
                 del found[number]
         return found
+
+    @cached_property
+    def crossing(self) -> RunsCrossing | None:
+        """The place where straight run-in and run-off cross in an outside corner, or would if they went on; None where
+        there is none, or where one of them ends there."""
+        every = range(len(self.elements))
+        coming, going = self._straight(every), self._straight(every[::-1])
+        if not coming or not going or coming[-1] + 1 >= going[-1] or self.levels[0] != self.levels[-1]:
+            return None
+        one = LineSegment("", self.elements[0].start, self.elements[coming[-1]].end)
+        other = LineSegment("", self.elements[going[-1]].start, self.elements[-1].end)
+        turn, at = self.side * turn_of(other, one), next(crossings(one, other), None)
+        if at is None or turn >= 0 or one.length - way_to(one, at) <= AGREEMENT or way_to(other, at) <= AGREEMENT:
+            return None
+        beyond = max(0.0, -way_to(one, at), way_to(other, at) - other.length)
+        # A tool that is the least one but for rounding reaches, too.
+        return RunsCrossing(at, tuple(coming), tuple(going), max(0.0, beyond * tan(-turn / 2) - LENGTH))
 
     def _straight(self, numbers: Sequence[int]) -> list[int]:
         """The first of some elements that follow one another, as far as they are one straight line of the surface."""
@@ -196,8 +216,10 @@ class OffsetPath:
             yield replace(each, largest=largest, short=short)
 
     def _largest(self, near: slice) -> float:
+        walls = {number - near.start: each for number, each in self.walls.items() if near.start <= number < near.stop}
+
         def stops(size: float) -> Sequence[ToolFault]:
-            return OffsetPath(self.elements[near], size, self.side, self.settings, self.levels[near])._stops
+            return OffsetPath(self.elements[near], size, self.side, self.settings, self.levels[near], walls)._stops
 
         return largest_radius(stops, self.radius)[0]
 
@@ -378,14 +400,58 @@ class OffsetPath:
 
 
 def largest_radius(stops: Callable[[float], Sequence[ToolFault]], most: float) -> tuple[float, float]:
-    """The largest radius (mm) that nothing stops, below one that something does; and one beyond that is stopped."""
+    """The largest radius (mm) that nothing stops, below one that something does; and one beyond that is stopped.
+
+    A smaller tool is taken to fit wherever a larger one does, which holds along the same walls (see `fitting_radii`).
+    """
     largest = largest_fitting(lambda size: -1.0 if stops(size + _SLACK) else 1.0, most)
     # Two corners take the slack twice: the decimal that they miss by it fits.
     decimal = round(largest, 6)
     largest = decimal if 0 < decimal - largest <= _ASIDE[0] and not stops(decimal) else largest
-    beyond = next(size for size in (*(largest + each for each in _ASIDE), most) if stops(size))
-    return max(largest - GOUGE * (stops(beyond)[0].kind is ToolFaultKind.INTERFERENCE), 0.0), beyond
+    beyond = next((size for size in (largest + each for each in _ASIDE) if stops(size)), most)
+    gap = any(each.kind is ToolFaultKind.INTERFERENCE for each in stops(beyond)[:1])
+    return max(largest - GOUGE * gap, 0.0), beyond
 
+
+class FittingRadii(Struct, frozen=True):
+    """Radii (mm) that fit, from one to another; and one beyond the other that is stopped, None where none is known."""
+
+    low: float
+    high: float
+    beyond: float | None
+
+
+def fitting_radii(
+    stops: Callable[[float], Sequence[ToolFault]], crossing: RunsCrossing | None, most: float
+) -> list[FittingRadii]:
+    """All radii up to `most` that nothing stops, 0 alone where none fits.
+
+    Where a tool reaches from the run-in to the run-off, less of them is wall, so that a larger tool may fit where a
+    smaller one does not.
+    """
+    least = crossing.least if crossing is not None else 0.0
+    parts = [(0.0, least * (1 - _BELOW)), (least, most)] if 0 < least < most else [(0.0, most)]
+    found = list[FittingRadii]()
+    for low, high in parts:
+        if low and stops(low):
+            continue
+        end, beyond = high, None
+        if stops(high):
+            # What is smaller belongs to the part before.
+            end, beyond = largest_radius(partial(_not_below, stops, low), high)
+        if found and found[-1].beyond is None:
+            found[-1] = FittingRadii(found[-1].low, end, beyond)
+        else:
+            found.append(FittingRadii(low, max(low, end), beyond))
+    return found
+
+
+def _not_below(stops: Callable[[float], Sequence[ToolFault]], low: float, size: float) -> Sequence[ToolFault]:
+    return stops(max(size, low))
+
+
+_BELOW = 1e-9
+"""The share by which a radius is smaller that does not reach what a radius does."""
 
 _GROOVE = 4
 """Elements from one wall of a groove to the other, with its floor and two roundings."""

@@ -249,6 +249,19 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
     yield group
 
 
+def _why(broken: Step | None, axes: Sequence[str]) -> str:
+    """The reason for which the way behind a step is not followed: behind an offset, the next move begins anywhere."""
+    if isinstance(broken, Unfollowed):
+        return broken.reason
+    is_known = not isinstance(broken, Travel) or None not in place_of(broken, axes, at_end=False)
+    return "" if is_known else "where it begins is not known"
+
+
+def _aside(step: Travel, axes: Sequence[str]) -> float:
+    """A coordinate that is none of the end of a move."""
+    return min((at for at in place_of(step, axes, at_end=True) if at is not None), default=0.0) - 1.0
+
+
 def _continues(before: Travel | None, step: Travel, axes: Sequence[str]) -> bool:
     """Whether a move goes on where another one ends, in its plane."""
     if before is None or step.plane is None or before.plane != step.plane:
@@ -277,7 +290,8 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
     if not travels or travels[0].plane is None or own is None:
         return None
     plane = travels[0].plane
-    elements = [segment_of(each, axes) for each in travels]
+    # A move that begins anywhere interrupts its run: where it is put does not matter.
+    elements = [segment_of(each, axes, _aside(each, axes)) for each in travels]
     first, last = (lead or travels[0]).number, travels[-1].number
     words = stock.words.beside(first, (leaving or travels[-1]).number, group.broken.line if group.broken else 0)
     added = tuple(
@@ -315,7 +329,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         group.side is not None,
         group.broken.line if group.broken else stock.changed(travels),
         group.broken is None,
-        group.broken.reason if isinstance(group.broken, Unfollowed) else "",
+        _why(group.broken, axes),
         is_approached,
         void=stock.void(travels[0]) if group.side is not None else None,
         outside=stock.outside(travels[0]),

@@ -59,15 +59,17 @@ class ToolSweep(CompiledSweep, eq=False, kw_only=True):
         for number in numpy.flatnonzero(is_solved).tolist():
             here = numpy.flatnonzero(contour == number)
             own = radii[[begin + number]] if self.ranges.is_paired else radii
-            stops = self._stops({word: float(each[number]) for word, each in values.items()}, own)
+            stops, warned = self._stops({word: float(each[number]) for word, each in values.items()}, own)
             own = own[(here + first) % many]
             table["tool.fits"][here] = [stops[radius] is None for radius in own]
-            table["tool.fault"][here] = [stop[1].name.lower() if (stop := stops[radius]) else "" for radius in own]
+            table["tool.fault"][here] = [
+                each[1].name.lower() if (each := stops[radius] or warned) else "" for radius in own
+            ]
             cut = (radius for radius, stop in stops.items() if stop is None)
             table["tool.largest"][here] = max(cut, default=numpy.nan) * self.scale
 
-    def _stops(self, values: Mapping[str, float], radii: NDArray[numpy.float64]) -> dict[float, Stop]:
-        """The reasons that stop each tool at one contour."""
+    def _stops(self, values: Mapping[str, float], radii: NDArray[numpy.float64]) -> tuple[dict[float, Stop], Stop]:
+        """The reasons that stop each tool at one contour, and what all tools are warned of."""
         filled = self.template.filled(values)
         trials = ToolTrials(filled.examined(Depth.VERDICT), filled.asked, self.tool)
 
@@ -76,12 +78,21 @@ class ToolSweep(CompiledSweep, eq=False, kw_only=True):
             every, stops = enumerate(trials.runs), trials.rules.stops
             return next(((at, each.kind) for at, own in every for each in stops(own, radius * self.scale)), None)
 
-        return _fill(numpy.unique(radii).tolist(), stop_of)
+        # Where a tool reaches from the run-in to the run-off, a larger one may fit where a smaller one does not.
+        crossings = (trials.rules.crossing(own) for own in trials.runs)
+        ends = [each.least / self.scale for each in crossings if each is not None]
+        rising = numpy.unique(radii)
+        parts = numpy.split(rising, numpy.searchsorted(rising, sorted(ends)))
+        stops = {radius: stop for part in parts if len(part) for radius, stop in _fill(part.tolist(), stop_of).items()}
+        warned = next(
+            ((number, each.kind) for number in range(len(trials.runs)) for each in trials.warned(number)), None
+        )
+        return stops, warned
 
 
 def _fill(rising: list[float], stop_of: Callable[[float], Stop]) -> dict[float, Stop]:
-    """The reasons that stop each of some rising radii. What stops one stops all that are larger, and the kinds are told
-    in one order, so all are alike between two that are alike."""
+    """The reasons that stop each of some rising radii, for which the same lines and arcs are in the way. What stops one
+    stops all that are larger, and the kinds are told in one order, so all are alike between two that are alike."""
     low, high = stop_of(rising[0]), stop_of(rising[-1])
     if low == high or len(rising) <= 2:  # noqa: PLR2004 - there is none between
         return dict.fromkeys(rising, low) | {rising[-1]: high}
@@ -129,7 +140,7 @@ def family_of_tools(
 
     Each row is as `family` has it, with its own status, and three arrays more: `tool.fits` (bool; False without a
     contour), `tool.largest` (mm; the largest of the given radii that cuts this contour, NaN where none does), and
-    `tool.fault` (text, such as `arc_too_small`; what stops the tool, empty for nothing).
+    `tool.fault` (text, such as `arc_too_small`; what stops the tool, or else what it is warned of, empty for nothing).
 
     >>> vary = {"P": [0.4, 0.8, 1.2], "tool": [0.4, 0.8]}
     >>> block = "G111 X100. A180. K-30. B120. P5. Q5."

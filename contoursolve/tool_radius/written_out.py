@@ -1,12 +1,14 @@
 """A program without calls and finishing cycles: each pass, and the profile of G70, stands where it runs."""
 
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Iterator, Sequence
 
 from contoursolve.comparison import FINISHING, ToolPath, Travel, follow, in_cycle
-from contoursolve.execution import Call, CallKind, EventKind, MacroLanguage, ProgramEvent, needs_running
+from contoursolve.execution import Call, CallKind, EventKind, Machine, MacroLanguage, ProgramEvent, needs_running
 from contoursolve.gcode import Block, comment_out, parse_block
+from contoursolve.geometry import Length
 from contoursolve.program import Run, lines_alone, machine_for
-from contoursolve.reading import Dialect
+from contoursolve.reading import Dialect, State, TakenBlocks, Ways, advance
 from contoursolve.tool_radius.tool import ToolError
 
 _KEPT = frozenset("NFSTMDG")
@@ -16,7 +18,7 @@ _KEPT = frozenset("NFSTMDG")
 def written_out(run: Run, dialect: Dialect, *, is_inline: bool) -> list[Block]:
     """The blocks of a program that has calls or cycles with profiles; none of a plain one. Raises ToolError."""
     program, language = run.frame.program, dialect.modes.language
-    machine = machine_for(program, dialect, run.asked.around)
+    machine = machine_for(program, dialect, run.asked.around, run.asked.unit)
     if machine is None or language is None:
         return []
     others = (block.text for block in program.blocks if not _calls_profile(block.text, language))
@@ -26,7 +28,7 @@ def written_out(run: Run, dialect: Dialect, *, is_inline: bool) -> list[Block]:
     blocks, backs = list[Block](), iter(list[str]())
     if any(_calls_profile(block.text, language) for block in program.blocks):
         backs = _ways_back(follow(run.collect(), dialect, run.asked.unit, dialect.modes.axes, finishes=True))
-    for each in lines_alone(machine, _refuse):
+    for each in _followed(machine, dialect, run.asked.unit):
         if isinstance(each, Block):
             blocks.append(each)
         elif isinstance(each, ProgramEvent) and each.reason in FINISHING:
@@ -35,6 +37,24 @@ def written_out(run: Run, dialect: Dialect, *, is_inline: bool) -> list[Block]:
             elif each.kind is EventKind.LEAVE:
                 blocks.append(parse_block(next(backs), each.line, dialect.modes.syntax))
     return blocks
+
+
+def _followed(machine: Machine, dialect: Dialect, unit: Length) -> Iterator[Block | ProgramEvent]:
+    """The lines of a program without calls, while somebody follows its modes: SAVE brings some of them back."""
+
+    def take(held: Sequence[Block], index: int, state: State, _: bool) -> TakenBlocks:
+        return TakenBlocks(1, advance(state, held[index], dialect.modes))
+
+    ran = list[Block | ProgramEvent]()
+
+    def kept() -> Iterator[Block | ProgramEvent]:
+        for each in lines_alone(machine, _refuse):
+            ran.append(each)
+            yield each
+
+    ways = Ways(lambda: dialect.initial_state(unit), dialect.modes, take)
+    deque(machine.follow(kept(), ways), 0)
+    yield from ran
 
 
 def _refuse(event: ProgramEvent) -> None:

@@ -131,7 +131,7 @@ def test_the_largest_tool_of_whole_programs(name: str, words: tuple[str, ...], l
 
 def test_lines_that_are_no_path_are_named_and_units_may_change(tmp_path: Path):
     program = tmp_path / "a.nc"
-    inch = "G20 G00 X8. Y0\nG01 X8. Y1. ,R.1\nX9.\n"
+    inch = "G17 G20 G90 G00 X8. Y0\nG01 X8. Y1. ,R.1\nX9.\n"
     program.write_text(f"G17 G21 G90\nG00 X0 Y0\nG01 X0 Y30. ,R2.\nX40.\nM98 P7777\n{inch}M30\n")
     done = call("find", program, "--word", "tool", *MILL, "--side", "right")
     assert done.stdout.splitlines()[0] == "largest tool for all 2 contours: 2.0000 mm"
@@ -193,3 +193,88 @@ def test_arrays_have_the_tool_as_their_last_axis():
     with pytest.raises(TypeError, match="sid"):
         contoursolve.find_tools(block, sid="left")  # type: ignore[call-arg]
     assert found.to_arrow()["tool.fault"].to_pylist()[3] == ""
+
+
+CROSSING = (
+    "X-10. Y-20. / G41 G01 X0. Y-7.2 / X0. Y20. / X-16.4 Y-5.3 / X7.9 Y-18.6 / X30. Y0. / X3.6 Y0. / G40 X3.6 Y-40."
+)
+"""The run-in begins 7.2 mm before the run-off, which ends 3.6 mm from it: a cutter R3.6 reaches the other one."""
+
+
+def test_a_larger_tool_may_fit_where_a_smaller_one_does_not():
+    about, end = (*MILL, *blocks_of(CROSSING)), 3.1036080981
+    found = data("range", "--word", "tool", *about)
+    ends = [(each["low"]["value"], each["high"]["value"]) for each in found["ranges"]]
+    assert ends == [(0, pytest.approx(end, abs=1e-6)), (pytest.approx(3.6), pytest.approx(4.1937359, abs=1e-6))]
+    assert not found["complete"]
+    assert (
+        "not proven: a smaller tool is taken to fit wherever a larger one does"
+        in call("range", "--word", "tool", *about).stdout
+    )
+    for radius in (0.5, 3.1, 3.2, 3.5, 3.6, 4.19, 4.2):
+        fits = radius < end or 3.6 <= radius < 4.1937
+        done = call("check", "--tool", f"R{radius}", *about)
+        assert (done.exit_code == 0) is fits, radius
+        # Up to the end of the first range every tool is known to fit.
+        assert fits or "up to 3.1036 mm" in done.stdout or "; 3.1036 mm the whole contour" in done.stdout
+        assert ("tool-runs-cross" in done.stdout) is (radius >= 3.6)
+    assert (
+        "program lines 2 and 6, the run-in and the run-off, cross at X0.0000 Y0.0000"
+        in call("check", "--tool", "R4", *about).stdout
+    )
+    # A table of many radii says the same, whatever lies between.
+    start, *lines = CROSSING.replace("X0. Y20.", "X0. Y20. ,R5.").split(" / ")
+    radii = [1, 2, 3.2, 3.5, 3.7, 4, 4.5]
+    family = contoursolve.family_of_tools("\n".join(lines), start=start, control="fanuc-mill", vary={"tool": radii})
+    assert family["tool.fits"].tolist() == [True, True, False, False, True, True, False]
+
+
+CROSSES_ITSELF = """0 BEGIN PGM A MM
+1 TOOL CALL 1 Z S1000
+2 L X-3 Y-10.94 R0 FMAX
+L X0 Y0 RR F300
+L X39.154 Y0
+CC X26.1021 Y16.2125
+C X18.5533 Y35.6087 DR+
+L X9.282 Y32
+L X5.884 Y27.763
+L X0.281 Y-8.704
+L X-2.52 Y-26.936
+CC X-16.3453 Y-37.4622
+C X-23.2396 Y-53.4124 DR-
+L X-21.6528 Y-42.1801 R0 FMAX
+END PGM A MM
+"""
+
+
+def test_a_part_of_a_contour_has_the_walls_of_the_whole(tmp_path):
+    """Of the elements around the fault alone, the first and the last one would be the run-in and the run-off."""
+    program = tmp_path / "a.h"
+    program.write_text(CROSSES_ITSELF)
+    done = call("check", "--tool", "R3", program)
+    assert done.exit_code == 1
+    assert "cuts 3.0000 mm into program line 10 while it works on program line 5" in done.stdout
+    assert "no cutter fits here" in done.stdout
+    lines = "X11. Y3. / G41 G01 X0. Y0. / Y-35.103 / X-13.62 Y-16.242 / X-23.293 Y-2.846 / X-13.57 Y-6.169 / "
+    rest = "X13.136 Y6.933 / X31.164 Y15.777 / X57.081 Y14.025 / G40 X60.8161 Y24.7976"
+    about = ("--control", "isg", *blocks_of(lines + rest))
+    done = call("check", "--tool", "R3", *about)
+    assert "a cutter of radius up to 0.7837 mm cuts the whole contour (tried)" in done.stdout
+    (found,) = data("range", "--word", "tool", *about)["ranges"]
+    assert found["high"]["value"] == pytest.approx(0.7837, abs=1e-4)
+
+
+BORE = "X34. Z2. / G41 G01 Z0. / X30. Z-2. / Z-20. / X20. ,R1. / Z-32. / G40 X18."
+
+
+def test_a_doubtful_tip_is_a_warning_wherever_it_is_told(tmp_path):
+    """No radius makes a tip another one: it keeps no tool from the contour."""
+    about, warning = (*LATHE, *blocks_of(BORE)), "tip 3 points away from this line, with the tool left of it"
+    check = call("check", "--tool", "R0.4", *about[:2], "--tip", "3", *about[4:])
+    assert (check.exit_code, check.stdout.count(f"warning[tool-tip-against-side]: {warning}")) == (0, 2)
+    assert call("expand", "--tool", "R0.4", *about).exit_code == 0
+    ranges = call("range", "--word", "tool", *about).stdout
+    # The step of 5 mm has a corner of 1 mm.
+    assert "to    4.0000 mm  program line 4: the line is 4.0000 mm long" in ranges
+    assert ranges.count(f"warning: program line {3}: {warning}") == 1
+    assert len(data("range", "--word", "tool", *about)["warnings"]) == 2

@@ -1,6 +1,6 @@
 """CNC PILOT: what must be said of wrong programs, its settings, and its sections. Its worked examples are vectors."""
 
-from math import degrees, hypot, radians, tan
+from math import cos, degrees, hypot, radians, sin, tan
 from random import Random
 
 import pytest
@@ -66,6 +66,22 @@ def test_a_setting_reads_a_program_as_the_default_reads_another_one(stated):
 
 
 # Drawn first and described by words afterwards ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_centre_of_an_arc_counts_from_the_end_of_a_line_also_where_that_is_computed(seed: int):
+    random = Random(seed)
+    angle, rise, turn = random.uniform(10, 60), random.uniform(3, 15), random.choice((2, 3))
+    tail = -rise / tan(radians(angle)), 20 + rise
+    step, way = (random.uniform(-6, 6), random.choice((-1, 1)) * random.uniform(8, 20)), random.uniform(0, 360)
+    center = tail[0] + step[0], tail[1] + step[1]
+    end = center[0] + hypot(*step) * cos(radians(way)), center[1] + hypot(*step) * sin(radians(way))
+    line = f"N2 G1 X{2 * tail[1]:.4f} A{angle:.5f} B0"
+    arc = f"N3 G{turn} X{2 * end[1]:.4f} Z{end[0]:.4f} I{step[1]:.4f} K{step[0]:.4f}"
+    result = solve(f"FERTIGTEIL\nN1 G0 X40 Z0\n{line}\n{arc}\nBEARBEITUNG\nENDE")
+    wanted = [tail[0], 2 * tail[1], turn, hypot(*step), center[0], 2 * center[1], end[0], 2 * end[1]]
+    assert path(result) == pytest.approx(wanted, abs=5e-3)
+    assert not [each for each in result.diagnostics if each.is_error]
 
 
 def place(at: tuple[float, float]) -> str:

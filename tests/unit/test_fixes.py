@@ -5,7 +5,7 @@ import pytest
 from contoursolve import DIALECTS, Diagnostic, Fix, solve
 from contoursolve.diagnostics import Applicability
 
-START = "X40. Z0."
+START = "T0101 X40. Z0."  # the tool that is there
 TAPER = "G111 X100. A180. K-30. B120."
 MOVED = {
     "T0101": ("tool", "before"),

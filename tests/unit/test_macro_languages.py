@@ -295,7 +295,8 @@ M97 P1000 L2
 M99 -> Return
 {M99 P30} -> Return to=30
 G28 U0 M30 -> ProgramEnd
-{G65 P9010 B#2 I4 I-#3 L2} -> Call program 9010 count=2 arguments=((#2, #2), (#4, 4), (#7, negate(#3))) is_local=True
+{G65 P9010 B#2 I4. I-#3 L2} -> Call program 9010 count=2 arguments=((#2, #2), (#4, 4), (#7, negate(#3))) is_local=True
+{G65 P1 X20} -> Call program 1 arguments=((#24, multiply(20, @LENGTH)),) counted=X is_local=True
 G71 P10 Q020 U.5 F.2 -> Call profile 10 last=20 cycle=G71
 G73 X5 Z-3 R1 Q2 P5
 G71 U2. R1.
@@ -333,8 +334,9 @@ TOOL CALL "SEQ5" Z S100
 """,
     "sinumerik": """
 N10 {R[R2]=R1+1 R3=R1*2} ; R5=1 -> Assign R<R2> add(R1, 1); Assign R3 multiply(R1, 2)
-{DEF REAL AA=5, BB, CC[2]} -> Assign AA 5; Assign BB 0; Assign CC[0] 0; Assign CC[1] 0
-{DEF INT DD[2]=SET(1,2)} -> Assign DD[0] 1; Assign DD[1] 2
+{DEF REAL AA=5, BB} -> Assign AA 5 of_type=real; Assign BB 0 of_type=real
+{DEF REAL CC[1]} -> Assign CC 0 of_type=real; Assign CC[0] 0 of_type=real
+{DEF INT DD[2]=SET(1,2)} -> Assign DD 0 of_type=int; Assign DD[0] 1 of_type=int; Assign DD[1] 2 of_type=int
 {IF R1==5 GOTOF MARK} -> Jump MARK condition=equal(R1, 5) way=forward
 {IF (R1>5) AND NOT (R2<3)} -> If and(greater(R1, 5), not(less(R2, 3)))
 {WHILE R1<10} -> Loop name=WHILE condition=less(R1, 10)
@@ -348,15 +350,15 @@ N10 {R[R2]=R1+1 R3=R1*2} ; R5=1 -> Assign R<R2> add(R1, 1); Assign R3 multiply(R
 {REPEAT LAB P=3} -> Call section LAB count=3
 {REPEAT AA BB P=R1} -> Call label AA last=BB count=R1
 {REPEATB AA P3} -> Call label AA last=AA count=3
-{L10 P3} -> Call program L10 count=3
-{Kontur} -> Call program KONTUR
-{KONTUR(1,,R2)} -> Call program KONTUR arguments=((1, 1), (2, 0), (3, R2))
-{CALL "/_N_WKS_DIR/_N_NAME_SPF"} -> Call program NAME
+{L10 P3} -> Call program L10 count=3 is_local=True
+{Kontur} -> Call program KONTUR is_local=True
+{KONTUR(1,,R2)} -> Call program KONTUR arguments=((1, 1), (2, 0), (3, R2)) is_local=True
+{CALL "/_N_WKS_DIR/_N_NAME_SPF"} -> Call program NAME is_local=True
 {CALL BLOCK AA TO BB} -> Call label AA last=BB
 G0 X5 M17 -> Return
 S2=1000 M2=3 FRCM= 200
 {RET} -> Return
-{CYCLE95("NAME",1,2)} -> Call profile NAME cycle=CYCLE95
+{CYCLE95("NAME",1,2)} -> Call profile NAME is_local=True cycle=CYCLE95
 {CYCLE95("A:B",1,2)} -> Call profile A last=B cycle=CYCLE95
 {CYCLE62(,2,"L1","L2")} -> Call profile L1 last=L2 cycle=CYCLE62
 MSG("X R1=5")
@@ -374,7 +376,7 @@ N10 {P[P1]=3*P2} (x (y) P1=4) -> Assign P<P1> multiply(3, P2)
 {$ENDDO P1<5} -> EndLoop name=DO until=not(less(P1, 5))
 {$GOTO N0010} -> Jump 10
 {$GOTO [Lab]} -> Jump LAB
-{LL Sub1} -> Call program SUB1
+{LL Sub1} -> Call program SUB1 is_local=True
 M29 -> Return
 #MSG ["P1=5"]
 {$SWITCH P1} -> Strange $SWITCH P1 cannot be read
@@ -396,7 +398,14 @@ def test_what_a_line_says(language, line, statements):
     ("language", "line", "begins", "parameters", "labels", "number"),
     [
         ("sinumerik", "%_N_L10_SPF", "L10", (), (), ""),
-        ("sinumerik", "PROC Name(REAL AA, VAR INT BB=3, STRING[20] CC) SAVE", "NAME", ("AA", "BB", "CC"), (), ""),
+        (
+            "sinumerik",
+            "PROC Name(REAL AA, VAR INT BB=3, STRING[20] CC) SAVE",
+            "NAME",
+            ("AA real", "VAR BB int=", "CC string"),
+            (),
+            "",
+        ),
         ("sinumerik", "N5 Mark: G1 X5", None, (), ("MARK",), "5"),
         ("isg", "%L Sub1", "SUB1", (), (), ""),
         ("isg", "%BRACKET", "BRACKET", (), (), ""),
@@ -413,7 +422,12 @@ def test_what_a_line_says(language, line, statements):
 )
 def test_programs_and_blocks_begin(language, line, begins, parameters, labels, number):
     code = LANGUAGES[language].read(line)
-    assert (code.begins, code.parameters, code.labels, code.number) == (begins, parameters, labels, number)
+    formal = tuple(
+        f"{'VAR ' * each.is_reference}{each.name} {each.of_type.value.lower()}{'=' * each.has_default}"
+        for each in code.parameters
+    )
+    assert (code.begins, formal, code.labels, code.number) == (begins, parameters, labels, number)
+    assert code.saves == line.endswith("SAVE")
 
 
 PIECES = sorted({piece for row in ROWS for piece in re.findall(r"\w+|\S| ", row[1])})

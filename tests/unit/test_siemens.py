@@ -143,3 +143,37 @@ def heading(element: Element, at: complex) -> complex:
     if element.center is None:
         return (element.end - element.start) / abs(element.end - element.start)
     return (at - element.center) / element.radius * (1j if element.turn == "ccw" else -1j)
+
+
+def test_an_increment_from_an_unknown_start_leads_nowhere():
+    text = "G17 G90 G0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX116 Y115.4 ANG=120\nG0 X5\nG1 Y94 RND=1\nX20"
+    assert [(each.code, each.span.line) for each in siemens(text).diagnostics] == [
+        ("position-unknown", 2),
+        ("position-unknown", 5),
+    ]
+
+
+def test_where_a_corner_is_not_made_the_words_of_the_end_still_say_where_it_is():
+    head, tail = "G18 G90 DIAMON G54\nG0 X16 Z0\nG1 X20\nZ-25 RND=9\nX30 CHR=1\nZ-40\n", "X40 ANG=150\nM30"
+    wrong, last = solve(head + tail, control="siemens-840d").answers
+    assert wrong.contour is None
+    assert last.start.values == (-40, 15)
+    # An increment of a line that has no start has no end, either.
+    unknown = "G17 G90 G54\nG0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX100 Y100 ANG=120\nG1 X10 RND=2\nY10\nM30"
+    first, second = solve(unknown, control="siemens-840d").answers
+    assert first.start.values == second.start.values == (None, None)
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("G1 X20 RND=5\nSUB1\nM30\nPROC SUB1\nY20\nRET", "a corner"),
+        ("SUB1\nY20\nM30\nPROC SUB1\nG1 X20 RND=5\nRET", "a corner"),
+        ("G1 ANG=30\nSUB1\nM30\nPROC SUB1\nX60 Y20 ANG=90\nRET", "a line by its angle alone"),
+    ],
+)
+def test_what_goes_on_behind_a_call_is_refused_for_that(text, what):
+    told = solve(f"G17 G90 G54\nG0 X0 Y0\n{text}", control="siemens-840d").diagnostics
+    first = next(each for each in told if each.is_error)
+    assert (first.code, first.fixes) == ("not-read", ())
+    assert first.message == f"contoursolve does not read {what} right before a call or a return yet"

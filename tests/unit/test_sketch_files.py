@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import contoursolve
-from contoursolve.sketches import SketchError, sketch_schema, write_sketch
+from contoursolve.sketches import SketchError, read_sketch, sketch_schema, solve_sketch, write_sketch
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "tests" / "sketches").glob("*.toml"))
@@ -73,3 +73,80 @@ def _schema() -> str:
 
 if __name__ == "__main__":
     (ROOT / "docs" / "sketch.schema.json").write_text(_schema(), encoding="utf-8")
+
+
+REPEATING = {
+    "a chord beside its ends": """sketch = 1
+part = "milled"
+start = { X = 0, Y = 0 }
+[[element]]
+kind = "line"
+X = 9.248192
+[[element]]
+kind = "arc"
+X = 16.373786
+CCA = 354.4
+CCX = 11.298126
+LEN = 8.80214
+tangent = true
+turn = "cw"
+[[element]]
+kind = "arc"
+Y = -11.206371
+CCA = 226.9
+LEN = 10.791844
+tangent = true
+turn = "ccw"
+""",
+    "a radius beside a centre": """sketch = 1
+part = "milled"
+start = { X = 0, Y = 0 }
+[[element]]
+kind = "line"
+X = 10.360887
+[[element]]
+kind = "arc"
+LEN = 7.932715
+CCA = 302.4
+CCX = 5.839095
+R = 5.5
+tangent = true
+turn = "cw"
+[[element]]
+kind = "line"
+Y = -34.123453
+IX = -16.442881
+LEN = 20
+[[element]]
+kind = "arc"
+CCA = 246.1
+Y = -49.056476
+CCY = -41.193892
+tangent = true
+turn = "ccw"
+""",
+}
+"""Dimensions of drawings that repeat others to the sixth decimal, in which they are rounded."""
+
+
+@pytest.mark.parametrize(
+    ("name", "ends", "wrong"),
+    [
+        ("a chord beside its ends", [(9.248, 4.06), (16.374, -1.108), (20.18, -11.206)], ("8.80214", "8.8022")),
+        (
+            "a radius beside a centre",
+            [(10.361, -14.963), (8.786, -22.738), (-7.657, -34.123), (-6.245, -49.056)],
+            ("LEN = 20", "LEN = 20.001"),
+        ),
+    ],
+)
+def test_dimensions_that_repeat_others_but_for_rounding_are_too_many_and_no_contradiction(
+    name: str, ends: list[tuple[float, float]], wrong: tuple[str, str]
+) -> None:
+    found = solve_sketch(read_sketch(REPEATING[name]))
+    assert found.is_finished, found.said
+    assert [tuple(round(value, 3) for value in each.segment.end) for each in found.elements] == ends
+    assert [each.code for each in found.findings if each.severity.value == "error"] == []
+    # What is really off is told with its amount.
+    told = solve_sketch(read_sketch(REPEATING[name].replace(*wrong)))
+    assert any(each.off_mm for each in told.findings), [each.message for each in told.findings]

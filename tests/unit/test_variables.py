@@ -196,3 +196,55 @@ def test_a_fix_keeps_the_variable_of_a_word_whose_address_it_changes():
     found = next(each for each in contoursolve.check(text, control="siemens-840d") if each.fixes)
     assert found.fixes[0].description.startswith("write CR=R10 for R=R10")
     assert found.fixes[0].replacement.splitlines()[1] == "G3 X78 Y8 CR=R10"
+
+
+HANDED_OVER = """{unit}
+G00 X0. {axis}0.
+G65 P7002 X20000 R{size}
+M30
+O7002
+G01 X#24 ,R#18 F1.
+{axis}-40.
+M99"""
+
+
+@pytest.mark.parametrize("control", [each for each in MACRO_B if each != "yasnac-lx3"])
+@pytest.mark.parametrize(("unit", "step"), [("G21", 0.001), ("G20", 0.0001), ("", 0.001)])
+def test_an_argument_without_a_point_counts_the_least_increment_of_its_address(control: str, unit: str, step: float):
+    axis = "Z" if control.endswith("lathe") else "Y"
+
+    def solved(**options):
+        program = HANDED_OVER.format(unit=unit, axis=axis, size="3000" if not options else "3")
+        return contoursolve.solve(program, control=control, **options)
+
+    result = solved()
+    (answer,) = result.answers
+    (radius,) = (each.radius for each in answer.contour.elements if hasattr(each, "radius"))
+    assert radius == pytest.approx(3000 * step * (25.4 if unit == "G20" else 1))
+    (warning,) = (each for each in result.diagnostics if each.code == "argument-in-increments")
+    assert (warning.severity.value, warning.span.line) == ("warning", 3)
+    short = "2 and 0.3" if unit == "G20" else "20 and 3"
+    assert f"X20000 and R3000 have no decimal point and are read as {short} in the called program" in warning.message
+    # A control that reads them as they stand has the same warning.
+    whole = solved(settings={f"{control}.macro-arguments": "whole"})
+    (radius,) = (each.radius for each in whole.answers[0].contour.elements if hasattr(each, "radius"))
+    assert radius == pytest.approx(3 * (25.4 if unit == "G20" else 1))
+    assert [each.code for each in whole.diagnostics].count("argument-in-increments") == 1
+
+
+def test_an_argument_is_not_known_where_the_unit_changes():
+    program = "G21 G90\nG00 X0. Y0.\nG65 P9 X20000\nG20\nG65 P9 X20000\nM30\nO9\nG01 X#24 ,R3. F1.\nY40.\nM99"
+    result = contoursolve.solve(program, control="fanuc-mill")
+    assert all(each.contour is None for each in result.answers)
+    notes = [note for each in result.diagnostics for note in each.notes]
+    assert any("no decimal point, and the program changes between mm and inches" in each for each in notes)
+    # With points, the unit of the calls does not matter.
+    pointed = contoursolve.solve(program.replace("20000", "20."), control="fanuc-mill")
+    assert not [each for each in pointed.diagnostics if each.code == "argument-in-increments"]
+
+
+def test_whole_numbers_and_other_letters_are_handed_over_as_they_stand():
+    program = "G21 G90\nG00 X0. Y0.\nG65 P9 D20 H3 S7 T0 X0\nM30\nO9\nG01 X#7 ,R#11 F1.\nY40.\nM99"
+    result = contoursolve.solve(program, control="fanuc-mill")
+    assert result.answers[0].contour.points["V1"] == (20, 0)
+    assert not [each for each in result.diagnostics if each.code == "argument-in-increments"]

@@ -213,6 +213,10 @@ def test_behind_each_move_of_a_modal_call_nothing_is_known(control, call, end, c
     head = f"{MILL}G1 X5. Y5. F9.\n{call}\nX10. Y10.\n"
     info = ("not-read", "info", f"contoursolve does not read {name} yet")
     chain, stated = f"Y60. {corner}\nX20.", "X10. Y10.\n"
+    if "CYCLE" not in call:
+        modes = told(findings(control, head + chain))[1]
+        assert modes[0] == "mode-unknown"
+        return
     for text in (head + chain, f"{head}{end}\n{chain}", f"{head}{chain}\n{end}\n{chain}\n{stated}"):
         first, *others = told(findings(control, text))
         assert first == info
@@ -225,7 +229,7 @@ def test_behind_each_move_of_a_modal_call_nothing_is_known(control, call, end, c
 @pytest.mark.parametrize("decides", ["IF R5>0", "IF R5>0 GOTOF ON"])
 def test_ways_that_meet_know_whether_a_modal_call_is_in_force(decides):
     ends = "ENDIF" if "GOTO" not in decides else "ON:"
-    text = f"{MILL}G1 X5 Y5 F9\n{decides}\nMCALL DRILLING\n{ends}\nX10 Y10\nX30 Y10\nY60 RND=3\nX20"
+    text = f"{MILL}G1 X5 Y5 F9\n{decides}\nMCALL HOLES1(1)\n{ends}\nX10 Y10\nX30 Y10\nY60 RND=3\nX20"
     assert {each.code for each in findings(SINUMERIK, text)} == {"not-read", "position-unknown"}
 
 
@@ -261,12 +265,6 @@ def test_an_argument_of_a_subprogram_is_one_note(block):
     assert not findings(SINUMERIK, text, variables={"CORNER": 3.0})
 
 
-def test_a_variable_or_a_program_of_one_letter_is_one():
-    text = MILL + "A(3)\nM30\nPROC A(REAL C)\nDEF REAL D=2\nG1 X60 F200 RND=C\nY40 CHR=D\nX20\nM17"
-    result = contoursolve.solve(text, control=SINUMERIK)
-    assert (result.diagnostics, [each.status for each in result.answers]) == ((), [Status.SOLVED])
-
-
 @pytest.mark.parametrize(
     ("action", "known"),
     [
@@ -285,3 +283,9 @@ def test_a_synchronous_action_of_sinumerik_runs_beside_the_program(action, known
         assert result.answers[0].lines == (2, 4)
     else:
         assert any("moves an axis beside the program" in each.message for each in result.diagnostics if each.is_error)
+
+
+def test_a_formal_parameter_or_a_program_of_one_letter_is_one():
+    text = MILL + "A(3)\nM30\nPROC A(REAL C)\nDEF REAL DD=2\nG1 X60 F200 RND=C\nY40 CHR=DD\nX20\nM17"
+    result = contoursolve.solve(text, control=SINUMERIK)
+    assert (result.diagnostics, [each.status for each in result.answers]) == ((), [Status.SOLVED])

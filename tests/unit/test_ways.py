@@ -169,6 +169,15 @@ def test_the_head_of_a_loop_is_reached_from_above_and_from_its_end(name):
     assert answer.status is Status.SOLVED
 
 
+@pytest.mark.parametrize("control", ["fanuc-lathe", "haas-lathe"])
+def test_a_first_pass_that_ends_where_it_began_says_nothing_of_the_second_one(control):
+    loop = "#1=20\nWHILE[#500 GT 0]DO1\nG01 X#1\nM05\n#1=#1+2\nEND1"
+    text = f"G00 X40. Z0.\nG01 X20. F0.2\nM05\n{loop}\nM05\nG01 Z-40. ,R2.\nX60.\nM30"
+    (answer,) = solve(text, control=control).answers
+    (finding,) = answer.diagnostics
+    assert finding.code == "position-unknown"
+
+
 B10 = """PROC REC(INT K)
 G18 G90 DIAMON
 G0 X60 Z2

@@ -31,6 +31,7 @@ from contoursolve.controls.chain.language import (
     ORDINARY,
     OTHER_DIAMETER,
     OTHER_PLANE,
+    OTHER_ZERO,
     POINT,
     RAPID,
     SIGNED,
@@ -77,20 +78,26 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     )
     return builder.build(
         form,
-        replace(before, plane=first.plane, unit=first.unit),
+        _begins(before, members[0]),
         last,
         words=known,
         unknown=tuple(word for word in unknown if word not in unread),
         unread=tuple(dict.fromkeys((*unread, *filter(None, (member.unread for member in members))))),
         choices=tuple(_choices(language, elements, names, known, modes)),
         selectors=tuple(_selectors(language, elements, names, known, modes)),
-        is_end_absolute=elements[-1].is_over and language.meeting.joining is not Joining.PAIRED,
         selected=language.planes.get(last.plane.code),
         conventions=tuple({each.setting.name: each for each in conventions}.values()),
         makes=_makes(form, members) if len(builder.blocks) > len(members) else (),
         lasting=frozenset(name for name in known if name.partition(":")[2] in language.corner.stays),
         doubts={mode: why for member in members for mode, why in member.here.doubts.items()},
     )
+
+
+def _begins(before: State, member: Member) -> State:
+    """The state in which the first block begins: it may move the coordinate system itself."""
+    here = member.here
+    axes = before.axes if here.axes is member.before.axes else here.axes
+    return replace(before, plane=here.plane, unit=here.unit, axes=axes)
 
 
 def _stated(
@@ -325,6 +332,8 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         ONE_CENTER: member.element.turn is not None and not member.element.is_over and centers == 1,
         ALONE: member.is_alone,
         OTHER_PLANE: replace(plane, diameters=first.plane.diameters) != first.plane,
+        OTHER_ZERO: member.here.axes is not first.axes
+        and any(member.here.axes[axis] is not first.axes[axis] for axis in first.plane.axes),
         OTHER_DIAMETER: plane.code == first.plane.code and plane.diameters != first.plane.diameters,
         RAPID: member.here.motion == 0,
         THREAD: member.here.motion in language.order.threads,

@@ -260,7 +260,8 @@ class ChainFinder:
         plane: a contour that goes on in another one is refused."""
         if block.faults or block.macro or any(modes.is_call(word) for word in block.words):
             return False
-        if modes.unread(block, apply_modes(here, block, modes)) is not None:
+        behind = apply_modes(here, block, modes)
+        if modes.unread(block, behind) is not None or any(behind.axes[a] is not here.axes[a] for a in here.plane.axes):
             return False
         codes = codes_of(block, modes)
         is_quiet = all(not isinstance(code, Word) and code.effect in _QUIET and code.diameter is None for code in codes)

@@ -28,6 +28,8 @@ LINE_LINE, LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE = "line-line", "line-circle",
 """The roles of two blocks that meet in a computed intersection."""
 
 ALONE, OTHER_PLANE, RAPID = "@alone", "@other-plane", "@rapid"
+OTHER_ZERO = "@other-zero"
+"""The coordinate system is another one than where the contour begins."""
 OTHER_DIAMETER = "@other-diameter"
 """X is a diameter here and a radius where the contour begins, or the other way round."""
 FOLLOWED = "@followed"

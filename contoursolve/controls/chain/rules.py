@@ -13,6 +13,7 @@ from contoursolve.controls.chain.language import (
     LINE,
     LINE_LINE,
     OTHER_PLANE,
+    OTHER_ZERO,
     OVER_LINE,
     RAPID,
     SMOOTH,
@@ -20,7 +21,7 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import ANGLE_RANGE, GEOMETRY_RULES, PLANE_CHANGES, told
+from contoursolve.controls.geometry_rules import ANGLE_RANGE, GEOMETRY_RULES, PLANE_CHANGES, ZERO_MOVES, told
 from contoursolve.controls.own_words import G_CODES
 from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
@@ -202,6 +203,14 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         ANY,
         cut,
         example.cut(turn="G18 X40 Z40"),
+    )
+    yield row(
+        "zero-moves",
+        *ZERO_MOVES,
+        some(OTHER_ZERO),
+        ANY,
+        cut,
+        example.cut(turn=f"G55 {example.turn}"),
     )
     yield row(
         "center-on-line",

@@ -1,6 +1,15 @@
 """CNC PILOT: the words of examples."""
 
-from contoursolve.controls.own_words import AS_WRITTEN, G_CODES, NO_CODES, NO_COMMAS, NO_CONTROL, NO_SIGNS, OwnWords
+from contoursolve.controls.own_words import (
+    AS_WRITTEN,
+    G_CODES,
+    NO_ARGUMENTS,
+    NO_CODES,
+    NO_COMMAS,
+    NO_CONTROL,
+    NO_SIGNS,
+    OwnWords,
+)
 
 _GAPS = {
     **G_CODES,
@@ -56,6 +65,7 @@ _GAPS = {
     "center_off": "I8 K0",
 }
 _SLIPS = {
+    "start-assumed": {"size": "99.", "turn": "G1 X70 A150"},
     "word-idle": {"behind": "\nG0 X60 R5"},
     "corners-overlap": {"each": "12"},
     "cnc-pilot-angle-redundant": {
@@ -73,6 +83,7 @@ _SLIPS = {
 }
 _ABSENT = {
     **AS_WRITTEN,
+    **NO_ARGUMENTS,
     **NO_CODES,
     **NO_COMMAS,
     **NO_CONTROL,

@@ -12,7 +12,21 @@ from contoursolve.controls.plain import BASIC_CODES, LATHE, MOTIONS
 from contoursolve.diagnostics import Book
 from contoursolve.gcode import Block, Syntax, Word, plain_spelling
 from contoursolve.geometry import Turn, Unit
-from contoursolve.reading import COMMENTED, Address, Code, Dialect, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+from contoursolve.reading import (
+    COMMENTED,
+    TOOL,
+    Address,
+    Code,
+    Dialect,
+    Effect,
+    Lexicon,
+    Modes,
+    NumberFormat,
+    WithoutPoint,
+    ZeroMove,
+    ZeroRow,
+    table_of,
+)
 
 BOOK = Book("HEIDENHAIN CNC PILOT 4290 manuals, DIN PLUS")
 _PRINTED = BOOK.printed("p. 147 to 191: geometry commands")
@@ -111,6 +125,7 @@ MODES = Modes(
     frozenset(),
     syntax=SYNTAX,
     remember=_remember,
+    zero=table_of((ZeroRow("T", ZeroMove.OTHER, BOOK.assumed("tools"), TOOL),), {}),
 )
 
 

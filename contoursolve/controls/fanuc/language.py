@@ -24,6 +24,7 @@ from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, WITHOUT_P
 from contoursolve.controls.control_settings import (
     angle_sense_setting,
     arc_chamfer_setting,
+    arguments_setting,
     number_setting,
     redundant_angle_setting,
     setting,
@@ -38,7 +39,7 @@ from contoursolve.controls.fanuc.lexicon import (
     MILL_WORDS,
 )
 from contoursolve.controls.plain import LATHE
-from contoursolve.diagnostics import Book
+from contoursolve.diagnostics import Book, Evidence, Source
 from contoursolve.geometry import CornerShape
 from contoursolve.reading import Modes, Sample, Setting, State, all_of, some
 
@@ -125,15 +126,24 @@ ANGLE = setting(
 )
 ARC_CHAMFER = arc_chamfer_setting(",C", CORNERS.assumed("not described"))
 SENSE = angle_sense_setting(DRAWING.assumed("not described"))
+_ARGUMENTS = arguments_setting(
+    Source("FANUC 16i/18i-PB B-63684EN", "p. 278: the increment may depend on the machine", Evidence.PRINTED)
+)
+_HAAS_ARGUMENTS = arguments_setting(
+    Source("Haas 96-8000 (1999)", "p. 364: I, J and K count 0.0001 inch; the other letters assumed", Evidence.PRINTED)
+)
 LATHE_NUMBER, MILL_NUMBER, HAAS_NUMBER = _number(DRAWING), _number(CORNERS), _number(HAAS)
 LATHE_GUARD, MILL_GUARD, HAAS_GUARD = _guard(DRAWING), _guard(CORNERS), _guard(HAAS)
 LATHE_SETTINGS = (
     *(LATHE_NUMBER, SENSE, LATHE_GUARD, _guard_corner(DRAWING)),
-    *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE),
+    *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE, _ARGUMENTS),
 )
-MILL_SETTINGS = (MILL_NUMBER, MILL_GUARD, _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
-HAAS_LATHE_SETTINGS = (HAAS_NUMBER, angle_sense_setting(HAAS.assumed("not described")), HAAS_GUARD, _guard_corner(HAAS))
-HAAS_MILL_SETTINGS = (HAAS_NUMBER, HAAS_GUARD, _guard_corner(HAAS), ARCS)
+MILL_SETTINGS = (MILL_NUMBER, MILL_GUARD, _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER, _ARGUMENTS)
+HAAS_LATHE_SETTINGS = (
+    *(HAAS_NUMBER, angle_sense_setting(HAAS.assumed("not described")), HAAS_GUARD, _guard_corner(HAAS)),
+    _HAAS_ARGUMENTS,
+)
+HAAS_MILL_SETTINGS = (HAAS_NUMBER, HAAS_GUARD, _guard_corner(HAAS), ARCS, _HAAS_ARGUMENTS)
 
 _CORNERED = some(",C", ",R", "corner-first", "corner-second", "corner-R", "corner-C")
 

@@ -15,6 +15,7 @@ from contoursolve.controls.plain import (
     lexicon,
     merge,
 )
+from contoursolve.controls.zero_tables import haas_rows, length_rows, zero_table
 from contoursolve.diagnostics import Book, Evidence, Source
 from contoursolve.execution import fanuc, haas
 from contoursolve.geometry import Unit
@@ -81,7 +82,21 @@ _CODES = {
     )
 }
 _ON_LATHES, _ON_MILLS = ("Z", "X"), ("X", "Y", "Z")
-LATHE_MODES = Modes(LATHE_WORDS, _CODES["lathe"], _ON_LATHES, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS)
-MILL_MODES = Modes(MILL_WORDS, _CODES["mill"], _ON_MILLS, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS)
-HAAS_LATHE_MODES = Modes(HAAS_LATHE_WORDS, _CODES["haas lathe"], _ON_LATHES, CALLS, language=haas())
-HAAS_MILL_MODES = Modes(HAAS_MILL_WORDS, _CODES["haas mill"], _ON_MILLS, CALLS, language=haas())
+_OFFSETS = Source("Fanuc 0i operator's manuals", "work and tool offsets, G10, system variables", Evidence.ASSUMED)
+_HAAS_OFFSETS = Source("Haas operator's manuals", "work and tool offsets, G10, macro variables", Evidence.ASSUMED)
+_LATHE_ZERO = zero_table(_OFFSETS, _ON_LATHES)
+_MILL_ZERO = zero_table(_OFFSETS, _ON_MILLS, *length_rows(_OFFSETS))
+_HAAS_LATHE_ZERO, _HAAS_MILL_ZERO = (
+    zero_table(_HAAS_OFFSETS, axes, *haas_rows(_HAAS_OFFSETS), *more, further="154")
+    for axes, more in ((_ON_LATHES, ()), (_ON_MILLS, length_rows(_HAAS_OFFSETS)))
+)
+LATHE_MODES = Modes(
+    LATHE_WORDS, _CODES["lathe"], _ON_LATHES, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS, zero=_LATHE_ZERO
+)
+MILL_MODES = Modes(
+    MILL_WORDS, _CODES["mill"], _ON_MILLS, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS, zero=_MILL_ZERO
+)
+HAAS_LATHE_MODES = Modes(
+    HAAS_LATHE_WORDS, _CODES["haas lathe"], _ON_LATHES, CALLS, language=haas(), zero=_HAAS_LATHE_ZERO
+)
+HAAS_MILL_MODES = Modes(HAAS_MILL_WORDS, _CODES["haas mill"], _ON_MILLS, CALLS, language=haas(), zero=_HAAS_MILL_ZERO)

@@ -270,6 +270,7 @@ def _shared_rules(machine: _Machine) -> Iterator[Rule]:
         "corner-negative": machine.source("not described", Evidence.ASSUMED),
         "plane-changes": machine.source("not after a plane change"),
         "angle-range": machine.source("not described", Evidence.ASSUMED),
+        "zero-moves": machine.source("not after a change of the coordinate system", Evidence.ASSUMED),
     }
     shared = Manual(
         prefix=machine.prefix,
@@ -299,7 +300,12 @@ def _shared_rules(machine: _Machine) -> Iterator[Rule]:
         sources=sources,
     )
     arcs = ("center-and-radius", "circle-undefined", "radius-without-end")
-    wanted = ("corner-rapid", "corner-negative", *(("angle-range",) if is_lathe else ("plane-changes", *arcs)))
+    wanted = (
+        "corner-rapid",
+        "corner-negative",
+        "zero-moves",
+        *(("angle-range",) if is_lathe else ("plane-changes", *arcs)),
+    )
     for rule in chain_rules(shared):
         code = rule.code.removeprefix(f"{machine.prefix}-")
         if code in wanted and code in arcs and rule.when is not None and not machine.has_alarms:

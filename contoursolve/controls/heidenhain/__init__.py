@@ -12,12 +12,22 @@ from contoursolve.controls.heidenhain.rules import RULES
 from contoursolve.controls.heidenhain.writer import WRITING
 from contoursolve.controls.plain import PLANES
 from contoursolve.execution import klartext
-from contoursolve.reading import Dialect, Modes
+from contoursolve.reading import Dialect, Modes, table_of
 
 HEIDENHAIN = Dialect(
     name="heidenhain",
     title="HEIDENHAIN TNC, Klartext with free contours FK",
-    modes=Modes(LEXICON, CODES, ("X", "Y", "Z"), frozenset(), syntax=SYNTAX, follow=follow, language=klartext()),
+    modes=Modes(
+        LEXICON,
+        CODES,
+        ("X", "Y", "Z"),
+        frozenset(),
+        syntax=SYNTAX,
+        follow=follow,
+        language=klartext(),
+        # At first, no shift is in force.
+        zero=table_of((), {}, "XYZ"),
+    ),
     plane=PLANES[17],
     forms=(),
     rules=WORDS.tell(*RULES),

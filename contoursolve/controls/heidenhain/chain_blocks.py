@@ -11,6 +11,7 @@ from msgspec import Struct
 from contoursolve.controls.heidenhain.follow import (
     CENTER,
     POLE,
+    is_of_machine,
     keep_joint,
     pole_of,
     says_nothing,
@@ -130,6 +131,8 @@ class ChainBlocks:
     def _take(self, block: Block) -> bool:
         """Whether a block belongs to the chain; then it is taken."""
         function, last = function_of(block), self.members[-1] if self.members else None
+        if function not in FREE and is_of_machine(block) and is_in_plane(block):
+            return False
         if stands_between(block, function):
             if function == "FSELECT" and last is not None:
                 last.picked = block.find("FSELECT")

@@ -1,6 +1,15 @@
 """HEIDENHAIN: the words of examples."""
 
-from contoursolve.controls.own_words import AS_WRITTEN, G_CODES, NO_CODES, NO_COMMAS, NO_CONTROL, NO_SIGNS, OwnWords
+from contoursolve.controls.own_words import (
+    AS_WRITTEN,
+    G_CODES,
+    NO_ARGUMENTS,
+    NO_CODES,
+    NO_COMMAS,
+    NO_CONTROL,
+    NO_SIGNS,
+    OwnWords,
+)
 
 _GAPS = {
     **G_CODES,
@@ -52,6 +61,7 @@ _GAPS = {
     "across_end": "AN+90",
 }
 _SLIPS = {
+    "start-assumed": {"size": "99", "turn": "4 FL X+60 AN+60"},
     "blank-missing": {"wrong": "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FLAN+30 LEN20\n3 FL X+60 Y+40{tail}"},
     "word-unused": {"contour": "{block}\n3 RND R5", "options": "--rules off"},
     "heidenhain-first-taken": {
@@ -73,6 +83,7 @@ _SLIPS = {
 }
 _ABSENT = {
     **AS_WRITTEN,
+    **NO_ARGUMENTS,
     **NO_CODES,
     **NO_COMMAS,
     **NO_CONTROL,

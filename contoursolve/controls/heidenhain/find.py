@@ -18,6 +18,7 @@ from contoursolve.controls.heidenhain.follow import (
     JOINT,
     POLE,
     begins_chain,
+    is_of_machine,
 )
 from contoursolve.controls.heidenhain.lexicon import (
     FREE,
@@ -54,7 +55,7 @@ def find(
     elif function in MOVES:
         # What touches a move from an unknown place cannot be found.
         joins = (*OF_CORNERS, *TANGENT) if is_known else tuple(OF_CORNERS)
-        is_begun = is_in_plane(block) and _next_function(blocks, index) in joins
+        is_begun = is_in_plane(block) and not is_of_machine(block) and _next_function(blocks, index) in joins
     elif function == POLE:
         # A pole is read where it stands; one with a coordinate missing is none for the chain behind it.
         is_begun = any(block.find(axis) is None for axis in words.axes)

@@ -2,7 +2,7 @@
 turn."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from math import atan2, cos, degrees, hypot, radians, sin
 
@@ -11,6 +11,7 @@ from msgspec.structs import replace
 from contoursolve.controls.heidenhain.lexicon import (
     ABOUT_CENTER,
     BLOCK_NUMBER,
+    BOOK,
     FREE,
     LEXICON,
     MOVES,
@@ -20,7 +21,19 @@ from contoursolve.controls.heidenhain.lexicon import (
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
-from contoursolve.reading import Modes, Position, State, apply_modes, axis_words, positions
+from contoursolve.reading import (
+    Mode,
+    Modes,
+    Position,
+    State,
+    ZeroMove,
+    ZeroRow,
+    apply_modes,
+    axis_words,
+    positions,
+    shift_zero,
+    state_moved,
+)
 from contoursolve.tolerance import LENGTH
 
 PLANE = ("X", "Y")
@@ -58,10 +71,26 @@ def follow(state: State, block: Block, modes: Modes) -> State:
         moved = _polar(state, block, modes)
     else:
         moved = state.move(positions(state, axis_words(block, modes), modes, block.is_skippable))
-    for numbers, reason in _LOSING_M.items():
-        if any(word.address == "M" and word.number in numbers for word in block.words):
-            return moved.lose(modes.axes, reason, block.span)
+    if is_of_machine(block):
+        rows = (modes.lexicon.addresses.get(word.address) for word in block.words)
+        own = tuple(dict.fromkeys(row.axis for row in rows if row and row.axis in modes.axes)) or modes.axes
+        return moved.lose(own, "its coordinates are those of the machine", block.span)
+    if any(word.address == "M" and word.number in _ENDING for word in block.words):
+        return moved.lose(modes.axes, "the program ends there", block.span)
     return moved
+
+
+def words_of_machine(block: Block) -> list[Word]:
+    """The words by which the coordinates of a block are those of the machine, or of its builder."""
+    return [word for word in block.words if word.address == "M" and word.number in _OF_MACHINE]
+
+
+def is_of_machine(block: Block) -> bool:
+    """Whether a block has one of them."""
+    return bool(words_of_machine(block))
+
+
+_ENDING, _OF_MACHINE = (2, 30), (91, 92)
 
 
 def keep_joint(state: State, block: Block, function: str) -> State:
@@ -73,9 +102,6 @@ def keep_joint(state: State, block: Block, function: str) -> State:
     if JOINT in state.memory and (function in MOVES or function.startswith("DEP")):
         return replace(state, memory={name: word for name, word in state.memory.items() if name != JOINT})
     return state
-
-
-_LOSING_M = {(2, 30): "the program ends there", (91, 92): "its coordinates are those of the machine"}
 
 
 def begins_chain(function: str, block: Block, plane: Sequence[str] = PLANE) -> bool:
@@ -144,15 +170,27 @@ _LOSING: tuple[tuple[re.Pattern[str], str], ...] = tuple(
     (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), reason)
     for pattern, reason in (
         (r"CYCL[ \t]+CALL\b", "a cycle runs"),
-        (r"CYCL[ \t]+DEF[ \t]+(?:7|8|10|11|19|26|247)\b", "it changes the coordinate system"),
-        (r"PLANE\b|TRANS\b|FUNCTION\b", "it may change the coordinate system"),
-        (r"TOOL[ \t]+CALL\b", "the tool is changed"),
+        (r"(?:TRANS|FUNCTION|FN[ \t]*17)\b", "it may change the coordinate system"),
     )
 )
+_ZERO, _RECALLED = "it changes the coordinate system", BOOK.assumed("coordinate transformations")
+_MOVING: tuple[tuple[re.Pattern[str], ZeroRow], ...] = tuple(
+    (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), ZeroRow(name, move, _RECALLED))
+    for pattern, name, move in (
+        (r"CYCL[ \t]+DEF[ \t]+7\.0*[1-9]\d*[ \t]+(?=I?[XYZ])", "CYCL DEF 7", ZeroMove.SET),
+        (r"CYCL[ \t]+DEF[ \t]+7\.0*[1-9]\d*\b", "CYCL DEF 7 #", ZeroMove.TURN),
+        (r"CYCL[ \t]+DEF[ \t]+(?:8|10|11|19|26)\b", "CYCL DEF 8 10 11 19 26", ZeroMove.TURN),
+        (r"(?:CYCL[ \t]+DEF[ \t]+247|PRESET)\b", "CYCL DEF 247, PRESET SELECT", ZeroMove.TURN),
+        (r"PLANE\b", "PLANE", ZeroMove.TURN),
+    )
+)
+"""What moves the coordinate system: by numbers along axes, or in a way that is not followed."""
+_SHIFT = re.compile(r"(?P<step>I?)(?P<axis>[XYZ])[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))?+", re.IGNORECASE)
 _TOOL = re.compile(
     BLOCK_NUMBER + r"TOOL[ \t]+CALL[ \t]+(?:\"[^\"]*\"|\S+)[ \t]+(?P<axis>[XYZUVW])(?=[ \t;]|$)", re.IGNORECASE
 )
 _BEGIN = re.compile(BLOCK_NUMBER + r"BEGIN[ \t]+PGM\b[^;]*?\b(?P<unit>MM|INCH)[ \t]*(?:;|$)", re.IGNORECASE)
+_TOOL_CALL = re.compile(BLOCK_NUMBER + r"TOOL[ \t]+CALL\b", re.IGNORECASE)
 _HARMLESS = re.compile(
     BLOCK_NUMBER + r"(?:BEGIN|END|BLK|TOOL|CYCL|LBL|FN|Q[LRS]?\d|SEL|STOP|M\d|\*|\(|;|~|$)", re.IGNORECASE
 )
@@ -174,17 +212,40 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
     if begins:
         return replace(state, unit=Length.INCH if begins["unit"].upper() == "INCH" else Length.MM)
     tool = _TOOL.match(block.text)
+    if _TOOL_CALL.match(block.text):
+        # What is known along the axis of a tool depends on its length.
+        before = state.memory[TOOL_AXIS].text[-1] if TOOL_AXIS in state.memory else "Z"
+        lost = {before, tool["axis"].upper() if tool else before}
+        state = state.lose(tuple(axis for axis in modes.axes if axis in lost), "the tool is changed", block.span)
     if tool:
         memory = {name: word for name, word in state.memory.items() if name != TOOL_AXIS}
         if tool["axis"].upper() != "Z":
             memory[TOOL_AXIS] = Word(TOOL_AXIS, None, False, f"tool axis {tool['axis'].upper()}", block.span)
         state = replace(state, memory=memory).settle(TOOL_AXIS)
+    for pattern, row in _MOVING:
+        if pattern.match(block.text):
+            return _move_zero(state, block, row, modes)
     for pattern, reason in _LOSING:
         if pattern.match(block.text):
             return state.lose(modes.axes, reason, block.span)
     if _HARMLESS.match(block.text):
         return state
     return state.lose(modes.axes, f"{block.text.strip()[:40]} is not known to contoursolve", block.span)
+
+
+def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
+    """The state behind a statement that moves the coordinate system."""
+    steps: Mapping[bool, dict[str, Decimal | None]] = {False: {}, True: {}}
+    said = block.syntax.comment.sub("", block.text).partition(".")[2] if row.move is ZeroMove.SET else ""
+    for each in _SHIFT.finditer(said):
+        value = None if each["number"] is None else Decimal(each["number"]) * state.unit.in_mm
+        steps[bool(each["step"])][each["axis"].upper()] = None if Mode.UNIT in state.doubts else value
+    for is_step, numbers in steps.items():
+        if numbers or (row.move is not ZeroMove.SET and not is_step):
+            move, shifts = ZeroMove.ADD if is_step else row.move, numbers if row.move is ZeroMove.SET else None
+            moved = shift_zero(state.zero, move, block, shifts, modes.axes, _ZERO)
+            state = state_moved(state, moved, block.span)
+    return state
 
 
 def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tuple[int, int]]:

@@ -3,6 +3,7 @@
 from contoursolve.controls.chain.rules import ExampleWords, gaps_of
 from contoursolve.controls.own_words import (
     AS_WRITTEN,
+    NO_ARGUMENTS,
     NO_COMMAS,
     NO_CONTROL,
     NO_MEASURE,
@@ -50,6 +51,7 @@ _GAPS = {
     "opposite": "210",
 }
 _SLIPS = {
+    "start-assumed": {"size": "99.", "turn": "X40 #ANG=60"},
     "start-diameter": {"wrong": "G18 G51\nG1 X40 #RND=2\nZ-50", "options": '--start "X20 Z0"'},
     "number-missing": {"before": "X"},
     "number-malformed": {"corner": "#RND"},
@@ -61,6 +63,7 @@ _SLIPS = {
 }
 _ABSENT = {
     **AS_WRITTEN,
+    **NO_ARGUMENTS,
     **NO_COMMAS,
     **NO_CONTROL,
     **NO_PAIRS,

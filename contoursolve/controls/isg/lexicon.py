@@ -12,6 +12,8 @@ from contoursolve.gcode import IN_BRACKETS, Block, Syntax, Word, lines_and_arcs
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import (
     COMMENTED,
+    TOOL,
+    WORK,
     Address,
     Bearing,
     Code,
@@ -21,6 +23,9 @@ from contoursolve.reading import (
     Modes,
     NumberFormat,
     WithoutPoint,
+    ZeroMove,
+    ZeroRow,
+    table_of,
 )
 
 BOOK = Book("ISG kernel, programming manual")
@@ -34,8 +39,8 @@ _CODES = BASIC_CODES | {
     Effect.NO_MOTION: {4: "dwell"},
     Effect.SHIFT: dict.fromkeys((53, *range(54, 60), 159), "zero offset"),
     Effect.SINGLE: {74: "reference point", 100: "measuring", 310: "measuring", 161: "absolute centres"},
-    Effect.FRAME: {68: "rotation", 69: "end of rotation"} | dict.fromkeys((*range(20, 25), 351), "mirroring"),
-    Effect.PRESET: {92: "reference point offset"},
+    Effect.FRAME: {92: "reference point offset", 68: "rotation", 69: "end of rotation"}
+    | dict.fromkeys((*range(20, 25), 351), "mirroring"),
     Effect.NONE: {162: "centres from where an arc begins", 164: "no centre correction", 165: "centre correction"}
     | dict.fromkeys((8, 9, 60, 61, 260, 261, 360, 361), "exact stop or blending")
     | dict.fromkeys((93, 94, 95, 96, 97, 194), "kind of feed or speed")
@@ -63,8 +68,8 @@ _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)\b"
 _FOREIGN = r"\#[ \t]*+[A-Za-z]\w*+(?=[ \t]*+=[ \t]*+[-+.\d])"
 """A word with a number sign that the control has not."""
-_NUMBERED = rf"[SM][ \t]*+{IN_BRACKETS}(?=[ \t]*+=)"
-"""A word of one of several spindles: `S[2]=500`."""
+_NUMBERED = rf"(?:[SM][ \t]*+{IN_BRACKETS}|G159)(?=[ \t]*+=)"
+"""A word of one of several spindles: `S[2]=500`; and a zero offset by its number."""
 SYNTAX = Syntax(
     "isg",
     token=re.compile(
@@ -104,6 +109,7 @@ _ANGLES, _CORNERS = BOOK.printed("contour line programming"), BOOK.printed("cham
 
 _BESIDE = (
     ("#FRC", "feed of a corner", Bearing.NONE),
+    ("G159", "zero offset by its number", Bearing.NONE),
     ("E", "feed at the end of the block", Bearing.NONE),
     ("S H D L", "spindle, function, offset or call", Bearing.NONE),
 )
@@ -140,6 +146,22 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
 _LINES_OF_COMMENT = re.compile(r"\s*+#\s*+COMMENT\s++(?:(?P<begins>BEGIN)|END)\b", re.IGNORECASE)
 
 
+_OFFSETS = BOOK.printed("zero offsets")
+_BY_PLANE = {"G17": ("Z",), "G18": ("X", "Y", "Z"), "G19": ("X",)}
+"""The axes that the lengths of a tool move: the tool's axis, and on lathes (G18) two."""
+_ZERO = table_of(
+    (
+        ZeroRow("G53 G54 G55 G56 G57 G58 G59", ZeroMove.SELECT, _OFFSETS, WORK),
+        ZeroRow("G159", ZeroMove.SELECT, _OFFSETS, WORK, words="G159"),
+        ZeroRow("G92", ZeroMove.OTHER, BOOK.assumed("offset of the reference point"), is_of_words=True),
+        ZeroRow("D", ZeroMove.SELECT, BOOK.printed("tool geometry"), TOOL, _BY_PLANE),
+    ),
+    {},
+    first={WORK: (("G", 53),)},
+)
+"""What moves the coordinate system: at first, no offset is in force."""
+
+
 MODES = Modes(
     _words(),
     _codes(),
@@ -150,4 +172,5 @@ MODES = Modes(
     call_addresses=frozenset("L"),
     separate=frozenset({CHAMFER, ROUNDING}),
     language=isg(),
+    zero=_ZERO,
 )

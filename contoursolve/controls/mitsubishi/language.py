@@ -34,7 +34,13 @@ from contoursolve.controls.chain.language import (
     WITHOUT_POINT,
     Premise,
 )
-from contoursolve.controls.control_settings import arc_chamfer_setting, length_setting, number_setting, setting
+from contoursolve.controls.control_settings import (
+    arc_chamfer_setting,
+    arguments_setting,
+    length_setting,
+    number_setting,
+    setting,
+)
 from contoursolve.controls.mitsubishi.lexicon import BOOK, MODES, TURNED_PLANES, turned
 from contoursolve.reading import Assumption, ContourForm, Convention, Dialect, Modes, Sample, State, some
 
@@ -109,6 +115,7 @@ _GUARD = setting(
 )
 SETTINGS = (
     _NUMBER, _DIAMETER, _ANGLE_WORD, _FULL_CIRCLE, _FIRST_CENTER, _PICK, CONTACT, _SENSE, _CORNER, _ARC_CHAMFER, _GUARD,
+    arguments_setting(BOOK.assumed("not described")),
 )  # fmt: skip
 
 

@@ -7,6 +7,7 @@ from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls.further import MILLS, UNREAD_CALLS, known_by_name
 from contoursolve.controls.plain import CALLS, LATHE, MILL_CODES, PLANES, code_rows, lexicon, merge
+from contoursolve.controls.zero_tables import zero_table
 from contoursolve.diagnostics import Book, Evidence, Source
 from contoursolve.execution import fanuc
 from contoursolve.gcode import Block, Word
@@ -43,7 +44,9 @@ def _words(*, is_diameter: bool) -> Lexicon:
 def _modes(words: Lexicon, planes: dict[int, Plane]) -> Modes:
     source = BOOK.assumed("list of G codes")
     codes = known_by_name(source, MILLS, code_rows(source, _CODES, planes))
-    return Modes(words, codes, ("X", "Y", "Z"), CALLS, remember=_remember, language=fanuc(), unread_calls=UNREAD_CALLS)
+    axes = ("X", "Y", "Z")
+    zero = zero_table(BOOK.assumed("work and tool offsets, as on Fanuc"), axes)
+    return Modes(words, codes, axes, CALLS, remember=_remember, language=fanuc(), unread_calls=UNREAD_CALLS, zero=zero)
 
 
 HIGH_SPEED = 5

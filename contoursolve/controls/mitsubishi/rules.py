@@ -14,6 +14,7 @@ from contoursolve.controls.chain.language import (
     LINE_CIRCLE,
     LINE_LINE,
     OTHER_PLANE,
+    OTHER_ZERO,
     OVER_CIRCLE,
     OVER_LINE,
     RAPID,
@@ -21,7 +22,14 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import ANGLE_RANGE, ANGLE_RAPID, GEOMETRY_RULES, PLANE_CHANGES, told
+from contoursolve.controls.geometry_rules import (
+    ANGLE_RANGE,
+    ANGLE_RAPID,
+    GEOMETRY_RULES,
+    PLANE_CHANGES,
+    ZERO_MOVES,
+    told,
+)
 from contoursolve.controls.mitsubishi.examples import WORDS
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,
@@ -91,6 +99,8 @@ _ROWS = (
     _row("plane-changes", *PLANE_CHANGES,
          BOOK.assumed("one plane"), some(OTHER_PLANE), _ANY, _CUT, ("X40. Y40.", "G18 X40. Z40."),
          alarm=_alarm("P396 (plane changed)")),
+    _row("zero-moves", *ZERO_MOVES, BOOK.assumed("work offsets"), some(OTHER_ZERO), _ANY,
+         _CUT, ("X40. Y40.", "G55 X40. Y40.")),
     _row("center-on-line", "{words}: a line has no centre and no radius", "delete it; a rounding is ,R",
          BOOK.derived("lines and arcs"), some(*STATED_CENTER, "R"), _LINES, _CUT, ("Y40.", "Y40. R5.")),
     _row("angle-ignored", "{words} is ignored, because both coordinates are there{comparison}",

@@ -2,10 +2,10 @@
 
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.control_settings import SETTINGS_OF_ALL
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL, arguments_setting
 from contoursolve.controls.nct_99m.examples import WORDS
 from contoursolve.controls.nct_99m.language import LANGUAGE, SETTINGS
-from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
+from contoursolve.controls.nct_99m.lexicon import CODES, CODES_SOURCE, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
 from contoursolve.gcode import Block, Word
 from contoursolve.reading import Dialect, Effect
@@ -48,5 +48,5 @@ NCT_99M = Dialect(
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="blocks with ,A ,C or ,R, arcs with R, and intersections by ,A or by end, centre and R",
-    settings=(*SETTINGS, *SETTINGS_OF_ALL),
+    settings=(*SETTINGS, arguments_setting(CODES_SOURCE), *SETTINGS_OF_ALL),
 )

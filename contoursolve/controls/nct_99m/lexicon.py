@@ -16,6 +16,7 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.further import MILLS, UNREAD_CALLS, known_by_name, letters
 from contoursolve.controls.plain import CALLS, MILL_CODES, PLANES, code_rows, merge
+from contoursolve.controls.zero_tables import length_rows, zero_table
 from contoursolve.diagnostics import Book
 from contoursolve.execution import fanuc
 from contoursolve.geometry import Unit
@@ -39,6 +40,7 @@ ARCS = BOOK.printed("p. 25")
 ANGLE = BOOK.derived("p. 120 and 123, not printed on p. 129")
 SINGLE_BLOCK = "in single-block mode the control stops after each inserted chamfer or rounding, too (16.1, p. 120)"
 CODES_SOURCE = BOOK.assumed("list of G codes")
+OFFSETS = BOOK.assumed("work and tool offsets, as on Fanuc")
 
 ADDRESSES = (
     Address("X", "coordinate", Unit.MM, CHAPTER, axis="X"),
@@ -72,7 +74,13 @@ WORDS = Lexicon(
     BOOK.assumed("an address that cannot stand there stops the control"),
 )
 MODES = Modes(
-    WORDS, known_by_name(CODES_SOURCE, MILLS, CODES), AXES, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS
+    WORDS,
+    known_by_name(CODES_SOURCE, MILLS, CODES),
+    AXES,
+    CALLS,
+    language=fanuc(),
+    unread_calls=UNREAD_CALLS,
+    zero=zero_table(OFFSETS, AXES, *length_rows(OFFSETS)),
 )
 
 UNCOMPENSATED, UNCOMPENSATED_FREE = "@uncompensated", "@uncompensated-free"

@@ -16,13 +16,14 @@ from contoursolve.controls.chain.language import (
     ONLY,
     ORDINARY,
     OTHER_PLANE,
+    OTHER_ZERO,
     OVER_CIRCLE,
     OVER_LINE,
     RAPID,
     STATED_CENTER,
     STATED_POINT,
 )
-from contoursolve.controls.geometry_rules import ANGLE_RANGE, COMMA_MISSING, PLANE_CHANGES, told
+from contoursolve.controls.geometry_rules import ANGLE_RANGE, COMMA_MISSING, PLANE_CHANGES, ZERO_MOVES, told
 from contoursolve.controls.nct_99m.lexicon import BESIDE, BOOK, SINGLE_BLOCK, UNCOMPENSATED
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.reading import Rule, Value, all_of, at_most, some
@@ -338,6 +339,16 @@ COMBINATION_RULES = (
         when=some(OTHER_PLANE),
         accepted=(_GOOD,),
         rejected=(_START + _ARC + "G18 G1 X-50 Z42.857 ,A171.87 Q-1",),
+    ),
+    Rule(
+        code="nct-zero-moves",
+        message=ZERO_MOVES[0],
+        help=ZERO_MOVES[1],
+        source=_ASSUMED,
+        roles=_ANY,
+        when=some(OTHER_ZERO),
+        accepted=(_GOOD,),
+        rejected=(_CUT.replace("X40", "G55 X40"),),
     ),
 )
 

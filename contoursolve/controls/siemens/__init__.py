@@ -5,13 +5,15 @@ Their words, language and rules come in; two controls go out. Begin with `langua
 
 from dataclasses import replace
 from functools import partial
+from typing import cast
 
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
-from contoursolve.controls.siemens.lexicon import BOOK, MODES, SYNTAX
+from contoursolve.controls.siemens.lexicon import AXIAL_MODES, BOOK, MODES, SYNTAX, statements
 from contoursolve.controls.siemens.rules import RULES, RULES_REDUCING
+from contoursolve.execution import MacroLanguage
 from contoursolve.gcode import Block, Word, words_as
 from contoursolve.reading import Dialect, Diameter, Setting
 
@@ -41,17 +43,36 @@ def _too_big(default: str) -> Setting:
     return Setting("too-big", "a corner that does not fit", _LARGE, default, source, changes=changes)
 
 
+def _main_def(default: str) -> Setting:
+    """The scope of what the main program defines."""
+
+    def change(dialect: Dialect, *, shows_main: bool) -> Dialect:
+        made_by = cast("partial[MacroLanguage]", cast("MacroLanguage", dialect.modes.language).made_by)
+        language = made_by.func(*made_by.args, shows_main=shows_main)
+        return replace(dialect, modes=replace(dialect.modes, language=language))
+
+    values = {
+        "program": "in the main program and in all that it calls",
+        "local": "in the main program alone",
+    }
+    changes = {value: partial(change, shows_main=value == "program") for value in values}
+    source = BOOK.printed("turning 01/2017 p. 126" if default == "local" else "job planning 07/2010 p. 23")
+    return Setting(
+        "main-def", "where a variable is known that the main program defines", values, default, source, changes=changes
+    )
+
+
 SIEMENS_840D = Dialect(
     name="siemens-840d",
     title="SINUMERIK 840D sl, 828D and ONE",
-    modes=MODES,
+    modes=AXIAL_MODES,
     plane=PLANES[17],
-    forms=forms_of(LANGUAGE, MODES),
+    forms=forms_of(LANGUAGE, AXIAL_MODES),
     rules=RULES,
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="lines with ANG=, corners with RND=, CHR= or CHF=, and CT",
-    settings=(*SETTINGS, _too_big("error"), *SETTINGS_OF_ALL),
+    settings=(*SETTINGS, _too_big("error"), _main_def("program"), *SETTINGS_OF_ALL),
     motion=1,
     diameter=Diameter.BY_PLANE,
 )
@@ -60,9 +81,9 @@ SIEMENS_808D = replace(
     name="siemens-808d",
     title="SINUMERIK 808D",
     # A lexicon of its own tells for which control words were read.
-    modes=replace(MODES, lexicon=replace(MODES.lexicon)),
+    modes=replace(MODES, lexicon=replace(MODES.lexicon), language=statements(shows_main=False)),
     rules=RULES_REDUCING,
-    settings=(*SETTINGS, _too_big("reduce"), *SETTINGS_OF_ALL),
+    settings=(*SETTINGS, _too_big("reduce"), _main_def("local"), *SETTINGS_OF_ALL),
     # Nothing in a program tells it from its larger sibling.
     rare=LANGUAGE.own,
 )

@@ -3,6 +3,7 @@
 from contoursolve.controls.chain.rules import ExampleWords, gaps_of
 from contoursolve.controls.own_words import (
     AS_WRITTEN,
+    NO_ARGUMENTS,
     NO_CODES,
     NO_COMMAS,
     NO_CONTROL,
@@ -70,6 +71,7 @@ _SLIPS = {
 }
 _ABSENT = {
     **AS_WRITTEN,
+    **NO_ARGUMENTS,
     **NO_CODES,
     **NO_COMMAS,
     **NO_CONTROL,

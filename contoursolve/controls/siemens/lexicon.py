@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache, partial
 
 from msgspec import structs
@@ -12,7 +13,23 @@ from contoursolve.diagnostics import Book
 from contoursolve.execution import MOVES_BESIDE, SYNCHRONOUS, MacroLanguage, sinumerik
 from contoursolve.gcode import IN_BRACKETS, IN_PARENTHESES, Block, Syntax, Word, lines_and_arcs, long_parts
 from contoursolve.geometry import Length, Unit
-from contoursolve.reading import Address, Bearing, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+from contoursolve.reading import (
+    TOOL,
+    WORK,
+    Address,
+    Bearing,
+    Code,
+    Diameter,
+    Effect,
+    Lexicon,
+    Modes,
+    NumberFormat,
+    WithoutPoint,
+    ZeroMove,
+    ZeroRow,
+    ZeroTable,
+    table_of,
+)
 
 BOOK = Book("SINUMERIK NC programming manual")
 
@@ -50,7 +67,9 @@ _UNREAD: tuple[tuple[Effect, Mapping[str, tuple[str, ...]]], ...] = (
 """Commands by name that change the path or the coordinates in a way that contoursolve does not follow."""
 _NAMES: tuple[tuple[Effect, Mapping[str, tuple[str, ...]]], ...] = (
     (Effect.FRAME, {
-        "coordinate frame": ("TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF",),
+        "coordinate frame": (
+            "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF PRESETON PRESETONS",
+        ),
     }),
     (Effect.SINGLE, {
         "no offset": ("SUPA",),
@@ -125,6 +144,35 @@ def _codes() -> dict[int, Code]:
 
 
 CODES = _codes()
+_OFFSETS, _SELECTS = BOOK.assumed("frames and offsets"), ZeroMove.SELECT
+_BY_PLANE = {"G17": ("Z",), "G18": ("X", "Y", "Z"), "G19": ("X",)}
+"""The axes that the lengths of a tool move: the tool's axis, and on lathes (G18) two."""
+_FRAMES = "$P_IFRAME $P_BFRAME $P_ACTBFRAME $P_CHBFRAME $P_NCBFRAME $P_ACTFRAME $P_SETFRAME $P_EXTFRAME"
+_ZERO_ROWS = (
+    ZeroRow(" ".join(f"G{code}" for code in (54, 55, 56, 57, 500, *range(505, 600))), _SELECTS,
+            BOOK.printed("fundamentals 11/2006 p. 100"), WORK),
+    ZeroRow("T", _SELECTS, _OFFSETS, TOOL, _BY_PLANE, words="D"),
+    ZeroRow("D", _SELECTS, _OFFSETS, TOOL, _BY_PLANE, words="D", goes_on=True),
+    ZeroRow("M6", ZeroMove.OTHER, _OFFSETS, TOOL, _BY_PLANE),
+    ZeroRow("TRANS", ZeroMove.REPLACE, BOOK.printed("NC programming 12/2019 p. 315")),
+    ZeroRow("ATRANS", ZeroMove.ADD, BOOK.printed("NC programming 12/2019 p. 315")),
+    ZeroRow("ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS", ZeroMove.TURN, _OFFSETS),
+    ZeroRow("$P_PFRAME", ZeroMove.FORMULA, BOOK.printed("NC programming 12/2019 p. 315: CTRANS")),
+    ZeroRow(f"{_FRAMES} $P_PARTFRAME $P_TOOLFRAME $P_WPFRAME $P_CYCFRAME $P_TRAFRAME", ZeroMove.OTHER, _OFFSETS, WORK),
+    ZeroRow("$P_UIFR $P_UBFR $P_CHBFR $P_NCBFR $P_SETFR $P_EXTFR", ZeroMove.LATER, _OFFSETS, WORK),
+)  # fmt: skip
+"""What moves the coordinate system of every SINUMERIK."""
+_AXIAL = (
+    ZeroRow("G58", ZeroMove.SET, BOOK.printed("fundamentals 11/2006 p. 238")),
+    ZeroRow("G59", ZeroMove.FINE, BOOK.printed("fundamentals 11/2006 p. 238")),
+)
+"""Shifts of single axes, without motion; of smaller controls they are work offsets."""
+_WORK_58_59 = (ZeroRow("G58 G59", _SELECTS, _OFFSETS, WORK),)
+
+
+def _zero(*more: ZeroRow) -> ZeroTable:
+    return table_of((*_ZERO_ROWS, *more), {code.name: code.number for code in CODES.values() if code.name}, "XYZ")
+
 
 _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = "ANG|RNDM?|CHR|CHF|CR"
@@ -232,12 +280,13 @@ _ENDS, _LEXICON = frozenset({17}), _words()
 
 
 @cache
-def statements(more: tuple[str, ...] = ()) -> MacroLanguage:
+def statements(more: tuple[str, ...] = (), *, shows_main: bool = True) -> MacroLanguage:
     """Variables, jumps and calls: a name that is no word and no command calls a subprogram; `more` are further ones of
-    the machine builder."""
+    the machine builder. Subprograms may know what the main program defines."""
     names = [*SYNTAX.codes, *_LEXICON.plain_names(), *more]
-    made_by = partial(statements, more)
-    return structs.replace(sinumerik(names), declares=True, made_by=made_by, with_names=statements)
+    made_by, with_names = (partial(each, shows_main=shows_main) for each in (partial(statements, more), statements))
+    language = structs.replace(sinumerik(names), declares=True, shows_main=shows_main)
+    return structs.replace(language, made_by=made_by, with_names=with_names)
 
 
 MODES = Modes(
@@ -251,4 +300,11 @@ MODES = Modes(
     call_addresses=frozenset("L"),
     lasting={"RNDM": "RNDM=0"},
     language=statements(),
+    zero=_zero(*_WORK_58_59),
 )
+AXIAL_MODES = replace(
+    MODES,
+    codes={**CODES, **{number: replace(CODES[number], effect=Effect.FRAME, meaning="shift") for number in (58, 59)}},
+    zero=_zero(*_AXIAL),
+)
+"""The same where G58 and G59 shift single axes."""

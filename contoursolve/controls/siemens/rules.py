@@ -20,7 +20,7 @@ from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_A
 from contoursolve.controls.siemens.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence, Severity
 from contoursolve.gcode import FaultKind
-from contoursolve.reading import Value, all_of, some
+from contoursolve.reading import ReadIssue, Rule, Value, all_of, some
 
 _ALARMS = {
     "plane-changes": "10790 (plane change)",
@@ -94,7 +94,28 @@ _HELPS = {
         MANUAL.cut.replace("RND=5", "RND5"),
     ),
 }
-RULES = WORDS.tell(*rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS))
+_OF_VARIABLES = (
+    Rule(
+        code="siemens-variable-refused",
+        message="{reason}; the control stops here with an alarm",
+        help="define it by DEF where it is used, with two letters first, or hand it back by a VAR parameter",
+        source=BOOK.printed("job planning 07/2010 p. 23; NC programming 12/2019 p. 383"),
+        about=ReadIssue.VARIABLE_REFUSED,
+        accepted=(f"DEF REAL BB=5\n{MANUAL.cut.replace('RND=5', 'RND=BB')}",),
+        rejected=(f"DEF REAL B=5\n{MANUAL.cut}",),
+    ),
+    Rule(
+        code="siemens-comparison-last",
+        message="{meant}: a comparison binds less than AND, OR and XOR",
+        help="put each comparison into brackets of its own",
+        source=BOOK.printed("job planning 07/2010 p. 72; NC programming 12/2019 p. 444"),
+        about=ReadIssue.COMPARISON_LAST,
+        severity=Severity.WARNING,
+        accepted=(f"R1=(1==1) AND (2==2)\n{MANUAL.cut}",),
+        rejected=(f"R1=1==1 AND 2==2\n{MANUAL.cut}",),
+    ),
+)
+RULES = WORDS.tell(*rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS), *_OF_VARIABLES)
 _REDUCED = "; the control makes it smaller by itself, to a size that is not printed"
 RULES_REDUCING = tuple(
     replace(rule, message=rule.message + _REDUCED) if rule.code == "siemens-corner-too-large" else rule

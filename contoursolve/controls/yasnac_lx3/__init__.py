@@ -1,7 +1,7 @@
 """The YASNAC LX3 lathe control, from section 2.8.30 and pages 31-32 of its Instruction Manual."""
 
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.control_settings import SETTINGS_OF_ALL
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL, arguments_setting
 from contoursolve.controls.plain import LATHE
 from contoursolve.controls.yasnac_lx3.arc import ARC_FORMS, ARC_RULES
 from contoursolve.controls.yasnac_lx3.examples import WORDS
@@ -9,7 +9,7 @@ from contoursolve.controls.yasnac_lx3.find import find, follow
 from contoursolve.controls.yasnac_lx3.g111 import G111, G111_RULES
 from contoursolve.controls.yasnac_lx3.g112 import G112_FORMS, G112_RULES
 from contoursolve.controls.yasnac_lx3.leaving import LEAVING_FORMS, LEAVING_RULES
-from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, MODES, MOTION_AFTER
+from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, BOOK, MODES, MOTION_AFTER
 from contoursolve.gcode import Block, Word
 from contoursolve.reading import Dialect
 
@@ -38,7 +38,7 @@ YASNAC_LX3 = Dialect(
     find=find,
     signs=_signs,
     contours="G111, G112, G11, G12, and G01 with I or K",
-    settings=(BEVEL, MOTION_AFTER, *SETTINGS_OF_ALL),
+    settings=(BEVEL, MOTION_AFTER, arguments_setting(BOOK.assumed("not described")), *SETTINGS_OF_ALL),
     has_runs=False,
     follow=follow,
 )

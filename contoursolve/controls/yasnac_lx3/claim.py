@@ -90,7 +90,9 @@ class BlockReader:
         givens = {name: self.values[name] for name in stated if name in self.values}
         builder.state("", {**stated, **beside}, {**givens, **{each.name: each for each in supplied}})
         builder.vocabulary |= vocabulary
-        before = self.before if self.before.unit is after.unit else replace(self.before, unit=after.unit)
+        is_same = self.before.unit is after.unit and self.before.axes is after.axes
+        # Its own words may move the coordinate system in which it begins.
+        before = self.before if is_same else replace(self.before, unit=after.unit, axes=after.axes)
         return builder.build(
             form,
             before,

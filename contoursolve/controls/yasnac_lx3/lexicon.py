@@ -5,6 +5,7 @@ from decimal import Decimal
 from contoursolve.controls.control_settings import setting
 from contoursolve.controls.further import LATHES, UNREAD_CALLS, known_by_name, letters
 from contoursolve.controls.plain import LATHE_CODES, code_rows, merge
+from contoursolve.controls.zero_tables import zero_table
 from contoursolve.diagnostics import Alarm, Book, Evidence
 from contoursolve.execution import fanuc
 from contoursolve.geometry import Unit
@@ -141,4 +142,5 @@ MODES = Modes(
     calls=frozenset({98, 99}),
     language=fanuc(),
     unread_calls=UNREAD_CALLS,
+    zero=zero_table(BOOK.assumed("work and tool offsets, as on Fanuc's lathes"), ("Z", "X")),
 )

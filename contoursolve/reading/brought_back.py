@@ -1,0 +1,74 @@
+"""What SAVE brings back where a subprogram ends: the modes and frames at its call, as a state and as blocks.
+
+Of G54 and shifts, SINUMERIK's basic functions print it (09/2011, p. 793); of other G codes, it is assumed.
+"""
+
+from collections.abc import Sequence
+
+from msgspec.structs import replace
+
+from contoursolve.diagnostics import Span
+from contoursolve.execution import WrittenBack
+from contoursolve.gcode import Block
+from contoursolve.reading.lexicon import Diameter, Effect
+from contoursolve.reading.modal_state import Mode, Modes, State, rows_of, state_moved
+from contoursolve.reading.moved_zero import WORK, zero_brought_back, zero_written_back
+
+
+def bring_back(before: State, now: State, reason: str, span: Span) -> State:
+    """The state where a subprogram ends, given the one where it was called: the tool stays where it is, and so do words
+    that are no G codes."""
+    doubts = [each for each in before.doubts.items() if isinstance(each[0], Mode)]
+    words = [each for each in now.doubts.items() if isinstance(each[0], str)]
+    state = replace(before, axes=now.axes, memory=now.memory, doubts=dict([*doubts, *words]))
+    return state_moved(state, zero_brought_back(before.zero, now.zero, tuple(now.axes), reason), span)
+
+
+def write_back(before: State, now: State, ran: Sequence[Block], modes: Modes) -> WrittenBack:
+    """Blocks for a program without calls that say what is in force again behind some blocks; no block says what is not
+    known."""
+    old, new, codes = before.in_force(), now.in_force(), list[str]()
+    changed = [mode for mode in _ORDER if old[mode] != new[mode] or before.doubts.get(mode) != now.doubts.get(mode)]
+    for mode in changed:
+        if mode in before.doubts:
+            return WrittenBack(refused=f"{mode.value} at the call is not known: {before.doubts[mode]}")
+        codes.append(_code(mode, before, modes))
+    rows = [row for block in ran for row, _ in modes.zero.rows_in(block) if row.group in ("", WORK)]
+    lines = zero_written_back(before.zero, now.zero, modes.zero, modes.axes, before.unit.in_mm) if rows else iter(())
+    if lines is None:
+        return WrittenBack(
+            refused="which work offset and shift are in force at the call is not known: select them before it"
+        )
+    others = dict.fromkeys(
+        code.text
+        for block in ran
+        for code in rows_of(block, modes)
+        if code.effect is Effect.NONE and not code.name and code.diameter is None
+    )
+    told = f"what was in force before {' and '.join(others)} is again, and is not written here" if others else ""
+    return WrittenBack((*([" ".join(filter(None, codes))] if any(codes) else []), *lines), told)
+
+
+_ORDER = (Mode.UNIT, Mode.PLANE, Mode.INCREMENTS, Mode.DIAMETER, Mode.COMPENSATION, Mode.MOTION)
+
+
+def _code(mode: Mode, state: State, modes: Modes) -> str:
+    """The code that puts a mode in force as it is in a state; empty where there is none."""
+    match mode:
+        case Mode.UNIT:
+            return modes.code_of(state.unit)
+        case Mode.PLANE:
+            return state.plane.code
+        case Mode.INCREMENTS:
+            effect = Effect.INCREMENTAL if state.is_incremental else Effect.ABSOLUTE
+            return next((each.text for each in modes.codes.values() if each.effect is effect), "")
+        case Mode.COMPENSATION:
+            return f"G{state.compensation}"
+        case Mode.MOTION:
+            row = None if state.motion is None else modes.codes.get(state.motion)
+            return "" if row is None else row.text
+    diameter = state.diameter
+    if diameter is Diameter.BY_PLANE:
+        # No code says that; here, one of them is the same.
+        diameter = Diameter.ON if state.counts_diameters() else Diameter.OFF
+    return next((each.text for each in modes.codes.values() if each.diameter is diameter), "")
