@@ -23,7 +23,7 @@ from contoursolve.solving.certify import certificate_of
 from contoursolve.solving.checks import MeasuredFigure, unverified
 from contoursolve.solving.compare import compare_fact, increments_of
 from contoursolve.solving.compile import compile_corners, compile_path
-from contoursolve.solving.determinacy import analyse, groups_of, spare_of
+from contoursolve.solving.determinacy import analyse, basis_of, circuits_of, groups_of, spare_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Enumeration, ExactSolution, enumerate_solutions
 from contoursolve.solving.events import NoteKind, RefusalKind, Status, Topic, refusals_about
@@ -31,6 +31,7 @@ from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range, vanishing_lines
 from contoursolve.solving.krawczyk import Prover
 from contoursolve.solving.numbers import corner_of
+from contoursolve.solving.partition import Group, order
 from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.picks import Alternative, Alternatives, pick
 from contoursolve.solving.sides import BOTH, sides_of
@@ -92,20 +93,24 @@ def _alternatives(profile: Profile, enumeration: Enumeration) -> Alternatives:
 def _exact_first(system: System) -> System | None:
     """The system with a basis of what holds exactly and of words, where some of the former is beside its basis; None
     for nowhere. Where words say something twice and differ by rounding, a word is what is not needed, never that an arc
-    begins where it touches. Of the words, the one that leaves the smallest groups to solve comes last; larger ones than
-    those of the basis may take minutes, and are not tried."""
+    begins where it touches. Of the words, the one that leaves the smallest groups to solve goes; larger ones than those
+    of the basis may take minutes, and are not tried."""
     if all(fact.given for fact in spare_of(system)):
         return None
-    own = sorted(system.facts, key=lambda fact: bool(fact.given))
-    tied = [system.facts[index] for index in analyse(system).tied]
-    orders = [system.keep((*(each for each in own if each is not fact), fact)) for fact in tied if fact.given]
-    least = min(orders, key=_group_sizes, default=system)
-    return least if _group_sizes(least) < _group_sizes(system) else None
+    first = system.keep(tuple(sorted(system.facts, key=lambda fact: bool(fact.given))))
+    basis = basis_of(first)
+    bases = [basis]
+    for spare, others in circuits_of(first).items():
+        bases += [tuple(spare if fact is word else fact for fact in basis) for word in others if word.given]
+    sizes, number = min((_group_sizes(order(system, each)), number) for number, each in enumerate(bases))
+    if sizes >= _group_sizes(groups_of(system)):
+        return None
+    return system.keep((*bases[number], *(fact for fact in first.facts if fact not in bases[number])))
 
 
-def _group_sizes(system: System) -> list[int]:
+def _group_sizes(groups: Iterable[Group]) -> list[int]:
     """The numbers of unknowns that are solved together, the largest first."""
-    return sorted((len(group.unknowns) for group in groups_of(system)), reverse=True)
+    return sorted((len(group.unknowns) for group in groups), reverse=True)
 
 
 def choose(alternatives: Alternatives, choices: tuple[Choice, ...]) -> tuple[Alternative, ...]:
