@@ -235,9 +235,9 @@ def sweep_(
     Until FILE is whole, sweep keeps finished rows beside it, in a folder .FILE.NUMBER.parts. After Ctrl-C, SIGTERM or a
     crash the same command goes on where it stopped. sweep names the folders that other sweeps have left.
 
-    With tool=VALUES it also tells for each contour which of these tools cut it: the columns tool, tool.fits,
-    tool.largest (of these tools, in mm) and tool.fault, which is what stops the tool, or warns of it. The contour keeps
-    its status.
+    With tool=VALUES it also tells for each contour which of these tools cut it, in four columns: tool, tool.fits,
+    tool.largest and tool.fault. tool.largest is the largest of these tools that fits, in mm. tool.fault is what stops
+    the tool, or a warning about it. The contour keeps its status.
 
     Exit status: 0 done, whatever became of the contours, 2 could not run, 130 stopped by Ctrl-C or SIGTERM.
 

@@ -1,5 +1,5 @@
-"""What moves the coordinate system on Fanuc and its kin, as tables: work offsets, tool offsets, data setting, variables
-of the machine."""
+"""The moves of the coordinate system on Fanuc and its kin, as tables: work offsets, tool offsets, data setting,
+variables of the machine."""
 
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
@@ -21,7 +21,8 @@ _WORK_OFFSETS = {_EXTERNAL: 1, _BY_CODE: 6, 7001: 48, 14001: 300}
 
 
 class _Family(Struct, frozen=True):
-    """What differs: the code of further work offsets, and the axes that the coordinates of a tool offset move."""
+    """The differences between controls: the code of further work offsets, and the axes that the coordinates of a
+    tool offset move."""
 
     further: Decimal
     is_mill: bool
@@ -79,7 +80,7 @@ _BY_AXIS, _AXES_BY_AXIS = 2500, 4
 def zero_table(
     source: Source, axes: tuple[str, ...], *more: ZeroRow, numbers: Mapping[str, int] | None = None, further: str = ""
 ) -> ZeroTable:
-    """What moves the coordinate system of a control of this kind, with rows of its own; `further` is the code of
+    """The moves of the coordinate system of a control of this kind, with rows of its own; `further` is the code of
     further work offsets, where that is not G54.1."""
     family = _Family(Decimal(further or "54.1"), "Y" in axes)
     rows = [

@@ -10,12 +10,12 @@ from contoursolve.gcode import Block
 
 
 class EventKind(Enum):
-    """What happens between two blocks. Whoever follows the program has read all blocks before it goes on."""
+    """An event between two blocks. Whoever follows the program has read all blocks before it goes on."""
 
     FRESH = "fresh"
     """The next blocks do not run from those before: the tool's position is not known, or was kept."""
     LOST = "lost"
-    """What has run here is not followed: the tool's position and the modes are not known."""
+    """A place that is not followed: the tool's position and the modes are not known."""
     ENTER = "enter"
     """The profile of a cycle begins here."""
     LEAVE = "leave"
@@ -77,7 +77,7 @@ class ProgramEvent(Struct, frozen=True):
     line: int = 0
     reason: str = ""
     mark: int = 0
-    """Where FRESH goes on with what was known before a block: the mark of that block."""
+    """A place where FRESH goes on with what was known before a block: the mark of that block."""
     called: str = ""
     """The name of what is called and is nowhere to be found."""
     unread: str = ""
@@ -101,7 +101,7 @@ class Follower:
     each way, beside the variables, and looks into none of it; none of these changes it, each gives something new."""
 
     def begin(self, _event: ProgramEvent | None) -> Any:
-        """What is known where the program begins, or blocks that do not run from those before."""
+        """The state where the program begins, or blocks that do not run from those before."""
         return None
 
     def read(self, known: Any, _blocks: Sequence[Block], _event: ProgramEvent | None) -> Generator[Any, None, Any]:
@@ -110,7 +110,7 @@ class Follower:
         return known
 
     def join(self, _several: Sequence[Any], _reason: str) -> Any:
-        """What is known on each of several ways; on none of them, all that follows has been read."""
+        """The states on each of several ways; on none of them, all that follows has been read."""
         return None
 
     def is_same(self, _one: Any, _other: Any) -> bool:
@@ -118,7 +118,7 @@ class Follower:
         return True
 
     def restore(self, _entry: Any, now: Any, _reason: str, _line: int) -> Any:
-        """What is known where a subprogram ends that saves the modes, given what was known where it was called."""
+        """The state where a subprogram ends that saves the modes, given what was known where it was called."""
         return now
 
     def write_back(self, _entry: Any, _now: Any, _ran: Sequence[Block]) -> WrittenBack:
@@ -134,6 +134,6 @@ class Follower:
         modes: bool = False,  # noqa: ARG002
         in_passes: bool = False,  # noqa: ARG002
     ) -> Any:
-        """What is known without the tool's position, which may be another one from pass to pass; and without the
+        """The state without the tool's position, which may be another one from pass to pass; and without the
         modes, if what has run may have set them."""
         return known

@@ -49,8 +49,8 @@ _COUNTED = {
     **dict.fromkeys("EIJKQRUVWXYZ", LENGTH_INCREMENT),
     **dict.fromkeys("ABC", ANGLE_INCREMENT),
 }
-"""What arguments without a decimal point count: the least increment of their address. D, F, H, M, S and T are whole
-numbers."""
+"""The unit that arguments without a decimal point count: the least increment of their address. D, F, H, M, S and T are
+whole numbers."""
 _WHOLE = re.compile(r"[ \t]*+[-+]?+[ \t]*+\d++")
 _ALARM = "#3000"
 _LONGEST_NUMBER = 4

@@ -124,7 +124,7 @@ class _Branch(Struct):
 
 
 class _State(Struct):
-    """What is known at a place: the variables of each level of calls, and what whoever follows knows beside. `reason`
+    """The state at a place: the variables of each level of calls, and what whoever follows knows beside. `reason`
     decides between the ways that come there."""
 
     levels: list[VariableLevel]
@@ -189,14 +189,14 @@ class _Frame(Struct):
     is_again: bool = False
     """Whether its next line runs again, nobody knows how often."""
     entry: Any = None
-    """What whoever follows knew where it was called, if all is as it was there when it ends, or if it saves the
+    """The state of whoever follows where it was called, if all is as it was there when it ends, or if it saves the
     modes."""
     saves: bool = False
     """Whether the modes at the call are in force again where it ends."""
     doubt: str = ""
-    """Why nobody knows how often it runs."""
+    """The reason why nobody knows how often it runs."""
     ran: list[Block] = field(default_factory=list)
-    """What has run in it, if that has to be written back."""
+    """The blocks that have run in it, if that has to be written back."""
 
     def go_to(self, index: int) -> None:
         """Go on at a line: what the line that runs still says is left out."""
@@ -311,7 +311,7 @@ class Machine:
         """Whether calls are written out, whether what runs is reached from the main program, and whether what runs is
         passed over there."""
         self._told: dict[str, EventKind] = {}
-        """What is wrong with the line that runs, and may run on."""
+        """The fault of the line that runs, and may run on."""
         self._has_to_decide = False
         """Whether it ends where nobody knows what is decided."""
 
@@ -526,7 +526,7 @@ class Machine:
                 yield ProgramEvent(EventKind.STOPPED, self._line(frame, frame.here), str(error))
 
     def _tell(self, frame: _Frame) -> Iterator[ProgramEvent]:
-        """What is wrong with the line that runs, and may run on."""
+        """The fault of the line that runs, and may run on."""
         told = self._told | dict.fromkeys(self.variables.undefined, EventKind.REFUSED)
         self._told, self.variables.undefined = {}, []
         if not self._is_alone:
@@ -784,7 +784,7 @@ class Machine:
         self._wait(frames, self._state())
 
     def _state(self) -> _State:
-        """What is known here."""
+        """The state here."""
         return _State(self.variables.copy(), self._beside, self._decided)
 
     def _know(self, known: _State) -> None:
@@ -792,7 +792,7 @@ class Machine:
         self.variables.levels, self._beside, self._decided = known.levels, known.beside, known.reason
 
     def _join(self, one: _State, other: _State, reason: str) -> _State:
-        """What is known where two ways meet."""
+        """The state where two ways meet."""
         levels = self.variables.join(one.levels, other.levels, reason)
         return _State(levels, self._follower.join((one.beside, other.beside), reason), one.reason or other.reason)
 

@@ -62,7 +62,7 @@ class VariableType(Enum):
 
 
 class VariableScope(Enum):
-    """Where a variable is known that no program defines by its type."""
+    """The levels at which a variable is known that no program defines by its type."""
 
     EVERYWHERE = "everywhere"
     LEVEL = "in one level of calls"
@@ -109,7 +109,7 @@ SKIP_SWITCH = Variable("/")
 
 
 LENGTH_INCREMENT, ANGLE_INCREMENT = Variable("@LENGTH"), Variable("@ANGLE")
-"""What an argument without a decimal point counts, in the program's units; no program names them."""
+"""The value of 1 in an argument without a decimal point counts, in the program's units; no program names them."""
 
 
 class JumpWay(Enum):
@@ -338,7 +338,7 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     passes_return: bool = False
     """Whether the end of a subprogram does nothing where none was called: LBL 0."""
     scope: Callable[[str], VariableScope] = lambda _: VariableScope.EVERYWHERE
-    """Where a variable is known that no program defines by its type."""
+    """The levels at which a variable is known that no program defines by its type."""
     shows_main: bool = True
     """Whether subprograms know what the main program defines."""
     own_cycles: str = ""

@@ -125,7 +125,7 @@ def _names_in(record: object) -> Iterator[str]:
 
 
 class VariableLevel(Struct):
-    """What a program that was called has for itself: values, types of what it defines, and by the names of what it has
+    """The own variables of a program that was called: values, types of what it defines, and by the names of what it has
     by reference, which variable of which level that is. The first level is the main program's, and has what is known
     everywhere."""
 
@@ -302,7 +302,7 @@ class Variables:
         return tuple(frozenset(each.values.items()) for each in self.levels)
 
     def set_once(self) -> VariableLevel:
-        """What is known everywhere and was set once in all, or is stated apart."""
+        """The variables that are known everywhere and were set once in all, or is stated apart."""
         once = {name for name, times in Counter(self.assigned).items() if times == 1} | self.given.keys()
         return replace(self.levels[0], values={name: value for name, value in self.values.items() if name in once})
 

@@ -47,11 +47,11 @@ def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: P
 
 
 _CUT_OFF = {"corner-without-next": "a corner", "end-missing": "a line by its angle alone"}
-"""What needs the next element, by the ends of the codes of what is said where none follows."""
+"""The elements that need the next one, by the ends of the codes of what is said where none follows."""
 
 
 def _at_call(finding: Diagnostic, answer: Answer, dialect: Dialect) -> Diagnostic:
-    """What is said of a contour right before a call or a return, behind which nobody looks for its next element."""
+    """The finding about a contour right before a call or a return, behind which nobody looks for its next element."""
     what = next((each for code, each in _CUT_OFF.items() if finding.code.endswith(f"-{code}")), None)
     if what is None:
         return finding
@@ -69,7 +69,7 @@ def _moving(pending: Pending, dialect: Dialect) -> Block | None:
 
 
 def _at_moved_zero(finding: Diagnostic, moving: Block) -> Diagnostic:
-    """What is said of a contour right before such a block."""
+    """The finding about a contour right before such a block."""
     if not any(finding.code.endswith(f"-{code}") for code in _CUT_OFF):
         return finding
     text = " ".join(word.text.strip() for word in moving.words)

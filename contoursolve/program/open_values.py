@@ -96,6 +96,10 @@ class _Search:
         that, it has the contour. With all decimals where rounding leaves nothing of the range."""
         exact = Decimal(repr(limit))
         shown = inward(exact, self.answer.unit.value, way) + 0
+        nearest = exact.quantize(shown)
+        # The limit itself is one of the values where it is reached, whatever the last digits of the floats say.
+        if nearest != shown and self._try(float(nearest), Depth.TRIAL).is_solved:
+            shown = nearest
         goes_beyond = way * (shown - Decimal(repr(tried.value))) < 0
         if goes_beyond and not self._try(float(shown), Depth.TRIAL).is_solved:
             return f"{exact.normalize():f}"

@@ -1,4 +1,4 @@
-"""What SAVE brings back where a subprogram ends: the modes and frames at its call, as a state and as blocks.
+"""The modes that SAVE brings back where a subprogram ends: the modes and frames at its call, as a state and as blocks.
 
 Of G54 and shifts, SINUMERIK's basic functions print it (09/2011, p. 793); of other G codes, it is assumed.
 """

@@ -39,7 +39,7 @@ def machine_in(
 
 
 def _increments(blocks: Iterable[Block], modes: Modes, unit: Length) -> dict[str, float]:
-    """What lengths and angles count that are arguments without a decimal point; nothing where that is not known."""
+    """The units of lengths and angles that are arguments without a decimal point; nothing where that is not known."""
     numbers, here = modes.lexicon.numbers, unit_of_calls(blocks, modes, unit)
     names = {LENGTH_INCREMENT.name: Unit.MM, ANGLE_INCREMENT.name: Unit.DEGREE}
     if modes.settings.get(ARGUMENTS) == "whole":

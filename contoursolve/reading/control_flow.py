@@ -66,7 +66,7 @@ class Ways(Follower):
     begins at a block."""
 
     goes_beyond = True
-    """Whether a contour may go on beyond an event."""
+    """True where a contour may go on beyond an event."""
 
     def __init__(self, first: Callable[[], State], modes: Modes, take: "Take") -> None:
         self.modes, self._first, self._take = modes, first, take
@@ -146,7 +146,7 @@ class Ways(Follower):
 
 
 class TakenBlocks(Struct, frozen=True):
-    """What begins at a block: how many blocks belong to it, the state behind it, and what is found there."""
+    """The find at a block: how many blocks belong to it, the state behind it, and what is found there."""
 
     blocks: int
     state: State

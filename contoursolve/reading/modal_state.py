@@ -272,7 +272,7 @@ class Modes:
     separate: frozenset[int] = field(default=frozenset(), kw_only=True)
     """G codes of blocks that belong to a contour and move nothing."""
     zero: ZeroTable = field(default=NOTHING_MOVES, kw_only=True)
-    """What moves the coordinate system."""
+    """The table of what moves the coordinate system."""
     language: MacroLanguage | None = field(default=None, kw_only=True)
     """Its variables, jumps and calls."""
     follow: Callable[[State, Block, "Modes"], State] | None = field(default=None, kw_only=True)

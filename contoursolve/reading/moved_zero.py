@@ -1,4 +1,4 @@
-"""What moves the coordinate system, as rows of tables: a code, an address or a variable, how, and which axes are not
+"""Moves of the coordinate system, as rows of tables: a code, an address or a variable, how, and which axes are not
 known behind it. Every block is asked, whether it belongs to a contour or not."""
 
 import re
@@ -18,7 +18,7 @@ WORK, TOOL, LENGTH = "work offset", "tool offset", "length of the tool"
 
 
 class ZeroMove(Enum):
-    """How the coordinate system moves."""
+    """The ways in which the coordinate system moves."""
 
     SELECT = "selects an offset of a table"
     """The one that is in force again moves nothing."""
@@ -36,11 +36,11 @@ class ZeroMove(Enum):
 
 
 Offset = tuple[tuple[str, Decimal | int], ...]
-"""Which offset is in force: addresses with their numbers."""
+"""The offset in force: addresses with their numbers."""
 
 
 Zero = Mapping[str, "Offset | Decimal"]
-"""What is in force: offsets by their group, and shifts by numbers, mm, by their axis."""
+"""The zero in force: offsets by their group, and shifts by numbers, mm, by their axis."""
 _Shifts = tuple[Decimal | None, Decimal | None]
 """The shift of an axis and the second one beside it, mm; None where it is not known."""
 _ZERO = Decimal(0)
@@ -101,7 +101,7 @@ class ZeroRow:
 
 
 class Moved(Struct, frozen=True):
-    """What a block moves: by how much each axis, mm, None where that is not known; what is in force then, and why."""
+    """The move of a block: by how much each axis, mm, None where that is not known; what is in force then, and why."""
 
     by: Mapping[str, Decimal | None]
     zero: Zero
@@ -172,7 +172,7 @@ def _fine(axis: str) -> str:
 
 
 def forget_shifts(zero: Zero) -> Zero:
-    """What is in force without shifts by numbers: they are not known, or not along the axes."""
+    """The zero without shifts by numbers: they are not known, or not along the axes."""
     kept = {name: value for name, value in zero.items() if not isinstance(value, Decimal)}
     return zero if len(kept) == len(zero) else kept
 
@@ -187,8 +187,8 @@ def move_zero(
     plane: str,
     mm: Callable[[str, Decimal], Decimal | None],
 ) -> Moved | None:
-    """What a word of a block moves, where `zero` is in force; None for nothing. `numbers` are the values of the block's
-    axis words, mm; `mm` gives that of a number that a formula states for an axis."""
+    """The move by a word of a block, where `zero` is in force; None for nothing. `numbers` are the values of the
+    block's axis words, mm; `mm` gives that of a number that a formula states for an axis."""
     reason = _reason(row, word, block)
     every = row.axes_in(plane) or (() if isinstance(row.axes, Mapping) else axes)
     every = tuple(axis for axis in every if axis in axes)
@@ -211,7 +211,7 @@ def move_zero(
 
 
 def _with_other_data(zero: Zero, group: str) -> Zero:
-    """What is in force where the numbers of an offset are others, so that the same one is another one."""
+    """The zero where the numbers of an offset are others, so that the same one is another one."""
     return {**{name: value for name, value in zero.items() if name != group}, **({_DATA: ()} if group == WORK else {})}
 
 
@@ -225,7 +225,7 @@ def is_along_axes(zero: Zero, first: Zero) -> bool:
 
 
 def change_entries(zero: Zero, entries: Iterable[Entry], axes: tuple[str, ...], reason: str) -> Moved | None:
-    """What a change of entries of tables moves: those that are in force, or may be."""
+    """The move by a change of entries of tables: those that are in force, or may be."""
     lost = dict[str, None]()
     for entry in entries:
         if entry.is_in(zero):
@@ -238,7 +238,7 @@ _ASSIGNED = re.compile(r"\#(?:(?P<number>\d++)|\[[^=]*\])[ \t]*+=")
 
 
 def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: str) -> Moved:
-    """What moves where a work offset and shifts are in force again that were so before; those of tools stay."""
+    """The move where a work offset and shifts are in force again that were so before; those of tools stay."""
     by = dict[str, Decimal | None]()
     for axis in axes:
         old, new = (_sum(*_shifts_of(zero, axis)) for zero in (now, before))
@@ -284,7 +284,7 @@ def _reason(row: ZeroRow, word: Word, block: Block) -> str:
 
 
 def _select(zero: Zero, row: ZeroRow, word: Word, block: Block, lost: Moved) -> Moved | None:
-    """What the selection of an offset moves. Behind a block that may be skipped, it is not known which is in force."""
+    """The move by the selection of an offset. Behind a block that may be skipped, it is not known which is in force."""
     told = [(each.address, each.number) for each in block.words if each.address in row.words.split()]
     own = () if word.address in row.words.split() else ((word.address, word.number),)
     parts = dict[str, Decimal | int | None]([*own, *told])
@@ -310,8 +310,8 @@ def shift_zero(
     axes: tuple[str, ...],
     reason: str,
 ) -> Moved:
-    """What a shift by numbers of its block moves: by new minus old, mm, where both are known and nothing is turned. Of
-    None, nothing is known."""
+    """The move by a shift with numbers in its block: by new minus old, mm, where both are known and nothing is turned.
+    Of None, nothing is known."""
     shifts = {axis: _shifts_of(zero, axis) for axis in axes}
     is_bare = all(each.address in ("N", "G") for each in block.words)
     new: Mapping[str, _Shifts] = {}
@@ -347,7 +347,7 @@ def _shifted(
     new: Mapping[str, _Shifts],
     reason: str,
 ) -> Moved:
-    """What takes the place of shifts, where they have been along the axes."""
+    """The reason that takes the place of shifts, where they have been along the axes."""
     sums = {axis: (_sum(*old[axis]), _sum(*each)) for axis, each in new.items()}
     by = {
         axis: None if before is None or after is None else after - before

@@ -12,13 +12,13 @@ from msgspec.structs import replace
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import Block, Directive, Word
 from contoursolve.geometry import (
+    FIRST,
+    SECOND,
     Choice,
-    Coordinate,
     Fact,
     Given,
     Layout,
     Line,
-    Offset,
     Pick,
     Plane,
     Profile,
@@ -342,25 +342,44 @@ def leave(
 
 def _stated_end(claim: ParsedContour) -> tuple[Decimal | None, Decimal | None]:
     """The coordinates of the end that words state, mm, whatever becomes of its corners: along each axis back from point
-    to point, to a coordinate or to the start."""
+    to point, over lines that run along the other axis too, to a coordinate or to the start."""
     profile = read(claim, frozenset())
-    facts = {(fact.point, fact.axis): fact for fact in profile.facts if isinstance(fact, Coordinate | Offset)}
+    figure, givens = profile.figure, profile.givens
+    steps = {
+        (placed.point, placed.axis): (placed, fact)
+        for fact in profile.facts
+        if (placed := fact.placed) is not None and placed.is_stepped
+    }
 
     def along(axis: int) -> Decimal | None:
-        point, total = profile.figure.path[-1].head, Decimal(0)
-        while point != profile.figure.start:
-            fact = facts.pop((point, axis), None)
-            given = profile.givens.get(fact.given) if fact is not None else None
-            if fact is None or given is None or given.value is None:
+        tails = {
+            line.head: line.tail
+            for line in (*figure.path, *figure.lines)
+            if isinstance(line, Line) and _is_across(givens.get(line.heading or ""), axis)
+        }
+        point, total = figure.path[-1].head, Decimal(0)
+        while point != figure.start:
+            if (point, axis) in steps:
+                placed, fact = steps.pop((point, axis))
+                if fact.given not in givens:
+                    return None
+                total += givens[fact.given].value
+                if not placed.origin:
+                    return total
+                point = placed.origin
+            elif point in tails:
+                point = tails.pop(point)
+            else:
                 return None
-            total += given.value
-            if isinstance(fact, Coordinate):
-                return total
-            point = fact.origin
         first = profile.start.values[axis]
         return None if first is None else total + first
 
-    return along(0), along(1)
+    return along(FIRST), along(SECOND)
+
+
+def _is_across(heading: Given | None, axis: int) -> bool:
+    """Whether a line in a direction keeps its coordinate on an axis."""
+    return heading is not None and heading.value % 180 == (90 if axis == FIRST else 0)
 
 
 _END = "the end of this contour"

@@ -177,7 +177,7 @@ class ToolRules(Struct, frozen=True):
         return fitting_radii(lambda radius: self.stops(own, radius), self.crossing(own), most)
 
     def crossing(self, own: CuttingRun) -> RunsCrossing | None:
-        """Where the run-in and the run-off of a run cross."""
+        """The places where the run-in and the run-off of a run cross."""
         return OffsetPath(own.elements, 0.0, own.side.sign, self.settings, own.levels).crossing
 
     def entry_of(self, own: CuttingRun) -> OffsetPath | None:

@@ -37,7 +37,7 @@ _REACH = 1000.0
 _ASIDE = 1e-6
 """mm. How far below the least radius a tool is tried, to tell what stops it."""
 
-_TRIED = "a smaller tool is taken to fit wherever a larger one does, as long as the same lines and arcs are in its way"
+_TRIED = "a smaller tool is taken to fit wherever a larger one does, with the same elements in its way"
 
 _UNSTATED = Tool(Decimal(1))
 """The tool with which runs are found where none is stated."""
@@ -97,7 +97,7 @@ class ToolTrials:
         return next((each for each in radii if self.rules.stops(self.runs[number], each)), radii[-1])
 
     def _warnings(self, number: int) -> Iterator[str]:
-        """What the tool is warned of, whatever its radius."""
+        """The warnings about the tool, whatever its radius."""
         own = self.runs[number]
         for fault in self.warned(number):
             message = fault.kind.value.message.format(**self.told.texts(own, fault))
@@ -163,9 +163,9 @@ def find_tools(
     Radii are in the unit of the program. Raises ToolError for a tool that there cannot be, for a side that
     nothing says, and without a cutting move.
 
-    A smaller tool is taken to fit wherever a larger one does, and both sides of each end are tried. Where a large tool
-    reaches from the run-in to the run-off, which cross, less of them is in its way than in that of a small one: there
-    may be two ranges. What no path shows, such as a cycle, is left out; `contoursolve find` lists it.
+    A smaller tool is taken to fit wherever a larger one does, and both sides of each end are tried. Run-in and run-off
+    may cross: where a large tool reaches over both, less is in its way than in that of a small one. There may be two
+    ranges. What no path shows, such as a cycle, is left out; `contoursolve find` lists it.
 
     >>> blocks = "G01 X20. Z-14.6\\nG02 X20.8 Z-15. R0.4\\nG01 X40. Z-15."
     >>> found = find_tools(blocks, side="right", tip=3, start="X20. Z0.", control="fanuc-lathe")

@@ -296,7 +296,7 @@ M99 -> Return
 {M99 P30} -> Return to=30
 G28 U0 M30 -> ProgramEnd
 {G65 P9010 B#2 I4. I-#3 L2} -> Call program 9010 count=2 arguments=((#2, #2), (#4, 4), (#7, negate(#3))) is_local=True
-{G65 P1 X20} -> Call program 1 arguments=((#24, multiply(20, @LENGTH)),) counted=X is_local=True
+{G65 P1 X20} -> Call program 1 arguments=((#24, multiply(20, @LENGTH))) counted=X is_local=True
 G71 P10 Q020 U.5 F.2 -> Call profile 10 last=20 cycle=G71
 G73 X5 Z-3 R1 Q2 P5
 G71 U2. R1.

@@ -1,6 +1,6 @@
 """A contour with a variable is a family: for which values it exists, and commands that take the variable as a word."""
 
-from math import cos, radians
+from math import ceil, cos, radians
 
 import pytest
 from click.testing import CliRunner
@@ -29,8 +29,9 @@ def test_check_says_for_which_values_a_contour_exists_and_what_ends_them():
     first, below, why = notes(START + BLOCK.replace("#101", "5."))
     assert (first, why) == ("#100 makes a contour from 50.000 on", "#100: #100 is set by nothing before")
     assert below.startswith("#100 below 50.000: P5. and Q5. overlap on line 2")
-    # Behind this, the line of 60 deg runs past the end of the one of -30 deg.
-    assert notes(KLARTEXT)[0] == f"Q1 makes a contour from {20 * cos(radians(60)) / cos(radians(30)):.3f} on"
+    # Behind this (rounded into the range), the line of 60 deg runs past the end of the one of -30 deg.
+    least = ceil(20_000 * cos(radians(60)) / cos(radians(30))) / 1000
+    assert notes(KLARTEXT)[0] == f"Q1 makes a contour from {least} on"
     both = notes(START + "G111 A[180.-#100] K-30. B120. X100. P#100 Q5.")
     assert both[0].startswith("#100 makes a contour from 0.000 to 34.67")
 

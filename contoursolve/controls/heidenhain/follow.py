@@ -184,7 +184,7 @@ _MOVING: tuple[tuple[re.Pattern[str], ZeroRow], ...] = tuple(
         (r"PLANE\b", "PLANE", ZeroMove.TURN),
     )
 )
-"""What moves the coordinate system: by numbers along axes, or in a way that is not followed."""
+"""The moves of the coordinate system: by numbers along axes, or in a way that is not followed."""
 _SHIFT = re.compile(r"(?P<step>I?)(?P<axis>[XYZ])[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))?+", re.IGNORECASE)
 _TOOL = re.compile(
     BLOCK_NUMBER + r"TOOL[ \t]+CALL[ \t]+(?:\"[^\"]*\"|\S+)[ \t]+(?P<axis>[XYZUVW])(?=[ \t;]|$)", re.IGNORECASE

@@ -159,7 +159,7 @@ _ZERO = table_of(
     {},
     first={WORK: (("G", 53),)},
 )
-"""What moves the coordinate system: at first, no offset is in force."""
+"""The moves of the coordinate system: at first, no offset is in force."""
 
 
 MODES = Modes(

@@ -161,7 +161,7 @@ _ZERO_ROWS = (
     ZeroRow(f"{_FRAMES} $P_PARTFRAME $P_TOOLFRAME $P_WPFRAME $P_CYCFRAME $P_TRAFRAME", ZeroMove.OTHER, _OFFSETS, WORK),
     ZeroRow("$P_UIFR $P_UBFR $P_CHBFR $P_NCBFR $P_SETFR $P_EXTFR", ZeroMove.LATER, _OFFSETS, WORK),
 )  # fmt: skip
-"""What moves the coordinate system of every SINUMERIK."""
+"""The moves of the coordinate system of every SINUMERIK."""
 _AXIAL = (
     ZeroRow("G58", ZeroMove.SET, BOOK.printed("fundamentals 11/2006 p. 238")),
     ZeroRow("G59", ZeroMove.FINE, BOOK.printed("fundamentals 11/2006 p. 238")),
