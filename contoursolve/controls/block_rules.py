@@ -243,8 +243,8 @@ READING_RULES = (
         code="argument-in-increments",
         message="{words} {have} no decimal point and {are} read as {actual} in the called program; {meant} would be "
         "{expected}",
-        help="write {meant} if that is meant; else {same}, which says the same; --set {control}.macro-arguments tells "
-        "what your control does",
+        help="write {meant} if that is meant; else {same}, which says the same; if your control reads {meant}: "
+        "--set {control}.macro-arguments=whole",
         source=_READING,
         about=ReadIssue.ARGUMENT_IN_INCREMENTS,
         severity=Severity.WARNING,
