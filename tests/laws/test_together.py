@@ -160,5 +160,5 @@ def test_a_block_that_is_solved_often_is_told_as_at_first(seed, monkeypatch):
         judged.clear()
     (at_first, one_by_one), (often_told, rest) = told
     assert at_first == often_told
-    # What passes all its checks is no more judged one by one.
-    assert rest < one_by_one
+    # What passes all its checks is no more judged one by one; behind a call that is not there, nothing is judged.
+    assert rest < one_by_one or not one_by_one
