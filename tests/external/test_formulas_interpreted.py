@@ -155,7 +155,8 @@ def test_the_interpreter_runs_formulas_as_we_solve(form, tmp_path):
         assert_path(cut, elements_of(contours, unit), OFF if is_off else INCREMENT)
         seen[is_refused] += 1
     assert len(rows) >= VALUES
-    assert min(seen[True], seen[False]) >= VALUES // 20, dict(seen)
+    # Of the seeds here, 52 of 504 at the least.
+    assert min(seen[True], seen[False]) >= VALUES // 10, dict(seen)
 
 
 def nested(line: str) -> int:
@@ -208,4 +209,5 @@ def test_what_is_written_for_other_controls_does_the_same(language):
                 start = complex(*contours[0].start) / unit
                 motions = motions_of(done, start, "".join(plane.axes), scales)
                 assert_path(list(motions), elements_of(contours, unit), OFF if is_off else INCREMENT)
-    assert min(seen[True], seen[False]) > VALUES // 50
+    # Of the seeds here, 19 of 48 at the least.
+    assert min(seen[True], seen[False]) >= 15, dict(seen)
