@@ -186,7 +186,7 @@ class DrawnSinumerik(Drawn):
         text += [*self.lines(0, options, self.random.randint(2, 5)), *self.contour(0), "M30"]
         for depth, name, parameters in self.heads:
             # What a caller of a caller defines is tried as well.
-            taken = {each for _, _, each in parameters}
+            taken = [each for _, _, each in parameters]
             own = [line for line in self.definitions(0) if line.split()[2].partition("=")[0] not in taken]
             self.real = [each for each in self.real if each not in taken]
             self.real += [each for _, kind, each in parameters if kind == "REAL"]
