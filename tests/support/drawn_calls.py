@@ -7,10 +7,11 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from random import Random
+from typing import Any
 
 Blocks = list[tuple[str, list[str]]]
 """Some blocks in a row, each a template with `{}` for each of its values."""
-Statement = tuple[str, dict[str, object]]
+Statement = tuple[str, dict[str, Any]]
 SIGNS = {"EQ": "==", "NE": "<>", "GT": ">", "LT": "<"}
 NUMBERED = {"EQ": "FN 9: {} EQU", "NE": "FN 10: {} NE", "GT": "FN 11: {} GT", "LT": "FN 12: {} LT"}
 
@@ -182,46 +183,34 @@ class Program:
 
     def spell(self, language: Language, block: Callable[[list[str], Statement], None]) -> str:
         """The text; `block` writes a statement of blocks behind the lines so far."""
-        lines, labels = list[str](), iter(range(7001, 9999))
-        main: list[Statement] = [("main", {}), ("modes", {}), *self.main, ("end", {})]
-        parts = [
-            [("sub", {"name": each}), *own, ("return", {"word": "M17" if each % 2 else "RET"})]
-            for each, own in self.subprograms.items()
-        ]
-        for statement in (
-            each for part in ([*parts, main] if language.kinds is ISG else [main, *parts]) for each in part
-        ):
-            kind, fields = statement
-            if kind == "block":
+        lines, parts = list[str](), [[("main", {}), ("modes", {}), *self.main, ("end", {})]]
+        for name, own in self.subprograms.items():
+            parts.append([("sub", {"name": name}), *own, ("return", {"word": "M17" if name % 2 else "RET"})])
+        ordered = [*parts[1:], parts[0]] if language.kinds is ISG else parts
+        for statement in (each for part in ordered for each in part):
+            if statement[0] == "block":
                 block(lines, statement)
-                continue
-            if kind == "modes":
+            elif statement[0] == "modes":
                 lines += filter(None, [CONTROLS[self.control].modes])
-                continue
-            known = {**fields, "var": language.variable(fields.get("number", 0))}
-            if "value" in fields:
-                known["value"] = language.formula(fields["value"])
-                if language.is_numbered and is_plain(fields["value"]) and fields["number"] % 2:
-                    kind = "set-number"
-            if "sides" in fields:
-                left, sign, right = fields["sides"]
-                known["test"] = language.test(
-                    left, sign, self.computed(lines, right) if language.is_numbered else right
-                )
-            own, count = (
-                language.kinds.get(kind, language.kinds[kind.partition("-")[0]]).format(**known),
-                fields.get("count", 1),
-            )
-            if kind == "call" and count > 1 and language.is_numbered:
-                label = next(labels)
-                own = f"LBL {label}\n{own}\nCALL LBL {label} REP {count - 1}"
-            elif kind == "call" and language.kinds is FANUC:
-                own += f" L{count}" * (count > 1)
-            elif kind == "call" and language.kinds is ISG:
-                own = "\n".join([own] * count)
-            lines += own.split("\n")
-        lines += ["END PGM A MM"] * language.is_numbered
-        return "\n".join(lines) + "\n"
+            else:
+                lines += self.spelled(*statement, language, lines).split("\n")
+        return "\n".join([*lines, *["END PGM A MM"] * language.is_numbered]) + "\n"
+
+    def spelled(self, kind: str, fields: dict[str, Any], language: Language, lines: list[str]) -> str:
+        known, count = {**fields, "var": language.variable(fields.get("number", 0))}, fields.get("count", 1)
+        if "value" in fields:
+            known["value"] = language.formula(fields["value"])
+            if language.is_numbered and is_plain(fields["value"]) and fields["number"] % 2:
+                kind = "set-number"
+        if "sides" in fields:
+            left, sign, right = fields["sides"]
+            known["test"] = language.test(left, sign, self.computed(lines, right) if language.is_numbered else right)
+        own = language.kinds.get(kind, language.kinds[kind.partition("-")[0]]).format(**known)
+        if count > 1 and language.is_numbered:
+            return f"LBL {7000 + len(lines)}\n{own}\nCALL LBL {7000 + len(lines)} REP {count - 1}"
+        if count > 1 and language.kinds is FANUC:
+            return f"{own} L{count}"
+        return "\n".join([own] * count) if language.kinds is ISG else own
 
     def computed(self, lines: list[str], value: str) -> str:
         """A variable in which a formula is computed, where no word has one."""
@@ -238,10 +227,8 @@ class Program:
 
     def flat(self, run: Sequence[tuple[Statement, list[list[float]]]]) -> tuple[str, dict[int, int]]:
         """The blocks in the order in which they run, with numbers, and the program line of each."""
-        lines, origins = (
-            [*["BEGIN PGM A MM"] * self.language.is_numbered, *filter(None, [CONTROLS[self.control].modes])],
-            {},
-        )
+        begin, origins = ["BEGIN PGM A MM"] * self.language.is_numbered, dict[int, int]()
+        lines = [*begin, *filter(None, [CONTROLS[self.control].modes])]
         for statement, numbers in run:
             for offset, ((text, _), own) in enumerate(zip(statement[1]["blocks"], numbers, strict=True)):
                 lines.append(text.format(*(self.language.word(number(each)) for each in own)))
