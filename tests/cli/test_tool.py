@@ -4,22 +4,11 @@ import json
 from pathlib import Path
 
 import pytest
-from calling import block, call, data
+from calling import COMPENSATED, NOSE, block, call, data
 
 LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
 TAPER = block("X20. Z0. / G01 X20. Z-10. / X30. Z-20. / X30. Z-30.")
 TABLES = Path(__file__).parents[1] / "oracles" / "tool"
-NOSE = ("--tool", "R0.8", "--tip", "3")
-COMPENSATED = """\
-N1 G21 G40 G18
-N5 G00 X40. Z5.
-N6 G42 G00 X20. Z2. D1
-N10 G01 Z-10. F0.2
-N20 X30. Z-20.
-N30 Z-30.
-N40 G40 X50.
-N50 G00 Z100.
-"""
 
 
 def findings(*words, stdin=None):

@@ -193,10 +193,6 @@ class Desk:
         except CannotVerifyError:
             return True
 
-    def is_believed(self, result: object) -> bool:
-        """Whether all that the first contour claims, its status among it, is called verified."""
-        return self.receipt(result)["contours"][0]["verdict"] == "verified"
-
     def receipt(self, result: object, *options: str) -> dict[str, Any]:
         status, output, _ = self.verify(result, "--format", "json", *options)
         receipt: dict[str, Any] = json.loads(output)

@@ -18,7 +18,7 @@ from contoursolve.workbench import Desk
 
 pytestmark = [pytest.mark.site, pytest.mark.browser, pytest.mark.slow]
 LOADED = 100_000
-"""ms. Python starts in 5 to 15 s; every operation of NumPy is a request here."""
+"""ms. Python starts in 5 to 15 s; every operation of NumPy and CasADi is a request here."""
 TEXT = "{http://www.w3.org/2000/svg}text"
 CONTROL = "yasnac-lx3"
 BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
-import small_interpreter
+from drawn_calls import CONTROLS as RUN, drawn_program
 from editor import random_edit
 
 import contoursolve
@@ -199,5 +199,5 @@ def test_random_edits(path: Path, seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(40))
 def test_random_edits_of_programs_that_run(seed: int) -> None:
-    control = sorted(small_interpreter.CONTROLS)[seed % len(small_interpreter.CONTROLS)]
-    edit_at_random(small_interpreter.program(control, seed).text, control, control, seed, 4)
+    control = sorted(RUN)[seed % len(RUN)]
+    edit_at_random(drawn_program(control, seed).text, control, control, seed, 4)

@@ -36,6 +36,35 @@ class Drawn:
         chosen = self.random.choices([each for _, each in options], [weight for weight, _ in options], k=count)
         return [line for each in chosen for line in each(depth)]
 
+    def contour(self, depth: int) -> list[str]:
+        rapid, straight = self.moves
+        one, other = self.axes
+        lines = [f"{rapid} {self.word(one, 0, 20)} {self.word(other, 0, 20)}"] if self.is_so(0.45) else []
+        if self.has_angles and self.is_so(0.1):
+            # Two lines by their angles; both ends are in the second.
+            a, b = self.random.choice(((30, 120), (20, 80), (60, 150)))
+            ends = " ".join(self.far(axis) for axis in sorted(self.axes))
+            return [*lines, f"{straight} {self.angle(a)}{self.corner()}", f"{ends} {self.angle(b)}"]
+        blocks = []
+        for at, (axis, low, high) in enumerate(self.ends(self.random.randint(2, 4))):
+            words = [self.word(axis, low, high)]
+            if self.is_so(0.2):
+                words.append(self.word(self.axes[self.axes[0] == axis], 20, 90))
+            elif self.has_angles and self.is_so(0.08):
+                words.append(self.angle(self.one(("20", "70", "110", "160", "200"))))
+            blocks.append(f"{straight} " * (at == 0) + " ".join(words))
+        lines += [each + (self.corner() if self.is_so(0.8) else "") for each in blocks[:-1]] + blocks[-1:]
+        for at in range(len(lines)):
+            if self.is_so(0.04):
+                lines[at] = f"{self.one((*self.OFFSETS, *self.codes))} {lines[at]}"
+            elif self.is_so(0.02) and at:
+                lines[at] = "\n".join([*self.effect(depth), lines[at]])
+        return lines
+
+    @property
+    def simple(self) -> list[tuple[int, Callable[[int], list[str]]]]:
+        return [(3, self.contour), (3, self.effect), (2, self.assignment), (3, self.call), (1, self.mode)]
+
     def ends(self, count: int) -> list[tuple[str, int, int]]:
         """Axes in turn, each with the limits of where it goes."""
         first, far = self.random.randrange(2), self.random.sample(_FAR, count)
@@ -47,6 +76,13 @@ class DrawnSinumerik(Drawn):
 
     NAMES = ("AA", "BB", "ZZ", "TIEFE", "_Q")
     OFFSETS = ("G54", "G54", "G55", "G500", "G507")
+    moves, codes, has_angles = ("G0", "G1"), ("D2", "G90", "G91"), True
+
+    def angle(self, degrees: object) -> str:
+        return f"ANG={degrees}"
+
+    def far(self, axis: str) -> str:
+        return self.word(axis, 90, 130)
 
     def value(self, low: float = 0, high: float = 40) -> str:
         """What stands behind `=`."""
@@ -60,29 +96,6 @@ class DrawnSinumerik(Drawn):
         if way < 0.08:
             return f"{axis}={'IC' if way < 0.05 else 'AC'}({value})"
         return f"{axis}{value}" if value[0].isdigit() and not {*value} & {*"+-*/"} else f"{axis}={value}"
-
-    def contour(self, depth: int) -> list[str]:
-        lines = [f"G0 {self.word(self.axes[0], 0, 20)} {self.word(self.axes[1], 0, 20)}"] if self.is_so(0.45) else []
-        if self.is_so(0.1):
-            # Two lines by their angles; both ends are in the second.
-            a, b = self.random.choice(((30, 120), (20, 80), (60, 150)))
-            x, y = self.word(self.axes[0], 90, 130), self.word(self.axes[1], 90, 130)
-            return [*lines, f"G1 ANG={a}{self.corner()}", f"{x} {y} ANG={b}"]
-        blocks = []
-        for at, (axis, low, high) in enumerate(self.ends(self.random.randint(2, 4))):
-            words = [self.word(axis, low, high)]
-            if self.is_so(0.2):
-                words.append(self.word(self.axes[self.axes[0] == axis], 20, 90))
-            elif self.is_so(0.08):
-                words.append(f"ANG={self.one(('20', '70', '110', '160', '200'))}")
-            blocks.append(("G1 " if at == 0 else "") + " ".join(words))
-        lines += [each + (self.corner() if self.is_so(0.8) else "") for each in blocks[:-1]] + blocks[-1:]
-        for at in range(len(lines)):
-            if self.is_so(0.04):
-                lines[at] = f"{self.one((*self.OFFSETS, 'D2', 'G90', 'G91'))} {lines[at]}"
-            elif self.is_so(0.02) and at:
-                lines[at] = "\n".join([*self.effect(depth), lines[at]])
-        return lines
 
     def corner(self) -> str:
         value = self.one([*_SIZES] * 6 + [each for each in self.names if self.is_so(0.05)])
@@ -162,10 +175,6 @@ class DrawnSinumerik(Drawn):
         self.names = names
         return lines
 
-    @property
-    def simple(self) -> list[tuple[int, Callable[[int], list[str]]]]:
-        return [(3, self.contour), (3, self.effect), (2, self.assignment), (3, self.call), (1, self.mode)]
-
     def program(self) -> list[str]:
         self.heads = list[tuple[int, str, list[tuple[str, str, str]]]]()
         for depth in (1, 2, 3):
@@ -186,7 +195,7 @@ class DrawnSinumerik(Drawn):
         text += [*self.lines(0, options, self.random.randint(2, 5)), *self.contour(0), "M30"]
         for depth, name, parameters in self.heads:
             # What a caller of a caller defines is tried as well.
-            taken = {each for _, _, each in parameters}
+            taken = [each for _, _, each in parameters]
             own = [line for line in self.definitions(0) if line.split()[2].partition("=")[0] not in taken]
             self.real = [each for each in self.real if each not in taken]
             self.real += [each for _, kind, each in parameters if kind == "REAL"]
@@ -202,6 +211,15 @@ class DrawnFanuc(Drawn):
     """Programs of Fanuc macros."""
 
     OFFSETS = ("G54", "G54", "G55", "G57", "G54.1 P2")
+    moves = ("G00", "G01")
+    has_angles = property(lambda self: self.is_turning)
+    codes = property(lambda self: ("T0202",) if self.is_turning else ("G90", "G91"))
+
+    def angle(self, degrees: object) -> str:
+        return f",A{degrees}."
+
+    def far(self, axis: str) -> str:
+        return f"{axis}{self.near(90, 130)}"
 
     def value(self, low: float = 0, high: float = 40) -> str:
         if not self.is_so(0.35):
@@ -214,29 +232,6 @@ class DrawnFanuc(Drawn):
         if self.is_turning and self.is_so(0.1):
             axis = "UW"["XZ".index(axis)]
         return f"{axis}{self.value(low, high)}"
-
-    def contour(self, depth: int) -> list[str]:
-        lines = [f"G00 {self.word(self.axes[0], 0, 20)} {self.word(self.axes[1], 0, 20)}"] if self.is_so(0.45) else []
-        if self.is_turning and self.is_so(0.1):
-            a, b = self.random.choice(((30, 120), (20, 80), (60, 150)))
-            ends = f"X{self.near(90, 130)} Z{self.near(90, 130)}"
-            return [*lines, f"G01 ,A{a}.{self.corner()}", f"{ends} ,A{b}."]
-        blocks = []
-        for at, (axis, low, high) in enumerate(self.ends(self.random.randint(2, 4))):
-            words = [self.word(axis, low, high)]
-            if self.is_so(0.2):
-                words.append(self.word(self.axes[self.axes[0] == axis], 20, 90))
-            elif self.is_turning and self.is_so(0.08):
-                words.append(f",A{self.one(('20', '70', '110', '160', '200'))}.")
-            blocks.append(("G01 " if at == 0 else "") + " ".join(words))
-        lines += [each + (self.corner() if self.is_so(0.8) else "") for each in blocks[:-1]] + blocks[-1:]
-        for at in range(len(lines)):
-            if self.is_so(0.04):
-                codes = ("T0202",) if self.is_turning else ("G90", "G91")
-                lines[at] = f"{self.one((*self.OFFSETS, *codes))} {lines[at]}"
-            elif self.is_so(0.02) and at:
-                lines[at] = "\n".join([*self.effect(depth), lines[at]])
-        return lines
 
     def corner(self) -> str:
         value = self.one([f"{each}." if "." not in each else each for each in _SIZES] * 6 + ["#18", "#100"])
@@ -308,10 +303,6 @@ class DrawnFanuc(Drawn):
         inner = self.lines(depth, self.simple, 1)
         more = f"WHILE[{name} LT {self.one(('1.', '2.', '3.'))}]DO1"
         return [f"{name}=0", more, *inner, f"{name}={name}+1.", "END1"]
-
-    @property
-    def simple(self) -> list[tuple[int, Callable[[int], list[str]]]]:
-        return [(3, self.contour), (3, self.effect), (2, self.assignment), (3, self.call), (1, self.mode)]
 
     def program(self) -> list[str]:
         self.heads, self.has_local = [101, 102, 201, 202, 301], self.is_so(0.5)

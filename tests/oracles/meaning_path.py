@@ -4,9 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import acos, cos, degrees, tan
 
-from meaning_core import Interpreter, Move, Stopped, Value
-from meaning_fanuc import Fanuc
-from meaning_sinumerik import Sinumerik
+from reference_interpreter import Fanuc, Interpreter, Move, Sinumerik, Stopped, Value, is_known
 
 CONTROLS = ("siemens-840d", "siemens-turning", "fanuc-mill", "fanuc-lathe")
 """SINUMERIK also as a lathe, and Fanuc."""
@@ -24,9 +22,7 @@ class Path:
 
 @dataclass(frozen=True)
 class Open:
-    """A path that is not known, and the lines that made it so."""
-
-    lines: frozenset[int]
+    """A path that is not known."""
 
 
 class Hard(Exception):  # noqa: N818 - too near to a limit to be judged by arithmetic of its own
@@ -46,16 +42,15 @@ def runs(text: str, control: str) -> list[list[Move]]:
             taken.append(chosen[len(taken)])
             return taken[-1]
 
-        found.append(interpreter(text, control, decide).run())
+        found.append(interpreter(text, control, decide).section(0))
         if len(found) > MOST_WAYS:
             raise Stopped("too many ways")
     return found
 
 
 def interpreter(text: str, control: str, decide) -> Interpreter:
-    if control.startswith("siemens"):
-        return Sinumerik(text, decide, is_turning=control == "siemens-turning")
-    return Fanuc(text, decide, is_turning=control == "fanuc-lathe")
+    language = Sinumerik if control.startswith("siemens") else Fanuc
+    return language(text, decide, is_turning=control in ("siemens-turning", "fanuc-lathe"))
 
 
 def path_of(moves: Sequence[Move]) -> Path | Open | None:
@@ -64,17 +59,17 @@ def path_of(moves: Sequence[Move]) -> Path | Open | None:
     places = [moves[0].seen(moves[0].start, zero), *(each.seen(each.end, zero) for each in moves)]
     sizes = [each.corner[1] for each in moves if each.corner]
     values = [*(each for place in places for each in place), *sizes]
-    values += [each for move in moves for each in move.center or ()]
-    if not all(each.is_known for each in values):
-        return Open(frozenset(line for each in values for line in each.lines))
+    values += [each for move in moves if move.center is not None for each in move.center]
+    if not all(map(is_known, values)):
+        return Open()
     if any(move.axes != moves[0].axes or move.motion < 0 for move in moves):
         return None
-    points = [complex(a.number, b.number) for a, b in places]
+    points = [complex(*place[:, 0]) for place in places]
     taken, corners = [0.0] * (len(points) + 1), dict[int, tuple[complex, complex, complex | None]]()
     for at, move in enumerate(moves[:-1], 1):
-        if move.corner and move.corner[1].number:
+        if move.corner and move.corner[1][0]:
             before, here, after = points[at - 1 : at + 2]
-            if moves[at].center or move.center:
+            if moves[at].center is not None or move.center is not None:
                 raise Hard
             corner = corner_of(before, here, after, move.corner)
             taken[at - 1] += abs(corner[0] - here)
@@ -88,7 +83,7 @@ def path_of(moves: Sequence[Move]) -> Path | Open | None:
         if room < 0:
             return None
         first, second, center = corners.get(at, (points[at], points[at], None))
-        own = complex(*(each.number for each in move.center)) if move.center else None
+        own = None if move.center is None else complex(*move.center[:, 0])
         elements += [(first, own), (second, center)] if at in corners else [(first, own)]
     start, kept = points[0], list[tuple[complex, complex | None]]()
     for end, center in elements:
@@ -100,7 +95,7 @@ def path_of(moves: Sequence[Move]) -> Path | Open | None:
 
 def corner_of(before: complex, here: complex, after: complex, corner: tuple[str, Value]):
     """Where the corner begins and ends, and the centre of a rounding."""
-    name, size = corner[0], corner[1].number
+    name, size = corner[0], corner[1][0]
     if abs(here - before) < 0.01 or abs(after - here) < 0.01 or size <= 0:
         raise Hard
     one, other = (here - before) / abs(here - before), (after - here) / abs(after - here)

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from drawn_meanings import drawn
-from meaning_core import Move, Stopped
 from meaning_path import CONTROLS, Hard, Open, Path, are_alike, path_of, runs
+from reference_interpreter import Move, Stopped
 
 from contoursolve import Answer, solve
 
@@ -50,7 +50,7 @@ def judged(text: str, control: str) -> Iterator[Verdict]:
     refused = {lines[0] for lines, answers in told.items() if any(each.status.value != "solved" for each in answers)}
     for lines, answers in told.items():
         yield from _of_contour(lines, answers, [*_runs_of(lines, ways)], is_refused=lines[0] in refused)
-    wanted = {move.line for way in ways for move in way if move.corner or move.angle}
+    wanted = {move.line for way in ways for move in way if move.corner or move.angle is not None}
     if wanted - covered:
         causes = [each for each in result.diagnostics if each.code.endswith(UNKNOWN) or each.severity.value == "error"]
         cause = plain(f"{causes[0].code}: {causes[0].message}") if causes else "nothing is said"

@@ -4,12 +4,13 @@ said to be unknown; and what is written anew moves as before."""
 import re
 from itertools import groupby
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from drawn_meanings import drawn
-from meaning_core import Move, Stopped
 from meaning_path import CONTROLS, Hard, Open, path_of, runs
 from program_meaning import PRODUCT, judged
+from reference_interpreter import Move, Stopped, is_known
 
 from contoursolve import convert, expand
 from contoursolve.cli import main
@@ -76,8 +77,7 @@ def test_a_start_and_a_path_are_the_interpreters_or_unknown_with_a_line(case, co
 
 def alike_zero(one: Move, other: Move) -> bool:
     """Whether both count from the same point."""
-    shifts = [a - b for a, b in zip(one.zero[1], other.zero[1], strict=True)]
-    return one.zero[0] == other.zero[0] and all(each.is_known and abs(each.number) < 1e-9 for each in shifts)
+    return (one.zero[0] == other.zero[0]).all() and np.allclose(one.zero[1], other.zero[1], rtol=0, atol=1e-7)
 
 
 def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]]:
@@ -97,9 +97,7 @@ def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]
             # Its corners are left as they are.
             for each in chain:
                 end = each.seen(each.end, each.zero)
-                found.append(
-                    (complex(end[0].number, end[1].number) if end[0].is_known and end[1].is_known else None, None)
-                )
+                found.append((complex(*end[:, 0]) if is_known(end) else None, None))
         elif path is None:
             raise Hard
         else:

@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 from generate_fanuc import disturbed, random_lathe, random_mill
-from oracle import Element
+from oracle import elements_of
 from oracle_corners import gap
 from oracle_fanuc import Machine, run
 from respell import Line, isg, sinumerik
@@ -53,7 +53,7 @@ def judge(lines: Sequence[Line], program: Sequence[str], control: str, machine: 
         return "near"
     text = "\n".join(line for _, line in lines)
     result = solve(text, control=control, settings=ALIKE[control], depth="verdict")
-    found = {lines[each.claim.blocks[0].line - 1][0]: elements(each) for each in result.answers if each.contour}
+    found = {lines[each.claim.blocks[0].line - 1][0]: elements_of(each) for each in result.answers if each.contour}
     told = [each.message for each in result.diagnostics if each.severity.value == "error"]
     for each in expected.runs:
         size = max(abs(element.end) for element in each.elements)
@@ -71,17 +71,6 @@ def _without_turning(line: str) -> str:
 def _rounded(line: str) -> str:
     """Of a rounding and a chamfer in one block, SINUMERIK makes the rounding."""
     return re.sub(r" ,C\d\S*", "", line) if re.search(r",R\d", line) else line
-
-
-def elements(answer) -> list[Element]:
-    found = []
-    for each in answer.contour.elements:
-        start, end = complex(*each.start), complex(*each.end)
-        if hasattr(each, "center"):
-            found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
-        else:
-            found.append(Element("line", start, end))
-    return found
 
 
 def machine_of(control: str, plane: int | None) -> Machine:

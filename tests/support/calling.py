@@ -7,6 +7,19 @@ from click.testing import CliRunner, Result
 
 from contoursolve.cli import main
 
+NOSE = ("--tool", "R0.8", "--tip", "3")
+COMPENSATED = """\
+N1 G21 G40 G18
+N5 G00 X40. Z5.
+N6 G42 G00 X20. Z2. D1
+N10 G01 Z-10. F0.2
+N20 X30. Z-20.
+N30 Z-30.
+N40 G40 X50.
+N50 G00 Z100.
+"""
+"""A lathe's contour with compensation, and the tool that cuts it."""
+
 
 def call(*words: object, stdin: str | bytes | None = None, **environment: str) -> Result:
     """What a command answers; nothing may ever end in a traceback."""

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from zipfile import ZipFile
 
-STAND_INS = Path(__file__).with_name("stand_ins")
+STAND_INS = Path(__file__).parent / "stand_ins" / "browser"
 
 
 def _installed(package: str) -> Path:
@@ -23,8 +23,8 @@ def make_distribution(core: Path, folder: Path) -> Path:
     """
     shutil.copytree(core, folder)
     sources = {
-        "numpy": STAND_INS / "browser" / "numpy",
-        "casadi": STAND_INS / "python" / "casadi.py",
+        "numpy": STAND_INS / "numpy",
+        "casadi": STAND_INS / "casadi.py",
         **{name: _installed(name) for name in ("markupsafe", "sympy", "mpmath")},
     }
     depends = {"casadi": ["numpy"], "sympy": ["mpmath"]}

@@ -22,7 +22,7 @@ from tempfile import TemporaryDirectory
 from time import process_time
 from typing import NamedTuple
 
-import small_interpreter
+import drawn_calls
 import sympy  # noqa: F401 - the first --explain imports it, which is not its fault
 from click.testing import CliRunner
 
@@ -46,8 +46,8 @@ def examples(control: str) -> list[str]:
     texts = [text for rule in rules for text in (*rule.accepted, *rule.rejected)]
     vectors = json.loads((ROOT / "docs" / "vectors" / f"{control}.json").read_text(encoding="utf-8"))["vectors"]
     texts += ["\n".join(each["program"]) for each in vectors]
-    if control in small_interpreter.CONTROLS:
-        texts += [small_interpreter.program(control, seed).text for seed in range(20)]
+    if control in drawn_calls.CONTROLS:
+        texts += [drawn_calls.drawn_program(control, seed).text for seed in range(20)]
     return [*dict.fromkeys(texts)]
 
 

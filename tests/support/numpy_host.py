@@ -1,4 +1,4 @@
-"""The server behind `stand_ins/browser/numpy`: it sends a site, and does with NumPy what its pages ask for."""
+"""The server behind `stand_ins/browser`: it sends a site, and does with NumPy and CasADi what its pages ask for."""
 
 import builtins
 import operator
@@ -10,13 +10,18 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from io import BytesIO
 from pathlib import Path
 from threading import Lock, Thread
+from types import SimpleNamespace
 from typing import Any
 
+import casadi
 import numpy
+
+_PACKAGES = SimpleNamespace(numpy=numpy, casadi=casadi)
+_CLASSES = {numpy.ndarray: "array", numpy.generic: "array", casadi.SX: "SX", casadi.Function: "Function"}
 
 
 class _Desk:
-    """The arrays of the pages, by number."""
+    """The arrays and expressions of the pages, by number."""
 
     def __init__(self) -> None:
         self.things: dict[int, Any] = {}
@@ -52,7 +57,17 @@ class _Desk:
         return getattr(operator, name)(*operands)
 
     def call(self, path: str, args: Any, options: Any) -> Any:
-        return operator.attrgetter(path)(numpy)(*args, **options)
+        return operator.attrgetter(path)(_PACKAGES)(*args, **options)
+
+    def evaluate(self, function: Any, given: list[list[float]], sizes: list[int]) -> list[list[float]]:
+        buffer, trigger = function.buffer()
+        arguments, results = [numpy.array(each) for each in given], [numpy.zeros(size) for size in sizes]
+        for number, each in enumerate(arguments):
+            buffer.set_arg(number, memoryview(each))
+        for number, each in enumerate(results):
+            buffer.set_res(number, memoryview(each))
+        trigger()
+        return [each.tolist() for each in results]
 
 
 class _Unpickler(pickle.Unpickler):
@@ -61,7 +76,7 @@ class _Unpickler(pickle.Unpickler):
         self.desk = desk
 
     def persistent_load(self, told: Any) -> Any:
-        return self.desk.things[told] if isinstance(told, int) else operator.attrgetter(told)(numpy)
+        return self.desk.things[told] if isinstance(told, int) else operator.attrgetter(told)(_PACKAGES)
 
 
 class _Pickler(pickle.Pickler):
@@ -73,12 +88,12 @@ class _Pickler(pickle.Pickler):
         if isinstance(each, numpy.float64):
             return "number", float(each)
         if isinstance(each, numpy.dtype) or (isinstance(each, type) and issubclass(each, numpy.generic)):
-            return "name", numpy.dtype(each).name
+            return "name", f"numpy.{numpy.dtype(each).name}"
         if isinstance(each, (bool, int, float, str, bytes, tuple, list, type(None), Exception, type)):
             return None
         self.desk.number += 1
         self.desk.things[self.desk.number] = each
-        return "array" if isinstance(each, (numpy.ndarray, numpy.generic)) else "other", self.desk.number
+        return next((name for kind, name in _CLASSES.items() if isinstance(each, kind)), "other"), self.desk.number
 
     def reducer_override(self, each: Any) -> Any:
         # Named tuples are known only here.

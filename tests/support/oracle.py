@@ -29,6 +29,18 @@ class Element(NamedTuple):
     turn: str = ""
 
 
+def elements_of(answer) -> list[Element]:
+    """The elements of an answer that has a contour."""
+    found = []
+    for each in answer.contour.elements if answer.contour else ():
+        start, end = complex(*each.start), complex(*each.end)
+        if hasattr(each, "center"):
+            found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
+        else:
+            found.append(Element("line", start, end))
+    return found
+
+
 @dataclass
 class Outcome:
     status: str = ""

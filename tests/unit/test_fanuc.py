@@ -15,7 +15,7 @@ from examples_fanuc import (
     MILL,
 )
 from generate_fanuc import disturbed, random_lathe, random_mill
-from oracle import Element
+from oracle import Element, elements_of
 from oracle_corners import gap
 from oracle_fanuc import Machine, run
 
@@ -30,18 +30,7 @@ def errors(result: Result) -> list[Diagnostic]:
 
 def path(result: Result) -> list[Element]:
     """All contours of a program, one behind the other."""
-    return [element for answer in result.answers for element in elements(answer)]
-
-
-def elements(answer) -> list[Element]:
-    found = []
-    for each in answer.contour.elements if answer.contour else ():
-        start, end = complex(*each.start), complex(*each.end)
-        if hasattr(each, "center"):
-            found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
-        else:
-            found.append(Element("line", start, end))
-    return found
+    return [element for answer in result.answers for element in elements_of(answer)]
 
 
 def test_the_program_of_the_lathe_tells_its_control_and_that_of_the_mill_asks():
@@ -108,7 +97,7 @@ def judge(program: Sequence[str], control: str, machine: Machine, settings: dict
         return "near"
     text = "\n".join(program)
     result = solve(text, control=control, settings=settings, depth="verdict")
-    found = {answer.claim.blocks[0].line: elements(answer) for answer in result.answers if answer.contour}
+    found = {answer.claim.blocks[0].line: elements_of(answer) for answer in result.answers if answer.contour}
     for each in expected.runs:
         size = max(abs(element.end) for element in each.elements)
         assert gap(each.elements, found.pop(each.line, [])) < 1e-8 * max(1, size / 1000), (
@@ -258,7 +247,7 @@ def test_many_contours_of_a_program_come_out_as_each_alone(settings):
     together = solve("\n".join(blocks), control=LATHE, settings=named).answers
     for text, answer in zip(blocks, together, strict=True):
         (alone,) = solve(text, control=LATHE, settings=named).answers
-        assert (answer.status, elements(answer)) == (alone.status, elements(alone)), text
+        assert (answer.status, elements_of(answer)) == (alone.status, elements_of(alone)), text
         # What is hardly meant depends on the contours beside.
         one, other = ([each.code for each in found.diagnostics] for found in (answer, alone))
         assert [code for code in one if code != "suspected"] == [code for code in other if code != "suspected"], text

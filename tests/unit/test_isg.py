@@ -1,7 +1,7 @@
 """ISG kernel: the worked examples of its sheet, right and wrong, how it is spelled, corners in blocks of their own."""
 
 import pytest
-from oracle import Element
+from oracle import Element, elements_of
 from vectors import VECTORS, program_of
 
 from contoursolve import check, solve
@@ -19,14 +19,8 @@ def path(text: str, **settings: str) -> list[Element]:
     """All contours, one behind the other; they have no errors."""
     result = isg(text, **settings)
     assert not result.has_errors, [each.message for each in result.diagnostics]
-    found = []
-    for each in (element for answer in result.answers for element in answer.contour.elements):
-        start, end = complex(*each.start), complex(*each.end)
-        if hasattr(each, "center"):
-            found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
-        else:
-            found.append(Element("line", start, end))
-    return found
+    assert all(answer.contour for answer in result.answers)
+    return [element for answer in result.answers for element in elements_of(answer)]
 
 
 def ends(text: str, **settings: str) -> list[complex]:

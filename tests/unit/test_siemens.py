@@ -6,7 +6,7 @@ from math import dist
 import pytest
 from examples import law
 from hypothesis import strategies as st
-from oracle import Element
+from oracle import Element, elements_of
 from vectors import program_of
 
 from contoursolve import expand, solve
@@ -25,18 +25,7 @@ def path(text: str, control: str = CONTROLS[0], **settings: str) -> list[Element
     """All contours, one behind the other; they have no errors."""
     result = siemens(text, control, **settings)
     assert not result.has_errors, [each.message for each in result.diagnostics]
-    return [element for answer in result.answers for element in path_of(answer)]
-
-
-def path_of(answer) -> list[Element]:
-    found = []
-    for each in answer.contour.elements if answer.contour else ():
-        start, end = complex(*each.start), complex(*each.end)
-        if hasattr(each, "center"):
-            found.append(Element("arc", start, end, complex(*each.center), each.radius, each.turn.value))
-        else:
-            found.append(Element("line", start, end))
-    return found
+    return [element for answer in result.answers for element in elements_of(answer)]
 
 
 def ends(text: str, **settings: str) -> list[tuple[float, float]]:

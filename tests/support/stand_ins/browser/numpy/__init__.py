@@ -12,7 +12,7 @@ from typing import Any
 
 from js import Uint8Array, XMLHttpRequest
 
-__all__ = ["float64", "inf", "linalg", "nan", "ndarray", "newaxis", "pi"]
+__all__ = ["KINDS", "Name", "There", "ask", "float64", "inf", "linalg", "nan", "ndarray", "newaxis", "pi"]
 newaxis = None
 _gone: list[int] = []
 """Arrays there that nobody here has any more."""
@@ -23,7 +23,7 @@ class float64(float):  # noqa: N801 - NumPy's name
 
     def __new__(cls, value: Any = 0.0) -> Any:
         """Of an array, the array."""
-        return _ask("call", "float64", (value,), {}) if isinstance(value, ndarray) else super().__new__(cls, value)
+        return ask("call", "numpy.float64", (value,), {}) if isinstance(value, ndarray) else super().__new__(cls, value)
 
     def __reduce__(self) -> Any:
         return float, (float(self),)
@@ -63,21 +63,25 @@ for _name in ("neg", "abs", "pos"):
 
 class _Pickler(pickle.Pickler):
     def persistent_id(self, each: Any) -> Any:
-        if isinstance(each, _There):
+        if isinstance(each, There):
             return object.__getattribute__(each, "_number")
         if isinstance(each, Name):
             return object.__getattribute__(each, "_path")
-        return "float64" if each is float64 else None
+        return "numpy.float64" if each is float64 else None
 
 
 class _Unpickler(pickle.Unpickler):
     def persistent_load(self, told: Any) -> Any:
         kind, value = told
-        return {"array": ndarray, "other": _There, "number": float64, "name": Name}[kind](value)
+        if kind in ("number", "name"):
+            return (float64 if kind == "number" else Name)(value)
+        found = object.__new__(KINDS[kind])
+        found._number = value
+        return found
 
 
-def _ask(*request: Any) -> Any:
-    """What the real NumPy answers."""
+def ask(*request: Any) -> Any:
+    """What the real package answers."""
     sent = BytesIO()
     _Pickler(sent, 4).dump((_gone[:], *request))
     _gone.clear()
@@ -93,11 +97,8 @@ def _ask(*request: Any) -> Any:
     return found
 
 
-class _There:
+class There:
     """Something on the server."""
-
-    def __init__(self, number: int) -> None:
-        self._number = number
 
     def __del__(self) -> None:
         _gone.append(self._number)
@@ -105,17 +106,23 @@ class _There:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        return lambda *args, **options: _ask("method", self, name, args, options)
+        return lambda *args, **options: ask("method", self, name, args, options)
+
+    def __call__(self, *args: Any, **options: Any) -> Any:
+        return ask("method", self, "__call__", args, options)
 
     def __hash__(self) -> int:
         return id(self)
 
     def __iter__(self) -> Any:
-        return iter(_ask("builtin", "list", self))
+        return iter(ask("builtin", "list", self))
 
 
-class ndarray(_There):  # noqa: N801 - NumPy's name
+class ndarray(There):  # noqa: N801 - NumPy's name
     """An array on the server."""
+
+
+KINDS: dict[str, type] = {"array": ndarray, "other": There}
 
 
 class generic:  # noqa: N801 - NumPy's name
@@ -123,25 +130,25 @@ class generic:  # noqa: N801 - NumPy's name
 
 
 for _name in ("shape", "size", "ndim", "T", "imag", "real", "dtype", "flat"):
-    setattr(ndarray, _name, property(lambda self, name=_name: _ask("attribute", self, name)))
+    setattr(ndarray, _name, property(lambda self, name=_name: ask("attribute", self, name)))
 for _name in ("len", "float", "int", "bool", "abs", "complex", "str", "repr"):
-    setattr(ndarray, f"__{_name}__", lambda self, name=_name: _ask("builtin", name, self))
+    setattr(ndarray, f"__{_name}__", lambda self, name=_name: ask("builtin", name, self))
 for _name in ("neg", "pos", "invert", "getitem", "setitem", "index", "lt", "le", "gt", "ge", "eq", "ne", "contains"):
-    setattr(ndarray, f"__{_name}__", lambda *operands, name=_name: _ask("operator", name, operands))
+    setattr(ndarray, f"__{_name}__", lambda *operands, name=_name: ask("operator", name, operands))
 for _name in ("add", "sub", "mul", "truediv", "floordiv", "mod", "pow", "matmul", "and_", "or_", "xor"):
     _short = _name.rstrip("_")
-    setattr(ndarray, f"__{_short}__", lambda one, other, name=_name: _ask("operator", name, (one, other)))
-    setattr(ndarray, f"__r{_short}__", lambda one, other, name=_name: _ask("operator", name, (other, one)))
+    setattr(ndarray, f"__{_short}__", lambda one, other, name=_name: ask("operator", name, (one, other)))
+    setattr(ndarray, f"__r{_short}__", lambda one, other, name=_name: ask("operator", name, (other, one)))
 
 
 class Name:
-    """A function or a type of NumPy."""
+    """A function or a type of a package there."""
 
     def __init__(self, path: str) -> None:
         self._path = path
 
     def __call__(self, *args: Any, **options: Any) -> Any:
-        return _ask("call", self._path, args, options)
+        return ask("call", self._path, args, options)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
@@ -154,7 +161,7 @@ class _LinearAlgebra(Name):
         """A matrix that cannot be inverted."""
 
 
-linalg = _LinearAlgebra("linalg")
+linalg = _LinearAlgebra("numpy.linalg")
 
 
 def errstate(**_: Any) -> Any:
@@ -165,4 +172,4 @@ def errstate(**_: Any) -> Any:
 def __getattr__(name: str) -> Any:
     if name.startswith("__"):
         raise AttributeError(name)
-    return Name(name)
+    return Name(f"numpy.{name}")
