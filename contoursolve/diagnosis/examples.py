@@ -1,20 +1,21 @@
 """Numbers for words that a repair adds without one: some with which there is a contour."""
 
 import dataclasses
-from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from decimal import Decimal
 from math import inf, isinf, log10
 
 import numpy
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
 from contoursolve.diagnostics import NumberRange, OpenNumber
 from contoursolve.gcode import spell
 from contoursolve.geometry import Profile, Unit
-from contoursolve.numeric import Array
+from contoursolve.numeric import Array, section
 from contoursolve.reading import ParsedContour
-from contoursolve.solving import agreement_rows, passed_rows
+from contoursolve.solving import agreement_rows, last_holding, passed_rows
 
 MOST_PROPOSED = 8
 """Numbers that are proposed for a repair; a few, because a rule may refuse what the equations accept."""
@@ -184,45 +185,28 @@ def _end(
     place, side = end
     step, last = _increment(claim, name), float(grid[place])
     is_edge = not 0 <= place + side < len(grid)
-    if not is_edge:
-        beyond = float(grid[place + side])
-        last = _last(claim, profile, name, last, beyond) if is_told else beyond
-    steps = range(round(abs(middle - last) / step) + 1)
+    beyond = last if is_edge else float(grid[place + side])
+    if is_told and not is_edge:
+        beyond, _ = section(last, beyond, lambda values: ~_is_passed(profile, name, values), step * _FINE)
+        nearest = round(beyond / step) * step
+        beyond = nearest if _is_passed(profile, name, numpy.array([nearest]))[0] else beyond
+    inside, outside = (Decimal(repr(round(each, _DIGITS))) for each in (middle, beyond))
+    found = last_holding(inside, outside, Decimal(repr(step)), lambda value: accepts(_text(claim, name, value)))
+    is_open = profile.givens[name].unit is not Unit.DEGREE and (side > 0 or name not in _sizes(profile))
+    return side * inf if is_edge and is_open and found == outside else float(found)
 
-    def at(number: int) -> float:
-        return last - side * step * number
 
-    def is_good(number: int) -> bool:
-        return number >= len(steps) - 1 or accepts(_text(claim, name, at(number)))
+_FINE, _DIGITS = 1e-3, 9
+"""Share of an increment to which the last number that is passed is found, and decimals of a value, mm or degrees."""
 
-    if accepts(_text(claim, name, at(0))):
-        is_size = name in _sizes(profile) and side < 0
-        is_length = profile.givens[name].unit is not Unit.DEGREE
-        return side * inf if is_edge and is_length and not is_size else at(0)
-    # Rules refuse the last few, if any: steps that double find how many sooner than halves of all would.
-    far = next((2**power for power in range(len(steps).bit_length()) if is_good(2**power)), len(steps) - 1)
-    return at(bisect_left(steps, True, far // 2 + 1, min(far, len(steps) - 1), key=is_good))
+
+def _is_passed(profile: Profile, name: str, values: Array) -> NDArray[numpy.bool_]:
+    return numpy.asarray(_passed(profile, {name: values}), bool)
 
 
 def _sizes(profile: Profile) -> set[str]:
     """The givens that are sizes of corners and circles, which are above zero."""
     return {corner.size for corner in profile.figure.corners} | {fact.given for fact in profile.facts if fact.sizes}
-
-
-def _last(claim: ParsedContour, profile: Profile, name: str, good: float, bad: float) -> float:
-    """The last value that is passed on the way from one that is to one that is not."""
-    step = _increment(claim, name)
-    while abs(bad - good) > 1.5 * step:
-        between = numpy.unique(numpy.rint(numpy.linspace(good, bad, ROWS) / step) * step)
-        between = between if good < bad else between[::-1]
-        passed = passed_rows(profile, {name: between})
-        if passed is None or passed.all():
-            break
-        place = int(numpy.argmin(passed))
-        if not place:
-            break
-        good, bad = float(between[place - 1]), float(between[place])
-    return good
 
 
 def _passed(profile: Profile, values: Mapping[str, Array]) -> Array | None:
