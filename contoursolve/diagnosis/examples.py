@@ -75,6 +75,7 @@ def propose(claim: ParsedContour, profile: Profile, edits: Sequence[Edit]) -> It
 
 
 IsAccepted = Callable[[tuple[Edit, ...]], bool]
+Holds = Callable[[float], bool]
 
 
 def numbers_for(
@@ -111,12 +112,16 @@ def _ranges_of(
     value, is_angle = float(profile.givens[name].value), profile.givens[name].unit is Unit.DEGREE
     if is_angle:
         value = (value + _HALF_TURN) % (2 * _HALF_TURN) - _HALF_TURN
-    grid = _far_grid(claim, profile, name, value)
+
+    def holds(number: float) -> bool:
+        return accepts(_text(claim, name, number))
+
+    grid, step = _far_grid(claim, profile, name, value), _increment(claim, name)
     passed = _passed(profile, {name: grid})
     is_told = passed is not None and bool(passed[numpy.argmin(abs(grid - value))])
     if not is_told:
         grid = _few(grid, value)
-        passed = numpy.array([accepts(_text(claim, name, float(each))) for each in grid])
+        passed = numpy.array([holds(float(each)) for each in grid])
     assert passed is not None
     places = numpy.flatnonzero(passed)
     runs = numpy.split(places, numpy.flatnonzero(numpy.diff(places) > 1) + 1) if places.size else []
@@ -125,16 +130,16 @@ def _ranges_of(
     for run in runs[:MOST_RANGES]:
         is_own = run[0] <= numpy.argmin(abs(grid - value)) <= run[-1]
         middle = value if is_own else float(grid[run[len(run) // 2]])
-        if is_own or accepts(_text(claim, name, middle)):
+        if is_own or holds(middle):
             ends = ((int(run[0]), -1), (int(run[-1]), 1))
-            low, high = (_end(claim, profile, name, grid, middle, end, is_told, accepts) for end in ends)
+            low, high = (_end(profile, name, step, grid, middle, end, holds, is_told) for end in ends)
             found.append((low, high))
     found.sort()
     if is_angle and len(found) > 1 and (found[0][0], found[-1][1]) == (-_HALF_TURN, _HALF_TURN):
         (_, last), *found, (first, _) = found
         turn = 2 * _HALF_TURN * (value < first)
         around = (first - turn, last + 2 * _HALF_TURN - turn)
-        if all(accepts(_text(claim, name, each)) for each in around):
+        if all(map(holds, around)):
             found.append(around)
         else:
             found = [(-_HALF_TURN, last), *found, (first, _HALF_TURN)]
@@ -171,27 +176,19 @@ def _few(grid: Array, value: float) -> Array:
 
 
 def _end(
-    claim: ParsedContour,
-    profile: Profile,
-    name: str,
-    grid: Array,
-    middle: float,
-    end: tuple[int, int],
-    is_told: bool,
-    accepts: Callable[[str], bool],
+    profile: Profile, name: str, step: float, grid: Array, middle: float, end: tuple[int, int], holds: Holds, told: bool
 ) -> float:
     """The last number on one side of a stretch that is accepted, infinite where each one is that was tried. Rules
     refuse some of the last numbers that the equations accept, where these tell at all."""
     place, side = end
-    step, last = _increment(claim, name), float(grid[place])
     is_edge = not 0 <= place + side < len(grid)
-    beyond = last if is_edge else float(grid[place + side])
-    if is_told and not is_edge:
+    last, beyond = float(grid[place]), float(grid[place if is_edge else place + side])
+    if told and not is_edge:
         beyond, _ = section(last, beyond, lambda values: ~_is_passed(profile, name, values), step * _FINE)
         nearest = round(beyond / step) * step
         beyond = nearest if _is_passed(profile, name, numpy.array([nearest]))[0] else beyond
     inside, outside = (Decimal(repr(round(each, _DIGITS))) for each in (middle, beyond))
-    found = last_holding(inside, outside, Decimal(repr(step)), lambda value: accepts(_text(claim, name, value)))
+    found = last_holding(inside, outside, Decimal(repr(step)), holds)
     is_open = profile.givens[name].unit is not Unit.DEGREE and (side > 0 or name not in _sizes(profile))
     return side * inf if is_edge and is_open and found == outside else float(found)
 

@@ -192,9 +192,7 @@ def feasible(
 
 def end_of_range(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
     """The lower (-1) or upper (+1) end of a range from one piece to another, of which `number` is at this end."""
-    value, far = pieces[number].low, pieces[other].high
-    if way > 0:
-        value, far = pieces[number].high, pieces[other].low
+    far, value = (pieces[min(number, other)].low, pieces[max(number, other)].high)[::way]
     if not 0 <= number + way < len(pieces):
         return range_end(value, far, search.unit)
     beyond, width = pieces[number + way], abs(value - far)

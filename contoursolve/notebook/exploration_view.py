@@ -19,7 +19,7 @@ from contoursolve.diagnosis import (
     status_text,
 )
 from contoursolve.diagnostics import Applicability, Diagnostic, Span
-from contoursolve.families import FamilyError, Feasible, called, feasible
+from contoursolve.families import FamilyError, called, feasible
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Question, Unit
 from contoursolve.notebook.exploration import (
@@ -437,19 +437,20 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
         if field["value"] in each:
             low = min(low, each.low.value - margin) if each.low.value > near[0] else low
             high = max(high, each.high.value + margin) if each.high.value < near[1] else high
+    ends = [
+        [end.reason.text.replace(called(name), label) if end.reason else "" for end in (each.low, each.high)]
+        for each in found.intervals
+    ]
     note, whole = range_texts(found, field["key"].rpartition(":")[2], field["value"])
     return {
         "intervals": [[each.low.value, each.high.value] for each in found.intervals],
         "stops": [[float(each.low.typed), float(each.high.typed)] for each in found.intervals],
-        "ends": [
-            [end.reason.text.replace(called(name), label) if end.reason else "" for end in (each.low, each.high)]
-            for each in found.intervals
-        ],
+        "ends": ends,
         "low": max(low, found.within[0]),
         "high": min(high, found.within[1]),
         "note": note,
         "whole": whole,
-        "reason": "; ".join(_reasons(found)).replace(called(name), label),
+        "reason": "; ".join(dict.fromkeys(text for own in ends for text in own if text)),
         "snaps": snaps_of(exploration, field["key"]),
     }
 
@@ -485,9 +486,3 @@ def _alone(exploration: Exploration, key: str) -> tuple[str, str, str, Mapping[s
     first = text.count("\n") + 2 - len(blocks)
     at = next(number for number, block in enumerate(blocks) if block.line == word.span.line)
     return (text, f"{first + at}:{word.address}", called(key), reading) if text else None
-
-
-def _reasons(found: Feasible) -> list[str]:
-    """Reasons beyond the ends of ranges, each once."""
-    ends = (end for each in found.intervals for end in (each.low, each.high))
-    return list(dict.fromkeys(end.reason.text for end in ends if end.reason is not None))

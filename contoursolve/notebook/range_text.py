@@ -27,6 +27,7 @@ class _Piece(Struct, frozen=True):
     high: Decimal | None
     has_low: bool
     has_high: bool
+    width: Decimal
     holes: tuple[str, ...] = ()
 
     def text(self, name: str) -> str:
@@ -73,7 +74,7 @@ def _told(pieces: Iterable[_Piece], name: str) -> str:
 
 def _piece(interval: Interval, unit: str) -> _Piece:
     (low, has_low), (high, has_high) = _limit(interval.low, unit), _limit(interval.high, unit)
-    return _Piece(low, high, has_low, has_high)
+    return _Piece(low, high, has_low, has_high, Decimal(repr(interval.high.value)) - Decimal(repr(interval.low.value)))
 
 
 def _limit(end: End, unit: str) -> tuple[Decimal | None, bool]:
@@ -87,7 +88,7 @@ def _limit(end: End, unit: str) -> tuple[Decimal | None, bool]:
 def _joined(pieces: Sequence[_Piece], unit: str) -> list[_Piece]:
     """The ranges with those joined that one value at most of the control's increment parts."""
     joined = [pieces[0]]
-    step = _step(unit)
+    step = Decimal(1).scaleb(-DECIMALS[unit])
     for each in pieces[1:]:
         last = joined[-1]
         gap = each.low - last.high if each.low is not None and last.high is not None else None
@@ -98,7 +99,8 @@ def _joined(pieces: Sequence[_Piece], unit: str) -> list[_Piece]:
         hole = last.high + gap / 2
         # Between two values that follow one another a contour is lost that nobody can ask for.
         text = _shown(hole) if gap != step else f"about {_shown(last.high)}"
-        joined[-1] = _Piece(last.low, each.high, last.has_low, each.has_high, (*last.holes, text))
+        width, holes = last.width + each.width, (*last.holes, text)
+        joined[-1] = _Piece(last.low, each.high, last.has_low, each.has_high, width, holes)
     return joined
 
 
@@ -107,17 +109,13 @@ def _is_value(piece: _Piece) -> bool:
     return piece.low is not None and piece.high is not None and piece.low >= piece.high
 
 
-def _step(unit: str) -> Decimal:
-    """The increment to which ends are rounded."""
-    return Decimal(1).scaleb(-DECIMALS[unit])
-
-
 def _with_fewer_digits(piece: _Piece, value: Decimal | None, unit: str) -> _Piece:
     """A range with as few digits as leave almost all of it, and its value."""
     low, high = piece.low, piece.high
     if _is_value(piece) or (low is None and high is None):
         return piece
-    width = high - low if low is not None and high is not None else max(abs(low or high or Decimal(0)), Decimal(1))
+    size = max(abs(low or high or Decimal(0)), Decimal(1))
+    width = high - low if low is not None and high is not None else min(size, piece.width)
 
     def fewer(end: Decimal | None, rounding: str) -> Decimal | None:
         if end is None:

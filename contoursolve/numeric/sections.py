@@ -7,11 +7,8 @@ from numpy.typing import NDArray
 
 from contoursolve.numeric.linear_algebra import Array
 
-SECTIONS = 12
-"""How often what lies between two values is divided, at most."""
-
-_PLACES = 33
-"""Values at which it is divided."""
+SECTIONS, _PLACES = 12, 33
+"""How often what lies between two values is divided, at most, and values that divide it."""
 
 
 def section(

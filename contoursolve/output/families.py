@@ -114,10 +114,8 @@ def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[
     """The largest tool for all contours of a program, that for each contour, by its lines, and what is left out."""
     least, rows = least_of(found), []
     whole = f"all {len(found)} contours" if len(found) > 1 else "the contour"
-    if least.largest:
-        yield f"largest tool for {whole}: {limit_text(least.intervals[0].high.listed, least.unit)}"
-    else:
-        yield f"no tool of the range searched cuts {whole}"
+    largest = "".join(limit_text(each.high.listed, least.unit) for each in least.intervals[:1])
+    yield f"largest tool for {whole}: {largest}" if least.largest else f"no tool of the range searched cuts {whole}"
     for place, (lines, each) in enumerate(found.items(), 1):
         where = f"lines {lines[0]} to {lines[-1]}" if len(lines) > 1 else f"line {lines[0]}"
         rows += [(f"{place}.", where, "none", each.refusal)] * (not each.intervals)

@@ -34,9 +34,7 @@ def tell_values(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
     name = next(iter(names)) if len(names) == 1 else ""
     if not name:
         return answer
-    search = _Search(answer, dialect, policy, name)
-    told = search.told()
-    finding = replace(about, notes=(*about.notes, *told))
+    finding = replace(about, notes=(*about.notes, *_Search(answer, dialect, policy, name).told()))
     return replace(answer, diagnostics=tuple(finding if each is about else each for each in answer.diagnostics))
 
 

@@ -92,8 +92,5 @@ def typed_limit(inside: float, limit: float, decimals: int, holds: Callable[[flo
     return shown if shown == found else found
 
 
-_BEYOND = 1e-7
-"""Share of a limit (at least of 1) by which a number that holds may lie beyond it, for floats are rounded."""
-
-_MOST_DECIMALS = 17
-"""Decimals of a number beyond which a float has none."""
+_BEYOND, _MOST_DECIMALS = 1e-7, 17
+"""Share of a limit (at least of 1) by which a number that holds may lie beyond it, and decimals that no float has."""

@@ -65,9 +65,8 @@ class ToolTrials:
             raise ToolError(f"the radius of a tool is not below 0; search from 0, such as 0:{high:g}")
         every = self.rules.fitting(own, high * scale)
         found = [each for each in every if each.high >= max(low * scale, GOUGE)]
-        intervals = tuple(
-            Interval(self._end(number, each, low, -1), self._end(number, each, high, 1)) for each in found
-        )
+        ends = ((self._end(number, each, low, -1), self._end(number, each, high, 1)) for each in found)
+        intervals = tuple(Interval(*each) for each in ends)
         is_open = own.tool.radius is _UNSTATED.radius
         about = TOOL, unit, 0.0 if is_open else own.radius / scale, (low, high), intervals, (_TRIED,)
         reason = None if found else self._end(number, every[-1], high, 1).reason
@@ -79,9 +78,8 @@ class ToolTrials:
         """The upper (`way` 1) or the lower end (-1) of radii that fit, within a bound of the search."""
         own = self.runs[number]
         unit, scale = own.unit.value, float(own.unit.in_mm)
-        limit, other, beyond = (
-            (fits.high, fits.low, fits.beyond) if way > 0 else (fits.low, fits.high, fits.low - _ASIDE)
-        )
+        other, limit = (fits.low, fits.high)[::way]
+        beyond = fits.beyond if way > 0 else limit - _ASIDE
         if beyond is None or (way < 0 and limit <= bound * scale):
             return range_end(bound, other / scale, unit)
         value = round(limit / scale, 12)
@@ -90,8 +88,7 @@ class ToolTrials:
         typed = (float(limits[0]) + way * 10 ** -DECIMALS[unit]) * scale
         stopped = typed if self.rules.stops(own, typed) else beyond
         reason = self._reason(number, limits[0] if limit >= GOUGE else None, stopped, way)
-        how = Way.BISECTION if way > 0 else Way.CLOSED_FORM
-        return End(value, how, reason, True, value, beyond / scale, *limits)
+        return End(value, Way.BISECTION if way > 0 else Way.CLOSED_FORM, reason, True, value, beyond / scale, *limits)
 
     def _warnings(self, number: int) -> Iterator[str]:
         """The warnings about the tool, whatever its radius."""
@@ -111,9 +108,8 @@ class ToolTrials:
         word = self.told.word(made, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
         where = f"program line {made.travels[fault.element].line}{f', {word.text}' if word is not None else ''}"
         message = fault.kind.value.message.format(**self.told.texts(made, fault))
-        told = "no tool fits"
-        if limit is not None:
-            told = f"tool at {'most' if way > 0 else 'least'} {limit_text(limit, made.unit.value)}"
+        most = "most" if way > 0 else "least"
+        told = "no tool fits" if limit is None else f"tool at {most} {limit_text(limit, made.unit.value)}"
         return Reason(f"{where}: {message}: {told}", fault.kind.code, message)
 
 
