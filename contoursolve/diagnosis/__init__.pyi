@@ -132,6 +132,7 @@ from .window import (
     WindowPart as WindowPart,
 )
 from .wording import (
+    DECIMALS as DECIMALS,
     NUMBERS as NUMBERS,
     angle_text as angle_text,
     axis_labels as axis_labels,

@@ -1,20 +1,21 @@
 """Numbers for words that a repair adds without one: some with which there is a contour."""
 
 import dataclasses
-from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from decimal import Decimal
 from math import inf, isinf, log10
 
 import numpy
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
 from contoursolve.diagnostics import NumberRange, OpenNumber
 from contoursolve.gcode import spell
 from contoursolve.geometry import Profile, Unit
-from contoursolve.numeric import Array
+from contoursolve.numeric import Array, section
 from contoursolve.reading import ParsedContour
-from contoursolve.solving import agreement_rows, passed_rows
+from contoursolve.solving import agreement_rows, last_holding, passed_rows
 
 MOST_PROPOSED = 8
 """Numbers that are proposed for a repair; a few, because a rule may refuse what the equations accept."""
@@ -74,6 +75,7 @@ def propose(claim: ParsedContour, profile: Profile, edits: Sequence[Edit]) -> It
 
 
 IsAccepted = Callable[[tuple[Edit, ...]], bool]
+Holds = Callable[[float], bool]
 
 
 def numbers_for(
@@ -110,12 +112,16 @@ def _ranges_of(
     value, is_angle = float(profile.givens[name].value), profile.givens[name].unit is Unit.DEGREE
     if is_angle:
         value = (value + _HALF_TURN) % (2 * _HALF_TURN) - _HALF_TURN
-    grid = _far_grid(claim, profile, name, value)
+
+    def holds(number: float) -> bool:
+        return accepts(_text(claim, name, number))
+
+    grid, step = _far_grid(claim, profile, name, value), _increment(claim, name)
     passed = _passed(profile, {name: grid})
     is_told = passed is not None and bool(passed[numpy.argmin(abs(grid - value))])
     if not is_told:
         grid = _few(grid, value)
-        passed = numpy.array([accepts(_text(claim, name, float(each))) for each in grid])
+        passed = numpy.array([holds(float(each)) for each in grid])
     assert passed is not None
     places = numpy.flatnonzero(passed)
     runs = numpy.split(places, numpy.flatnonzero(numpy.diff(places) > 1) + 1) if places.size else []
@@ -124,16 +130,16 @@ def _ranges_of(
     for run in runs[:MOST_RANGES]:
         is_own = run[0] <= numpy.argmin(abs(grid - value)) <= run[-1]
         middle = value if is_own else float(grid[run[len(run) // 2]])
-        if is_own or accepts(_text(claim, name, middle)):
+        if is_own or holds(middle):
             ends = ((int(run[0]), -1), (int(run[-1]), 1))
-            low, high = (_end(claim, profile, name, grid, middle, end, is_told, accepts) for end in ends)
+            low, high = (_end(profile, name, step, grid, middle, end, holds, is_told) for end in ends)
             found.append((low, high))
     found.sort()
     if is_angle and len(found) > 1 and (found[0][0], found[-1][1]) == (-_HALF_TURN, _HALF_TURN):
         (_, last), *found, (first, _) = found
         turn = 2 * _HALF_TURN * (value < first)
         around = (first - turn, last + 2 * _HALF_TURN - turn)
-        if all(accepts(_text(claim, name, each)) for each in around):
+        if all(map(holds, around)):
             found.append(around)
         else:
             found = [(-_HALF_TURN, last), *found, (first, _HALF_TURN)]
@@ -170,59 +176,34 @@ def _few(grid: Array, value: float) -> Array:
 
 
 def _end(
-    claim: ParsedContour,
-    profile: Profile,
-    name: str,
-    grid: Array,
-    middle: float,
-    end: tuple[int, int],
-    is_told: bool,
-    accepts: Callable[[str], bool],
+    profile: Profile, name: str, step: float, grid: Array, middle: float, end: tuple[int, int], holds: Holds, told: bool
 ) -> float:
     """The last number on one side of a stretch that is accepted, infinite where each one is that was tried. Rules
     refuse some of the last numbers that the equations accept, where these tell at all."""
     place, side = end
-    step, last = _increment(claim, name), float(grid[place])
     is_edge = not 0 <= place + side < len(grid)
-    if not is_edge:
-        beyond = float(grid[place + side])
-        last = _last(claim, profile, name, last, beyond) if is_told else beyond
-    steps = range(round(abs(middle - last) / step) + 1)
+    last, beyond = float(grid[place]), float(grid[place if is_edge else place + side])
+    if told and not is_edge:
+        beyond, _ = section(last, beyond, lambda values: ~_is_passed(profile, name, values), step * _FINE)
+        nearest = round(beyond / step) * step
+        beyond = nearest if _is_passed(profile, name, numpy.array([nearest]))[0] else beyond
+    inside, outside = (Decimal(repr(round(each, _DIGITS))) for each in (middle, beyond))
+    found = last_holding(inside, outside, Decimal(repr(step)), holds)
+    is_open = profile.givens[name].unit is not Unit.DEGREE and (side > 0 or name not in _sizes(profile))
+    return side * inf if is_edge and is_open and found == outside else float(found)
 
-    def at(number: int) -> float:
-        return last - side * step * number
 
-    def is_good(number: int) -> bool:
-        return number >= len(steps) - 1 or accepts(_text(claim, name, at(number)))
+_FINE, _DIGITS = 1e-3, 9
+"""Share of an increment to which the last number that is passed is found, and decimals of a value, mm or degrees."""
 
-    if accepts(_text(claim, name, at(0))):
-        is_size = name in _sizes(profile) and side < 0
-        is_length = profile.givens[name].unit is not Unit.DEGREE
-        return side * inf if is_edge and is_length and not is_size else at(0)
-    # Rules refuse the last few, if any: steps that double find how many sooner than halves of all would.
-    far = next((2**power for power in range(len(steps).bit_length()) if is_good(2**power)), len(steps) - 1)
-    return at(bisect_left(steps, True, far // 2 + 1, min(far, len(steps) - 1), key=is_good))
+
+def _is_passed(profile: Profile, name: str, values: Array) -> NDArray[numpy.bool_]:
+    return numpy.asarray(_passed(profile, {name: values}), bool)
 
 
 def _sizes(profile: Profile) -> set[str]:
     """The givens that are sizes of corners and circles, which are above zero."""
     return {corner.size for corner in profile.figure.corners} | {fact.given for fact in profile.facts if fact.sizes}
-
-
-def _last(claim: ParsedContour, profile: Profile, name: str, good: float, bad: float) -> float:
-    """The last value that is passed on the way from one that is to one that is not."""
-    step = _increment(claim, name)
-    while abs(bad - good) > 1.5 * step:
-        between = numpy.unique(numpy.rint(numpy.linspace(good, bad, ROWS) / step) * step)
-        between = between if good < bad else between[::-1]
-        passed = passed_rows(profile, {name: between})
-        if passed is None or passed.all():
-            break
-        place = int(numpy.argmin(passed))
-        if not place:
-            break
-        good, bad = float(between[place - 1]), float(between[place])
-    return good
 
 
 def _passed(profile: Profile, values: Mapping[str, Array]) -> Array | None:

@@ -21,13 +21,13 @@ from contoursolve.diagnosis.wording import (
     join,
     length_limit,
     length_text,
+    limit_text,
     open_text,
     place_text,
     shorten,
     statement_text,
     tell_apart,
     unknowns_text,
-    value_text,
 )
 from contoursolve.diagnostics import Basis, Diagnostic, Label, Span
 from contoursolve.gcode import FACT, Word, spell
@@ -459,7 +459,7 @@ def explain_result(
         fields = {"within": "", "does": "fits", **fields}
     labels = [f"expected {fields['expected']}"] if "expected" in compared else []
     if event.kind is RefusalKind.RADIUS_TOO_SMALL:
-        fields["limit"] = value_text(float(length_limit(values["limit"], context.unit, -1)), context.unit.value)
+        fields["limit"] = limit_text(length_limit(values["limit"], context.unit, -1), context.unit.value)
     if "fits" in event.kind.event.needs and isinstance(event, Refusal):
         more, labels = _room(event, values, profile)
         fields |= more
@@ -583,7 +583,7 @@ def _for_both(values: Mapping[str, float], unit: Length) -> list[str]:
 def _largest(limit: float, unit: Length) -> tuple[Decimal, str]:
     """The largest size (mm) as it is shown, in the program's unit."""
     largest = length_limit(limit, unit)
-    return largest, value_text(float(largest), unit.value)
+    return largest, limit_text(largest, unit.value)
 
 
 def _named_in(word: Word, profile: Profile) -> str:

@@ -4,13 +4,16 @@ import json
 import pkgutil
 import re
 from collections.abc import Container, Iterable, Iterator, Sequence
+from decimal import Decimal
 from functools import lru_cache
 from itertools import pairwise
 
 from contoursolve.diagnosis.wording import (
+    DECIMALS,
     angle_text,
     by_line,
     element_text,
+    inward,
     join,
     length_text,
     limit_text,
@@ -142,10 +145,10 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
         stated = (each for each in profile.givens.values() if each.word and each.word.address == finding.addresses[0])
         given = next(stated, None)
         both = (values[name] for name in ("angle_from", "angle_to"))
-        low, high = sorted(both if given is None else map(given.as_typed, both))
+        ends = zip(sorted(both if given is None else map(given.as_typed, both)), (-1, 1), strict=True)
         yield (
             f"a line through the same {known} point meets the circle with {finding.addresses[0]} between "
-            f"{limit_text(low, 'deg', -1)} and {limit_text(high, 'deg', 1)}"
+            f"{' and '.join(limit_text(inward(Decimal(repr(at)), DECIMALS['deg'], way), 'deg') for at, way in ends)}"
         )
     if affine is not None and finding.about in refusals_about(Topic.DIRECTION):
         fixed = affine.fixed_by(affine.facts)

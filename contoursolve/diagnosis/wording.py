@@ -25,26 +25,21 @@ def length_text(value: float, unit: Length, more: int = 0) -> str:
 def length_limit(value: float, unit: Length, way: int = 1) -> Decimal:
     """A length (mm) that is the largest (`way` 1) or the least one (-1) in the program's unit, as the shown decimals
     have it: not beyond the limit."""
-    return inward(Decimal(repr(value)) / unit.in_mm, unit.value, way)
+    return inward(Decimal(repr(value)) / unit.in_mm, DECIMALS[unit.value], way)
 
 
-def limit_text(value: float, unit: str, way: int, *, is_included: bool = True) -> str:
-    """A value that is the largest (`way` 1) or the least one (-1) in mm, inch or deg, so that what is shown does not go
-    beyond it; nor is it the limit itself, if that is not one of the values (`is_included`)."""
-    exact = Decimal(repr(value))
-    shown = inward(exact, unit, way)
-    if shown == exact and not is_included:
-        shown -= way * _STEPS.get(unit, _STEP)
-    return value_text(float(shown), unit)
+def limit_text(limit: Decimal, unit: str) -> str:
+    """A limit that is typed like that, in mm, inch or deg."""
+    return f"{limit:f} {short_name(unit)}"
 
 
-def inward(value: Decimal, unit: str, way: int) -> Decimal:
-    """An upper (`way` 1) or a lower limit (-1) rounded into its range, to the decimals that are shown."""
-    return value.quantize(_STEPS.get(unit, _STEP), ROUND_FLOOR if way > 0 else ROUND_CEILING)
+def inward(value: Decimal, decimals: int, way: int) -> Decimal:
+    """An upper (`way` 1) or a lower limit (-1) rounded into its range."""
+    return value.quantize(Decimal(1).scaleb(-decimals), ROUND_FLOOR if way > 0 else ROUND_CEILING)
 
 
-_STEP = Decimal("0.001")
-_STEPS = {Length.INCH.value: Decimal("0.0001")}
+DECIMALS = {Length.MM.value: 3, Length.INCH.value: 4, "deg": 3}
+"""Decimals of a value in a message, by its unit; listings show one more."""
 
 
 def angle_text(value: float, more: int = 0) -> str:
@@ -54,7 +49,7 @@ def angle_text(value: float, more: int = 0) -> str:
 
 def value_text(value: float, unit: str, more: int = 0) -> str:
     """A value as its word has it, in mm, inch or deg, with so many decimals more than usual."""
-    return f"{_number(value, 4 + more)} in" if unit == "inch" else f"{_number(value, 3 + more)} {unit}"
+    return f"{_number(value, DECIMALS[unit] + more)} {short_name(unit)}"
 
 
 def number_text(value: float, kind: Unit, unit: Length) -> str:
@@ -221,16 +216,9 @@ def length_in(mm: float, unit: Length) -> str:
     return f"{length_of(mm, unit)} {short_name(unit.value)}"
 
 
-def written(value: float, unit: str, way: int = 0, *, is_included: bool = True) -> str:
-    """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths. An upper (`way` 1) or a
-    lower limit (-1) is rounded into its range, but for the rounding of floats; nor is it the limit itself, if that is
-    not one of the values (`is_included`)."""
-    decimals, shown = 5 if unit == "inch" else 4, Decimal(repr(round(value, 10)))
-    if way:
-        step = Decimal(1).scaleb(-decimals)
-        exact, shown = shown, shown.quantize(step, ROUND_FLOOR if way > 0 else ROUND_CEILING)
-        shown -= way * step * (shown == exact and not is_included)
-    return f"{shown:z.{decimals}f} {short_name(unit)}"
+def written(value: float, unit: str) -> str:
+    """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths."""
+    return f"{Decimal(repr(round(value, 10))):z.{DECIMALS[unit] + 1}f} {short_name(unit)}"
 
 
 def coordinate_texts(place: Sequence[float], plane: Plane, unit: Length) -> list[str]:

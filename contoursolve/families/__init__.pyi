@@ -53,6 +53,8 @@ from .feasible_ranges import (
     Reason as Reason,
     Way as Way,
     feasible as feasible,
+    limits_of as limits_of,
+    range_end as range_end,
 )
 from .free_words import (
     limits_beside as limits_beside,

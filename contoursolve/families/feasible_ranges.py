@@ -1,25 +1,27 @@
 """Ranges of one word's values in which a contour is solved, all of them, and what ends each."""
 
 from collections.abc import Callable, Mapping, Sequence
+from decimal import Decimal
 from enum import Enum
 from itertools import groupby
+from math import inf
 from typing import Unpack
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, element_text, join, limit_text, unknowns_text, value_text
+from contoursolve.diagnosis import DECIMALS, Answer, element_text, join, limit_text, unknowns_text, value_text
 from contoursolve.diagnostics import Shown
 from contoursolve.families.block_template import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.free_words import check_block
-from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
+from contoursolve.families.range_pieces import RangePiece, RangeSearch
 from contoursolve.geometry import Line
 from contoursolve.numeric import Created
 from contoursolve.reading import Premises
-from contoursolve.solving import Check, NoteKind, RefusalKind, Topic, refusals_about
+from contoursolve.solving import Check, NoteKind, RefusalKind, Topic, refusals_about, typed_limit
 
-ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
+_ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
 """Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""
 
 
@@ -67,7 +69,8 @@ class End(Struct, frozen=True):
 
     `value` is as the word is written. `reason` says what fails beyond it; None where only the range that was asked
     about ends. At `inside` a single solve has the contour, at `outside` it has none; None where no values close to the
-    end tell so. `is_included` tells whether the value itself has the contour.
+    end tell so. `is_included` tells whether the value itself has the contour. `typed` and `listed` are
+    the limit with the decimals of a message and of a listing: typed in like that, it has the contour.
     """
 
     value: float
@@ -76,6 +79,8 @@ class End(Struct, frozen=True):
     is_included: bool
     inside: float | None
     outside: float | None
+    typed: Decimal
+    listed: Decimal
 
     @property
     def is_verified(self) -> bool:
@@ -187,40 +192,50 @@ def feasible(
 
 def end_of_range(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
     """The lower (-1) or upper (+1) end of a range from one piece to another, of which `number` is at this end."""
-    value = pieces[number].low if way < 0 else pieces[number].high
+    far, value = (pieces[min(number, other)].low, pieces[max(number, other)].high)[::way]
     if not 0 <= number + way < len(pieces):
-        return End(value, Way.RANGE, None, True, None, None)
-    beyond = pieces[number + way]
-    width = abs(value - (pieces[other].high if way < 0 else pieces[other].low))
-    inside, outside = _sides(search, value, way, beyond, width)
-    onset = search.onsets.get(value)
-    reason, is_rule = _reason(search, value, way, outside, onset, (beyond, pieces[number]))
+        return range_end(value, far, search.unit)
+    beyond, width = pieces[number + way], abs(value - far)
+    inside, outside = sides_of(search.is_solved, value, way, width, (beyond.high - beyond.low) / 2)
+    onset, limits = search.onsets.get(value), limits_of(value, far, search.unit, search.is_solved)
+    reason, is_rule = _reason(search, value, way, outside, (beyond, pieces[number]), limits[0])
     how = Way.CLOSED_FORM if onset is not None and onset.is_closed else Way.BISECTION
-    return End(value, Way.RULE if is_rule else how, reason, search.is_solved(value), inside, outside)
+    return End(value, Way.RULE if is_rule else how, reason, search.is_solved(value), inside, outside, *limits)
 
 
-def _sides(
-    search: RangeSearch, value: float, way: int, beyond: RangePiece, width: float
-) -> tuple[float | None, float | None]:
-    """Values close to an end on its two sides that single solves tell apart, within the range, which is so wide, and
-    within what lies beyond it."""
-    for share in ASIDE:
+def range_end(value: float, inside: float, unit: str) -> End:
+    """An end of the range that was asked about, and a value inside."""
+    limits = limits_of(value, inside, unit, lambda each: min(value, inside) <= each <= max(value, inside))
+    return End(value, Way.RANGE, None, True, None, None, *limits)
+
+
+def limits_of(value: float, inside: float, unit: str, holds: Callable[[float], bool]) -> tuple[Decimal, Decimal]:
+    """A limit with the decimals of a message and of a listing, on the way from a value inside: such that it holds."""
+    few, many = (typed_limit(inside, value, DECIMALS[unit] + more, holds) for more in (0, 1))
+    return few, many
+
+
+def sides_of(
+    holds: Callable[[float], bool], value: float, way: int, width: float, beyond: float = inf
+) -> tuple[float, float] | tuple[None, None]:
+    """Values close to an end on its two sides that single solves tell apart, within the range, which is so wide, and no
+    farther `beyond` it."""
+    for share in _ASIDE:
         step = share * max(1.0, abs(value))
-        inside = value - way * min(step, width)
-        outside = value + way * min(step, (beyond.high - beyond.low) / 2)
-        if search.is_solved(inside) and not search.is_solved(outside):
+        inside, outside = value - way * min(step, width), value + way * min(step, beyond)
+        if holds(inside) and not holds(outside):
             return inside, outside
     return None, None
 
 
 def _reason(
-    search: RangeSearch, value: float, way: int, outside: float | None, onset: Onset | None, near: Sequence[RangePiece]
+    search: RangeSearch, value: float, way: int, outside: float | None, near: Sequence[RangePiece], typed: Decimal
 ) -> tuple[Reason, bool]:
     """The reason against a contour beyond an end, and whether it is a rule or the reading of the words; `near` are the
-    pieces on its two sides, the one beyond it first."""
-    at, limit = value_text(value, search.unit), limit_text(value, search.unit, way, is_included=search.is_solved(value))
-    name = called(search.word)
-    limit = f"{name} at {at}" if near[0].is_value else f"{name} at {'most' if way > 0 else 'least'} {limit}"
+    pieces on its two sides, the one beyond it first, `typed` is the limit."""
+    name, at, onset = called(search.word), value_text(value, search.unit), search.onsets.get(value)
+    most = f"{'most' if way > 0 else 'least'} {limit_text(typed, search.unit)}"
+    limit = f"{name} at {at if near[0].is_value else most}"
     beyond = "at" if near[0].is_value else "above" if way > 0 else "below"
     there = outside if outside is not None else (near[0].low + near[0].high) / 2
     failure, event = failure_of(search.answer_at(there))

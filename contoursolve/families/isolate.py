@@ -2,7 +2,7 @@
 interval arithmetic with outward rounding, and in the narrow rest the zeros themselves, each to neighbouring doubles.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Protocol
 
 import numpy
@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.numeric import Array, Intervals
+from contoursolve.numeric import SECTIONS, Array, Intervals, section
 
 Bits = NDArray[numpy.bool_]
 Signs = NDArray[numpy.int8]
@@ -88,8 +88,8 @@ MOST = 2048
 FEW_PARTS = 64
 """Of no more parts that are not decided it is worth while to divide each by itself."""
 
-SAMPLES, SECTIONS = 33, 12
-"""Values at which a part that is not decided is looked at, and how often what lies between two is divided so."""
+SAMPLES = 33
+"""Values at which a part that is not decided is looked at."""
 
 BISECTIONS = 64
 """From any cell to neighbouring doubles."""
@@ -251,19 +251,6 @@ def _changes(function: Function, places: Array, ends: Sequence[int | None]) -> I
         low, high = section(places[number], places[number + 1], is_beyond)
         nearer = numpy.abs(function.at(numpy.array([low, high])))
         yield Zero(low if nearer[0] < nearer[1] else high, 1 if is_rising else -1, low, high)
-
-
-def section(low: float, high: float, is_beyond: Callable[[Array], Bits]) -> tuple[float, float]:
-    """Neighbouring numbers between which something first holds that does not at the lower value, but at the higher."""
-    for _ in range(SECTIONS):
-        places = numpy.linspace(low, high, SAMPLES)
-        changed = is_beyond(places)
-        changed[0], changed[-1] = False, True
-        number = int(changed.argmax())
-        low, high = float(places[number - 1]), float(places[number])
-        if high - low <= 4 * numpy.spacing(max(abs(low), abs(high))):
-            break
-    return low, high
 
 
 def _nearest(function: Function, piece: Piece) -> float:

@@ -15,10 +15,10 @@ from contoursolve.families.block_template import Template
 from contoursolve.families.branches import Bits, Branch, LeastMargin, branches_of
 from contoursolve.families.case_classes import INSTEAD, CaseClass, FreeWords
 from contoursolve.families.errors import FamilyError, NotClosedError
-from contoursolve.families.isolate import SAMPLES, Piece, Zero, isolate, section
+from contoursolve.families.isolate import SAMPLES, Piece, Zero, isolate
 from contoursolve.families.traced_reading import Alike, place_of_contour, read_alone, trace_reading
 from contoursolve.geometry import Unit
-from contoursolve.numeric import Array
+from contoursolve.numeric import Array, halve, section
 from contoursolve.solving import Check
 from contoursolve.tolerance import LENGTH
 
@@ -120,14 +120,11 @@ def _passing(lines: Sequence[Sequence[Piece]]) -> list[_Passing]:
 
 def _changes(kind: Callable[[float], Alike], low: float, high: float) -> Iterator[float]:
     """The values between two others at which the kind changes, each to the last digit of a double."""
-    own, last, begin = kind(low), kind(high), low
+    last, begin = kind(high), low
     for _ in range(READ):
-        if own == last:
+        if kind(begin) == last:
             return
-        inside, outside = begin, high
-        while inside < (half := (inside + outside) / 2) < outside:
-            inside, outside = (half, outside) if kind(half) == own else (inside, half)
-        begin, own = outside, kind(outside)
+        _, begin = halve(begin, high, kind)
         yield begin
 
 

@@ -1,14 +1,15 @@
 """Region of two words in which a contour exists: values all over a box are solved, closer where the outcome changes."""
 
 from collections.abc import Sequence
-from math import ceil, floor, log10
+from decimal import Decimal
+from math import floor, log10
 from typing import Any, TypeVar, Unpack
 
 import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import short_name
+from contoursolve.diagnosis import inward, short_name
 from contoursolve.diagnostics import Shown, plot_on
 from contoursolve.families.block_template import BlockOptions, RefusedError, SweepSpec, Template, spec_of
 from contoursolve.families.branches import branches_of
@@ -214,8 +215,7 @@ class _RegionSearch(FreeWords):
 def _rounded_up(value: float) -> str:
     """A size with two digits, no less than it is."""
     digits = 1 - floor(log10(value))
-    scale = 10.0**digits
-    return f"{ceil(round(value * scale, 6)) / scale:.{max(digits, 0)}f}"
+    return f"{inward(Decimal(repr(round(value, digits + 6))), digits, -1):.{max(digits, 0)}f}"
 
 
 def _two(values: Sequence[T]) -> tuple[T, T]:

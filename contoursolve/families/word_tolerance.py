@@ -14,13 +14,24 @@ from contoursolve.diagnostics import Shown
 from contoursolve.families.block_template import BlockOptions, first_error, spec_of, subject_of
 from contoursolve.families.branches import Branch
 from contoursolve.families.errors import FamilyError, NotClosedError
-from contoursolve.families.feasible_ranges import ASIDE, End, Reason, Way, end_of_range, failure_of
+from contoursolve.families.feasible_ranges import (
+    End,
+    Interval,
+    Reason,
+    Way,
+    end_of_range,
+    failure_of,
+    limits_of,
+    range_end,
+    sides_of,
+)
 from contoursolve.families.free_words import check_block
 from contoursolve.families.goals import CONSTANT, Goal, TargetCurve, outputs_at, place_of
 from contoursolve.families.isolate import isolate
 from contoursolve.families.range_pieces import LEAST_GAP, NARROW, REACH, RangePiece, RangeSearch, short
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Unit
+from contoursolve.numeric import halve
 from contoursolve.reading import Premises
 from contoursolve.tolerance import LARGEST
 
@@ -33,6 +44,9 @@ one is so much longer, but at least so many are made."""
 
 BESIDE = 0.25
 """Share of what is between the ends that is looked at beside them when they are searched again."""
+
+ROUNDING = 1e-9
+"""Share of what a result may move by that the rounding of floats adds."""
 
 PROBE, CLOSEST = 1e-4, 1e-11
 """Shares of a value (at least of 1): how far beside it the derivative is taken, and how closely an end is found."""
@@ -79,10 +93,7 @@ class WordTolerance(Shown, Struct, frozen=True):
         return not self.doubts
 
     def __contains__(self, value: float) -> bool:
-        for end in (self.low, self.high):
-            if value == end.value:
-                return end.is_included
-        return self.low.value < value < self.high.value
+        return value in Interval(self.low, self.high)
 
 
 def _difference(one: float, other: float) -> float:
@@ -269,7 +280,7 @@ class _ToleranceSearch:
             place = piece.high if way > 0 else piece.low
             number += way
             if not 0 <= number < len(pieces):
-                return End(place, Way.RANGE, None, True, None, None)
+                return range_end(place, self.search.stated, self.search.unit)
             if not pieces[number].is_solved:
                 return end_of_range(self.search, pieces, number - way, first, way)
             if self.moved(_beside(place, way, pieces[number])) > self.most:
@@ -278,7 +289,9 @@ class _ToleranceSearch:
     def _searched(self, way: int) -> End:
         """An end where there are no pieces, for there is no closed form."""
         value, limit = self._marched(self.search.stated, self.range[way > 0], way), self.range[way > 0]
-        return End(limit, Way.RANGE, None, True, None, None) if value is None else self._moved_end(value, way)
+        if value is None:
+            return range_end(limit, self.search.stated, self.search.unit)
+        return self._moved_end(value, way)
 
     def _leaving(self, piece: RangePiece, place: float, way: int) -> float | None:
         """The first value of a piece, from a place on, beyond which what is kept has moved too far."""
@@ -319,10 +332,8 @@ class _ToleranceSearch:
         self.doubt(place, outside, f"{count + 1} values were solved, and nothing is proven between them")
         if outside == limit and self.moved(limit - way * min(LEAST_GAP, width / 2)) <= self.most:
             return None
-        while abs(outside - inside) > CLOSEST * max(1.0, abs(outside)):
-            middle = (inside + outside) / 2
-            inside, outside = (middle, outside) if self.moved(middle) <= self.most else (inside, middle)
-        return short(inside, CLOSEST)
+        width = CLOSEST * max(1.0, abs(outside))
+        return short(halve(inside, outside, lambda value: self.moved(value) <= self.most, width)[0], CLOSEST)
 
     def _by_derivative(self, pieces: Sequence[RangePiece]) -> float | None:
         """The tolerance to first order, of what has a closed form."""
@@ -340,22 +351,22 @@ class _ToleranceSearch:
 
     def _moved_end(self, value: float, way: int) -> End:
         """An end beyond which what is kept has moved too far, which single solves confirm."""
-        width = abs(value - self.search.stated)
-        for share in ASIDE:
-            step = share * max(1.0, abs(value))
-            inside, outside = value - way * min(step, width), value + way * step
-            beyond = self.moved(outside)
-            if self.moved(inside) <= self.most < beyond:
-                break
-        else:
-            return End(value, Way.MOVED, self._reason(self.most), True, None, None)
-        if beyond == inf and any(self.moved(each) == inf and self.search.is_solved(each) for each in (value, outside)):
-            return End(value, Way.RULE, Reason(f"{self.kept.text} is not there", "", ""), False, inside, outside)
-        if beyond == inf:
-            return End(value, Way.BISECTION, self._failure(outside), self.moved(value) <= self.most, inside, outside)
+        stated, search = self.search.stated, self.search
+        limits = limits_of(value, stated, search.unit, lambda each: self.moved(each) <= self.most * (1 + ROUNDING))
+        inside, outside = sides_of(lambda each: self.moved(each) <= self.most, value, way, abs(value - stated))
+        how, is_included = Way.MOVED, True
+        if inside is None or outside is None:
+            return End(value, how, self._reason(self.most), is_included, None, None, *limits)
+        beyond = self.moved(outside)
         is_jump = beyond - self.moved(inside) > max(self.most, JUMP)
         reason = self._reason(beyond if is_jump else self.most, is_jump=is_jump)
-        return End(value, Way.MOVED, reason, not is_jump or self.moved(value) <= self.most, inside, outside)
+        if is_jump:
+            is_included = self.moved(value) <= self.most
+        if beyond == inf and any(self.moved(each) == inf and search.is_solved(each) for each in (value, outside)):
+            how, reason = Way.RULE, Reason(f"{self.kept.text} is not there", "", "")
+        elif beyond == inf:
+            how, reason = Way.BISECTION, self._failure(outside)
+        return End(value, how, reason, is_included, inside, outside, *limits)
 
     def _reason(self, moved: float, *, is_jump: bool = False) -> Reason:
         by = f"{self.kept.text} moves by {moved:.6g} {short_name(self.kept.unit)}"

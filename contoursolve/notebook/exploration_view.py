@@ -1,7 +1,6 @@
 """An exploration as plain data: what a front end shows, and where on its slider each word has a contour."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from decimal import Decimal
 from math import floor, log10
 from typing import Any
 from zlib import crc32
@@ -14,15 +13,13 @@ from contoursolve.diagnosis import (
     Answer,
     AskedValue,
     count,
-    inward,
     join,
     list_solutions,
     meaning_of,
     status_text,
-    written,
 )
 from contoursolve.diagnostics import Applicability, Diagnostic, Span
-from contoursolve.families import End, FamilyError, Feasible, Way, called, feasible
+from contoursolve.families import FamilyError, called, feasible
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Question, Unit
 from contoursolve.notebook.exploration import (
@@ -440,24 +437,20 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
         if field["value"] in each:
             low = min(low, each.low.value - margin) if each.low.value > near[0] else low
             high = max(high, each.high.value + margin) if each.high.value < near[1] else high
+    ends = [
+        [end.reason.text.replace(called(name), label) if end.reason else "" for end in (each.low, each.high)]
+        for each in found.intervals
+    ]
     note, whole = range_texts(found, field["key"].rpartition(":")[2], field["value"])
     return {
         "intervals": [[each.low.value, each.high.value] for each in found.intervals],
-        "stops": [
-            [_stop(each.low, field, found.unit, 1), _stop(each.high, field, found.unit, -1)] for each in found.intervals
-        ],
-        "ends": [
-            [
-                _end_text(each, found.unit, way).replace(called(name), label)
-                for each, way in ((one.low, -1), (one.high, 1))
-            ]
-            for one in found.intervals
-        ],
+        "stops": [[float(each.low.typed), float(each.high.typed)] for each in found.intervals],
+        "ends": ends,
         "low": max(low, found.within[0]),
         "high": min(high, found.within[1]),
         "note": note,
         "whole": whole,
-        "reason": "; ".join(_reasons(found)).replace(called(name), label),
+        "reason": "; ".join(dict.fromkeys(text for own in ends for text in own if text)),
         "snaps": snaps_of(exploration, field["key"]),
     }
 
@@ -467,10 +460,9 @@ def _range_of_tool(exploration: Exploration, field: Mapping[str, Any]) -> Data:
     answer = exploration.answer
     runs = exploration.tool.runs if exploration.tool is not None else ()
     own = [each for each in runs if answer is not None and not {*answer.lines}.isdisjoint(each.run.lines)]
-    largest = min((each for each in (one.largest_radius for one in own) if each is not None), default=None)
-    if answer is None or not own or largest is None:
+    most = min((float(each.typed_radius(4)) for each in own if each.largest_radius is not None), default=None)
+    if most is None:
         return {"low": field["low"], "high": field["high"], "note": "every tool fits" if own else ""}
-    most = floor(largest / float(answer.unit.in_mm) * 1e4) / 1e4
     told = {"note": f"R ≤ {most:.10g}", "ends": [["", "the tool does not fit"]], "stops": [[0.0, most]], "snaps": []}
     return {"intervals": [[0.0, most]], "low": 0.0, "high": field["high"], "whole": "", "reason": "", **told}
 
@@ -494,24 +486,3 @@ def _alone(exploration: Exploration, key: str) -> tuple[str, str, str, Mapping[s
     first = text.count("\n") + 2 - len(blocks)
     at = next(number for number, block in enumerate(blocks) if block.line == word.span.line)
     return (text, f"{first + at}:{word.address}", called(key), reading) if text else None
-
-
-def _stop(end: End, field: Mapping[str, Any], unit: str, way: int) -> float:
-    """The first value at an end of a range that belongs to it, a whole number of increments."""
-    value = inward(Decimal(repr(end.value)), unit, -way)
-    if value == Decimal(repr(end.value)) and not end.is_included and end.way is not Way.RANGE:
-        value += way * Decimal(repr(field["increment"]))
-    return float(value)
-
-
-def _end_text(end: End, unit: str, way: int) -> str:
-    """The reason why a word cannot go on; empty if only the search ended."""
-    if end.way is Way.RANGE:
-        return ""
-    return end.reason.text if end.reason is not None else written(end.value, unit, way, is_included=end.is_included)
-
-
-def _reasons(found: Feasible) -> list[str]:
-    """Reasons beyond the ends of ranges, each once."""
-    ends = (end for each in found.intervals for end in (each.low, each.high))
-    return list(dict.fromkeys(end.reason.text for end in ends if end.reason is not None))

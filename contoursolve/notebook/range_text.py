@@ -6,7 +6,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import inward
+from contoursolve.diagnosis import DECIMALS
 from contoursolve.families import End, Feasible, Interval, Way
 
 LONGEST = 42
@@ -27,14 +27,14 @@ class _Piece(Struct, frozen=True):
     high: Decimal | None
     has_low: bool
     has_high: bool
-    middle: Decimal
+    width: Decimal
     holes: tuple[str, ...] = ()
 
     def text(self, name: str) -> str:
         """The range in a line, such as `0 ≤ P ≤ 51.961`."""
         low, high = self.low, self.high
-        if low is not None and high is not None and (low > high or (low == high and self.has_low)):
-            told = f"{name} = {self.middle:.9g}"  # no other value of the control's increment lies in it
+        if low is not None and low == high:
+            told = f"{name} = {_shown(low)}"
         elif low is not None and high is not None:
             signs = ["≤" if each else "<" for each in (self.has_low, self.has_high)]
             told = f"{_shown(low)} {signs[0]} {name} {signs[1]} {_shown(high)}"
@@ -73,29 +73,22 @@ def _told(pieces: Iterable[_Piece], name: str) -> str:
 
 
 def _piece(interval: Interval, unit: str) -> _Piece:
-    low, high = _limit(interval.low, unit, -1), _limit(interval.high, unit, 1)
-    has_low, has_high = (
-        each.is_included or limit != _exact(each) for each, limit in ((interval.low, low), (interval.high, high))
-    )
-    middle = (_exact(interval.low) + _exact(interval.high)) / 2
-    if interval.low.value == interval.high.value:
-        low = high = middle
-    return _Piece(low, high, has_low, has_high, middle)
+    (low, has_low), (high, has_high) = _limit(interval.low, unit), _limit(interval.high, unit)
+    return _Piece(low, high, has_low, has_high, Decimal(repr(interval.high.value)) - Decimal(repr(interval.low.value)))
 
 
-def _exact(end: End) -> Decimal:
-    return Decimal(repr(end.value))
-
-
-def _limit(end: End, unit: str, way: int) -> Decimal | None:
-    """An end rounded into its range; None where only the search ended."""
-    return None if end.way is Way.RANGE else inward(_exact(end), unit, way)
+def _limit(end: End, unit: str) -> tuple[Decimal | None, bool]:
+    """An end as it is typed, and whether it belongs to its range; None where only the search ended."""
+    exact = Decimal(repr(end.value))
+    if end.way is Way.RANGE:
+        return None, True
+    return (exact, False) if not end.is_included and exact == round(exact, DECIMALS[unit]) else (end.typed, True)
 
 
 def _joined(pieces: Sequence[_Piece], unit: str) -> list[_Piece]:
     """The ranges with those joined that one value at most of the control's increment parts."""
     joined = [pieces[0]]
-    step = _step(unit)
+    step = Decimal(1).scaleb(-DECIMALS[unit])
     for each in pieces[1:]:
         last = joined[-1]
         gap = each.low - last.high if each.low is not None and last.high is not None else None
@@ -106,7 +99,8 @@ def _joined(pieces: Sequence[_Piece], unit: str) -> list[_Piece]:
         hole = last.high + gap / 2
         # Between two values that follow one another a contour is lost that nobody can ask for.
         text = _shown(hole) if gap != step else f"about {_shown(last.high)}"
-        joined[-1] = _Piece(last.low, each.high, last.has_low, each.has_high, hole, (*last.holes, text))
+        width, holes = last.width + each.width, (*last.holes, text)
+        joined[-1] = _Piece(last.low, each.high, last.has_low, each.has_high, width, holes)
     return joined
 
 
@@ -115,23 +109,18 @@ def _is_value(piece: _Piece) -> bool:
     return piece.low is not None and piece.high is not None and piece.low >= piece.high
 
 
-def _step(unit: str) -> Decimal:
-    """The increment to which ends are rounded."""
-    return Decimal(1).scaleb(int(inward(Decimal(1), unit, 1).as_tuple().exponent))
-
-
 def _with_fewer_digits(piece: _Piece, value: Decimal | None, unit: str) -> _Piece:
     """A range with as few digits as leave almost all of it, and its value."""
     low, high = piece.low, piece.high
     if _is_value(piece) or (low is None and high is None):
         return piece
-    width = high - low if low is not None and high is not None else max(abs(low or high or Decimal(0)), Decimal(1))
-    finest = -int(_step(unit).as_tuple().exponent)
+    size = max(abs(low or high or Decimal(0)), Decimal(1))
+    width = high - low if low is not None and high is not None else min(size, piece.width)
 
     def fewer(end: Decimal | None, rounding: str) -> Decimal | None:
         if end is None:
             return None
-        for digits in range(finest):
+        for digits in range(DECIMALS[unit]):
             tried = end.quantize(Decimal(1).scaleb(-digits), rounding)
             is_left_out = value is not None and min(tried, end) < value < max(tried, end)
             if abs(tried - end) <= SHARE * width and not is_left_out and tried != value:

@@ -100,6 +100,11 @@ from .newton import (
     Finder as Finder,
     finder_of as finder_of,
 )
+from .sections import (
+    SECTIONS as SECTIONS,
+    halve as halve,
+    section as section,
+)
 from .terms import (
     Affine as Affine,
     Apply as Apply,

@@ -1,14 +1,23 @@
 """Answers about a family as text and as plain data: ranges, regions, values that reach a goal, tolerances."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal
 from math import isnan
 from typing import Any
 
 from contoursolve.comparison import Unfollowed
-from contoursolve.diagnosis import axis_labels, count, length_in, measured, printed_certificate, short_name, written
+from contoursolve.diagnosis import (
+    axis_labels,
+    count,
+    length_in,
+    limit_text,
+    measured,
+    printed_certificate,
+    short_name,
+    written,
+)
 from contoursolve.diagnostics import members
 from contoursolve.families import (
-    LEAST_GAP,
     CompiledSweep,
     Contribution,
     End,
@@ -70,20 +79,14 @@ def range_table(found: Feasible) -> Table:
     """Two rows for each range: its number, which end, the value, and what ends it there."""
     rows = []
     for place, each in enumerate(found.intervals, 1):
-        # Rounded inwards, the ends of what is narrower than the digits shown would change places.
-        way = int(each.high.value - each.low.value > LEAST_GAP)
-        rows.append((f"{place}.", "from", *_end_cells(each.low, found.unit, -way)))
-        rows.append(("", "to", *_end_cells(each.high, found.unit, way)))
+        rows.append((f"{place}.", "from", *_end_cells(each.low, found.unit)))
+        rows.append(("", "to", *_end_cells(each.high, found.unit)))
     return Table("Where the contour exists", ("range", "end", "value", "what ends it"), rows, left=(0, 1, 3))
 
 
-def _end_cells(end: End, unit: str, way: int) -> tuple[str, str]:
-    if end.reason is None:
-        return written(end.value, unit, way), "end of the range searched"
-    text = end.reason.text if end.is_verified else f"{end.reason.text} (not confirmed on both sides)"
-    # A limit is shown so that the contour exists there; a value alone, or what is too narrow, as it is.
-    text += "; at this value itself there is no contour" * (not way and not end.is_included)
-    return written(end.value, unit, way, is_included=end.is_included), text
+def _end_cells(end: End, unit: str) -> tuple[str, str]:
+    text = end.reason.text if end.reason is not None else "end of the range searched"
+    return limit_text(end.listed, unit), f"{text} (not confirmed on both sides)" if not end.is_verified else text
 
 
 def range_data(found: Feasible) -> dict[str, Any]:
@@ -111,17 +114,17 @@ def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[
     """The largest tool for all contours of a program, that for each contour, by its lines, and what is left out."""
     least, rows = least_of(found), []
     whole = f"all {len(found)} contours" if len(found) > 1 else "the contour"
-    largest = f"largest tool for {whole}: {written(least.largest, least.unit, 1)}"
-    yield largest if least.largest else f"no tool of the range searched cuts {whole}"
+    largest = "".join(limit_text(each.high.listed, least.unit) for each in least.intervals[:1])
+    yield f"largest tool for {whole}: {largest}" if least.largest else f"no tool of the range searched cuts {whole}"
     for place, (lines, each) in enumerate(found.items(), 1):
         where = f"lines {lines[0]} to {lines[-1]}" if len(lines) > 1 else f"line {lines[0]}"
         rows += [(f"{place}.", where, "none", each.refusal)] * (not each.intervals)
         for number, part in enumerate(each.intervals):
-            ends = [(_end_cells(part.high, each.unit, 1))]
+            ends = [_end_cells(part.high, each.unit)]
             if part.low.reason is not None:
                 ends = [
                     (f"{word} {value}", text)
-                    for word, (value, text) in (("from", _end_cells(part.low, each.unit, -1)), ("to", *ends))
+                    for word, (value, text) in (("from", _end_cells(part.low, each.unit)), ("to", *ends))
                 ]
             rows += [(*(("", "") if number or row else (f"{place}.", where)), *end) for row, end in enumerate(ends)]
     yield from columns(rows, left=(0, 1, 3))
@@ -388,10 +391,10 @@ def word_tolerance_title(found: WordTolerance) -> str:
 def word_tolerance_table(found: WordTolerance) -> Table:
     """A row for each end: the value, how far it is from that of the block, and what ends it."""
     rows = []
-    for name, end, way, off in (("from", found.low, -1, -found.minus), ("to", found.high, 1, found.plus)):
-        value, text = _end_cells(end, found.unit, way)
-        sign = "+" if off > 0 else ""
-        rows.append((name, value, f"{sign}{written(off, found.unit, way)}", text))
+    for name, end in (("from", found.low), ("to", found.high)):
+        value, text = _end_cells(end, found.unit)
+        off = end.listed - Decimal(repr(found.stated))
+        rows.append((name, value, f"{'+' * (off > 0)}{limit_text(off, found.unit)}", text))
     return Table("How far it may be off", ("end", "value", "off by", "what ends it"), rows, left=(0, 3))
 
 

@@ -7,7 +7,7 @@ from math import dist
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, length_limit
+from contoursolve.diagnosis import DECIMALS, Answer
 from contoursolve.geometry import Turn
 from contoursolve.pictures import (
     Closeup,
@@ -86,8 +86,8 @@ def tool_text(report: ToolReport, line: int) -> str:
         return ""
     kind, fits = "nose" if each.run.is_lathe else "cutter", "fits" if each.path is not None else "does not fit"
     most = each.largest_radius
-    shown = "" if most is None else f"{length_limit(most, each.run.unit).normalize():f}"
-    told = f"a {kind} up to R{shown} cuts all of it" if most is not None else f"every {kind} does"
+    typed = f"{each.typed_radius(DECIMALS[each.run.unit.value]).normalize():f}"
+    told = f"a {kind} up to R{typed} cuts all of it" if most is not None else f"every {kind} does"
     told = told if most is None or most >= LEAST else f"no {kind} does"
     return f"{each.title}: it {fits}; {told}"
 

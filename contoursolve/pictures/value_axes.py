@@ -6,7 +6,7 @@ from math import floor, log10
 import numpy
 from msgspec import Struct
 
-from contoursolve.diagnosis import written
+from contoursolve.diagnosis import limit_text, written
 from contoursolve.families import End, Feasible, Way
 from contoursolve.numeric import Array
 from contoursolve.pictures.page import (
@@ -203,9 +203,8 @@ def _remarks(found: Feasible) -> Iterator[tuple[str, Role]]:
     yield f"the block has {written(found.stated, found.unit)}", Role.GIVEN
     ends = list(_ends(found))
     for end, word in ends[:_MOST]:
-        shown = written(end.value, found.unit, -1 if word == "from" else 1, is_included=end.is_included)
         reason = f": {visible(end.reason.text)}" if end.reason is not None else ""
-        yield f"{word} {shown}{reason}", Role.INK
+        yield f"{word} {limit_text(end.listed, found.unit)}{reason}", Role.INK
     if len(ends) > _MOST:
         yield f"and {len(ends) - _MOST} more ends", Role.MUTED
     if not found.intervals:

@@ -1,17 +1,17 @@
 """For which values of a variable that is not known a contour exists."""
 
 from collections.abc import Iterator
-from decimal import Decimal
 from itertools import groupby
+from math import copysign
 
-from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Depth, Policy, examine, inward, join
+from contoursolve.diagnosis import DECIMALS, Answer, Depth, Policy, examine, join
 from contoursolve.execution import MacroLanguage, Unknown, evaluate, variables_of, written
 from contoursolve.gcode import Block, parse_block
-from contoursolve.numeric import Variable
+from contoursolve.numeric import Variable, halve
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue
+from contoursolve.solving import typed_limit
 
 _STEPS, _GROWTH, _SMALLEST = 48, 1.25, 0.05
 """Values that are tried: from the smallest one on, each so much larger than the one before; and as many below 0."""
@@ -19,19 +19,8 @@ _STEPS, _GROWTH, _SMALLEST = 48, 1.25, 0.05
 _ANGLES = 15
 """Degrees between angles that are tried."""
 
-_EXACT = 1e-4
-"""Accuracy of the ends of a range, in the unit of the variable."""
-
 _MOST = 3
 """Ranges that are told."""
-
-
-class _Trial(Struct, frozen=True):
-    """Outcome at one value: `message` is the error of a block without a contour."""
-
-    value: float
-    is_solved: bool
-    message: str
 
 
 def tell_values(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
@@ -45,9 +34,7 @@ def tell_values(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
     name = next(iter(names)) if len(names) == 1 else ""
     if not name:
         return answer
-    search = _Search(answer, dialect, policy, name)
-    told = search.told()
-    finding = replace(about, notes=(*about.notes, *told))
+    finding = replace(about, notes=(*about.notes, *_Search(answer, dialect, policy, name).told()))
     return replace(answer, diagnostics=tuple(finding if each is about else each for each in answer.diagnostics))
 
 
@@ -63,47 +50,41 @@ class _Search:
 
     def __init__(self, answer: Answer, dialect: Dialect, policy: Policy, name: str) -> None:
         self.answer, self.dialect, self.policy, self.name = answer, dialect, policy, name
+        self.decimals = DECIMALS[answer.unit.value]
 
     def told(self) -> list[str]:
         """Sentences on the values with a contour, and on the errors at the others."""
         # Most values are only tried; what is wrong is asked of few.
-        trials = [self._try(value, Depth.TRIAL) for value in self._values()]
-        runs = [list(group) for _, group in groupby(trials, lambda each: each.is_solved)]
+        values = self._values()
+        runs = [(is_solved, list(run)) for is_solved, run in groupby(values, self._has_contour)]
         ranges, reasons = list[str](), list[str]()
-        for number, run in enumerate(runs):
-            if not run[0].is_solved:
+        for number, (is_solved, run) in enumerate(runs):
+            if not is_solved:
                 continue
-            before, after = (
-                runs[at][end] if 0 <= at < len(runs) else None for at, end in ((number - 1, -1), (number + 1, 0))
-            )
-            low, high = self._end(run[0], before), self._end(run[-1], after)
-            begin, end = self._inward(low[0], run[0], -1), self._inward(high[0], run[-1], 1)
+            before = self._end(run[0], runs[number - 1][1][-1]) if number else None
+            after = self._end(run[-1], runs[number + 1][1][0]) if number + 1 < len(runs) else None
             if before:
-                ranges.append(f"from {begin} to {end}" if after else f"from {begin} on")
+                ranges.append(f"from {before[0]} to {after[0]}" if after else f"from {before[0]} on")
             else:
-                ranges.append(f"up to {end}" if after else "with every value that was tried")
-            for (_, why), value, way in ((low, begin, "below"), (high, end, "above")):
-                reasons += [f"{way} {value}: {why}"] if why else []
+                ranges.append(f"up to {after[0]}" if after else "with every value that was tried")
+            reasons += [f"{way} {end[0]}: {end[1]}" for way, end in (("below", before), ("above", after)) if end]
         if not ranges:
-            first = self._try(trials[0].value)
-            return [f"no value of {self.name} that was tried makes a contour; with {first.value:g}: {first.message}"]
+            told = f"no value of {self.name} that was tried makes a contour"
+            return [f"{told}; with {values[0]:g}: {self._failure(values[0])}"]
         more = f"; and {len(ranges) - _MOST} more ranges" if len(ranges) > _MOST else ""
         found = f"{self.name} makes a contour {join(ranges[:_MOST])}{more}"
         return [found, *(f"{self.name} {each}" for each in reasons[: 2 * _MOST])]
 
-    def _inward(self, limit: float, tried: _Trial, way: int) -> str:
-        """An upper (`way` 1) or a lower limit as it is told, rounded towards a value that was tried: typed in like
-        that, it has the contour. With all decimals where rounding leaves nothing of the range."""
-        exact = Decimal(repr(limit))
-        shown = inward(exact, self.answer.unit.value, way) + 0
-        nearest = exact.quantize(shown)
-        # The limit itself is one of the values where it is reached, whatever the last digits of the floats say.
-        if nearest != shown and self._try(float(nearest), Depth.TRIAL).is_solved:
-            shown = nearest
-        goes_beyond = way * (shown - Decimal(repr(tried.value))) < 0
-        if goes_beyond and not self._try(float(shown), Depth.TRIAL).is_solved:
-            return f"{exact.normalize():f}"
-        return f"{abs(shown) if shown == 0 else shown:f}"
+    def _end(self, inside: float, outside: float) -> tuple[str, str]:
+        """The last value with a contour on the way to one without, as it is typed, and what is wrong behind it."""
+        step = 10**-self.decimals
+        _, beyond = halve(inside, outside, self._has_contour, step)
+        limit = typed_limit(inside, beyond, self.decimals, self._has_contour)
+        behind = round(float(limit) + copysign(step, outside - inside), self.decimals)
+        return f"{limit:f}", self._failure(behind) or self._failure(beyond) or ""
+
+    def _has_contour(self, value: float) -> bool:
+        return self._failure(value, Depth.TRIAL) is None
 
     def _values(self) -> list[float]:
         """The values that are tried."""
@@ -114,16 +95,17 @@ class _Search:
         angles = range(-360, 361, _ANGLES)
         return sorted({0.0, *near, *sizes, *(-each for each in sizes), *map(float, angles)})
 
-    def _try(self, value: float, depth: Depth = Depth.VERDICT) -> _Trial:
+    def _failure(self, value: float, depth: Depth = Depth.VERDICT) -> str | None:
+        """The error of the contour with a value; None without one."""
         claim, dialect = self.answer.claim, self.dialect
         found = dialect.find(
             [self._block(number, value) for number in range(len(claim.blocks))], 0, claim.before, dialect.modes
         )
         if not isinstance(found, ParsedContour) or len(found.blocks) != len(claim.blocks):
-            return _Trial(value, False, "the blocks are read as another contour")
+            return "the blocks are read as another contour"
         answer = examine(found, dialect.rules, self.policy, lambda: None, depth)
         error = next((each for each in answer.diagnostics if each.is_error), None)
-        return _Trial(value, answer.contour is not None and error is None, error.message if error else "")
+        return error.message if error else None if answer.contour is not None else ""
 
     def _block(self, number: int, value: float) -> Block:
         """A block of the contour with a value of the variable in its words."""
@@ -134,13 +116,3 @@ class _Search:
             if isinstance(result, float):
                 text = word.put(written(result), text)
         return parse_block(text, block.line, block.syntax)
-
-    def _end(self, inside: _Trial, outside: _Trial | None) -> tuple[float, str]:
-        """The last value with a contour on the way to one without, and what is wrong there."""
-        if outside is None:
-            return inside.value, ""
-        outside = self._try(outside.value)
-        while abs(outside.value - inside.value) > _EXACT:
-            middle = self._try((inside.value + outside.value) / 2)
-            inside, outside = (middle, outside) if middle.is_solved else (inside, middle)
-        return inside.value, outside.message

@@ -128,6 +128,8 @@ from .exact_inputs import (
 from .fitting import (
     LEAST as LEAST,
     largest_fitting as largest_fitting,
+    last_holding as last_holding,
+    typed_limit as typed_limit,
 )
 from .free_cuts import (
     joints_among as joints_among,

@@ -12,24 +12,26 @@ from msgspec.structs import replace
 from contoursolve.comparison import ToolPath, follow
 from contoursolve.controls import TOOL_FACTS, ToolEffect, ToolFacts
 from contoursolve.diagnosis import (
+    DECIMALS,
     Context,
     angle_text,
     apply_edits,
     change,
     coordinates,
+    inward,
     join,
     length_in,
+    limit_text,
     move_without_point,
     rank,
     write_word,
-    written,
 )
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence, Fix, Label, Severity, Span
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment, along, minus
+from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment, along, minus, typed_limit
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of, within
 from contoursolve.tool_radius.clearance import gaps_below
@@ -121,6 +123,11 @@ class ToolRun(Struct, frozen=True, dict=True):
         own = self.run
         kind = f"nose {own.size}, tip {own.tool.tip}" if own.is_lathe else f"cutter {own.size}"
         return f"{kind}, {own.side.value} of the contour"
+
+    def typed_radius(self, decimals: int) -> Decimal:
+        """The largest radius as it is typed in the unit of the program, 0 where no tool fits."""
+        scale, largest = float(self.run.unit.in_mm), self.largest_radius or 0.0
+        return typed_limit(0.0, largest / scale, decimals, lambda size: not self.rules.stops(self.run, size * scale))
 
     @cached_property
     def largest_radius(self) -> float | None:
@@ -511,7 +518,10 @@ class ToolFindings:
             yield f"no {kind} fits here"
         elif fault.largest is not None:
             whole = tool_run.largest_radius or 0.0
-            fits, all_ = (written(each / float(unit.in_mm), unit.value, 1) for each in (fault.largest, whole))
+            decimals = DECIMALS[unit.value] + 1
+            here, typed = Decimal(repr(round(fault.largest / float(unit.in_mm), 10))), tool_run.typed_radius(decimals)
+            here = typed if fault.largest == whole else inward(here, decimals, 1)
+            fits, all_ = (limit_text(each, unit.value) for each in (here, typed))
             where = "the whole contour (tried)" if fault.largest == whole else "this place"
             more = f"; {all_} the whole contour (tried)" if whole >= LEAST and fault.largest != whole else ""
             yield f"a {kind} of radius up to {fits} cuts {where}{more}"

@@ -6,7 +6,7 @@ from typing import Unpack
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Depth, inward, limit_text
+from contoursolve.diagnosis import DECIMALS, Depth, limit_text
 from contoursolve.diagnostics import choice_of
 from contoursolve.families import (
     TOOL,
@@ -18,6 +18,8 @@ from contoursolve.families import (
     RefusedError,
     Way,
     errors_of,
+    limits_of,
+    range_end,
     read_limits,
     spec_of,
 )
@@ -63,38 +65,30 @@ class ToolTrials:
             raise ToolError(f"the radius of a tool is not below 0; search from 0, such as 0:{high:g}")
         every = self.rules.fitting(own, high * scale)
         found = [each for each in every if each.high >= max(low * scale, GOUGE)]
-        intervals = tuple(Interval(self._begin(number, each, low), self._end(number, each, high)) for each in found)
+        ends = ((self._end(number, each, low, -1), self._end(number, each, high, 1)) for each in found)
+        intervals = tuple(Interval(*each) for each in ends)
         is_open = own.tool.radius is _UNSTATED.radius
         about = TOOL, unit, 0.0 if is_open else own.radius / scale, (low, high), intervals, (_TRIED,)
-        reason = None if found else self._end(number, every[-1], high).reason
+        reason = None if found else self._end(number, every[-1], high, 1).reason
         refusal = "" if reason is None else reason.text
         held = "of tools that cut the contour"
         return Feasible(*about, refusal, False, is_open, self.premises, held, tuple(self._warnings(number)))
 
-    def _begin(self, number: int, fits: FittingRadii, low: float) -> End:
-        unit = self.runs[number].unit
-        scale = float(unit.in_mm)
-        if fits.low <= low * scale:
-            return End(low, Way.RANGE, None, True, None, None)
-        value, below = fits.low / scale, fits.low - _ASIDE
-        less = float(inward(Decimal(repr(below / scale)), unit.value, 1)) * scale
-        reason = self._reason(number, fits.low, self._stopped(number, less, below), -1)
-        return End(value, Way.CLOSED_FORM, reason, True, value, below / scale)
-
-    def _end(self, number: int, fits: FittingRadii, high: float) -> End:
-        unit = self.runs[number].unit
-        scale = float(unit.in_mm)
-        if fits.beyond is None:
-            return End(high, Way.RANGE, None, True, None, None)
-        more = float(inward(Decimal(repr(fits.beyond / scale)), unit.value, -1)) * scale
-        beyond = self._stopped(number, more, fits.beyond)
-        largest = round(fits.high / scale, 12)
-        reason = self._reason(number, fits.high, beyond, 1)
-        return End(largest, Way.BISECTION, reason, True, largest, fits.beyond / scale)
-
-    def _stopped(self, number: int, *radii: float) -> float:
-        """The first of some radii that is stopped, or else the last one, mm."""
-        return next((each for each in radii if self.rules.stops(self.runs[number], each)), radii[-1])
+    def _end(self, number: int, fits: FittingRadii, bound: float, way: int) -> End:
+        """The upper (`way` 1) or the lower end (-1) of radii that fit, within a bound of the search."""
+        own = self.runs[number]
+        unit, scale = own.unit.value, float(own.unit.in_mm)
+        other, limit = (fits.low, fits.high)[::way]
+        beyond = fits.beyond if way > 0 else limit - _ASIDE
+        if beyond is None or (way < 0 and limit <= bound * scale):
+            return range_end(bound, other / scale, unit)
+        value = round(limit / scale, 12)
+        limits = limits_of(value, other / scale, unit, lambda radius: not self.rules.stops(own, radius * scale))
+        # What stops the next radius that can be typed is plainer.
+        typed = (float(limits[0]) + way * 10 ** -DECIMALS[unit]) * scale
+        stopped = typed if self.rules.stops(own, typed) else beyond
+        reason = self._reason(number, limits[0] if limit >= GOUGE else None, stopped, way)
+        return End(value, Way.BISECTION if way > 0 else Way.CLOSED_FORM, reason, True, value, beyond / scale, *limits)
 
     def _warnings(self, number: int) -> Iterator[str]:
         """The warnings about the tool, whatever its radius."""
@@ -107,15 +101,16 @@ class ToolTrials:
         """The faults of the tip of a tool, which no radius ends, and which leave a path."""
         return [each for each in self.rules.at(self.runs[number]).stops if each.kind is ToolFaultKind.TIP_AGAINST_SIDE]
 
-    def _reason(self, number: int, limit_mm: float, beyond: float, way: int) -> Reason:
-        """The finding about a tool beyond the largest (`way` 1) or below the least one (-1), with its place."""
+    def _reason(self, number: int, limit: Decimal | None, beyond: float, way: int) -> Reason:
+        """The finding about a tool beyond the largest (`way` 1) or below the least one (-1), with its place; None where
+        no tool fits."""
         fault, made = self.rules.stops(self.runs[number], beyond)[0], with_radius(self.runs[number], beyond)
         word = self.told.word(made, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
         where = f"program line {made.travels[fault.element].line}{f', {word.text}' if word is not None else ''}"
         message = fault.kind.value.message.format(**self.told.texts(made, fault))
-        shown = limit_text(limit_mm / float(made.unit.in_mm), made.unit.value, way)
-        limit = f"tool at {'most' if way > 0 else 'least'} {shown}" if limit_mm >= GOUGE else "no tool fits"
-        return Reason(f"{where}: {message}: {limit}", fault.kind.code, message)
+        most = "most" if way > 0 else "least"
+        told = "no tool fits" if limit is None else f"tool at {most} {limit_text(limit, made.unit.value)}"
+        return Reason(f"{where}: {message}: {told}", fault.kind.code, message)
 
 
 def largest_tools(
