@@ -11,8 +11,8 @@ from contoursolve.gcode import Block
 from contoursolve.reading import LENGTH, TOOL, WORK, Entry, ZeroMove, ZeroRow, ZeroTable, table_of
 
 _FIRST_CODE = 54
-_OF_WORK, _OF_FURTHER = 2, 20
-"""L of G10: work offsets, and further ones."""
+_OF_WORK, _OF_FURTHER, _OF_PARAMETERS = 2, 20, 50
+"""L of G10: work offsets, further ones, and from here on parameters, among which offsets are as well."""
 _PLACES = 20
 """Variables of each work offset, one an axis."""
 _EXTERNAL, _BY_CODE = 5201, 5221
@@ -49,6 +49,8 @@ class _Family(Struct, frozen=True):
             yield Entry(WORK, None if number is None else (("G", self.further), ("P", number)), axes)
         elif kind is None or kind < _OF_FURTHER:
             yield self.tool(number)
+        elif kind >= _OF_PARAMETERS:
+            yield Entry(WORK, None, axes)
 
     def entries_set(self, name: str) -> Iterator[Entry]:
         """The entries of tables that a variable is; any may be one whose index is not known."""

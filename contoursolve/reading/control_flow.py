@@ -129,10 +129,10 @@ class Ways(Follower):
         ]
         return replace(now, ways=ways)
 
-    def write_back(self, entry: Paths, now: Paths, ran: Sequence[Block]) -> WrittenBack:
+    def write_back(self, entry: Paths, now: Paths, earlier: Sequence[Block], ran: Sequence[Block]) -> WrittenBack:
         if not (entry.ways and now.ways):
             return WrittenBack()
-        return write_back(entry.ways[0].state, now.ways[0].state, ran, self.modes)
+        return write_back(entry.ways[0].state, now.ways[0].state, earlier, ran, self.modes)
 
     def lose(self, known: Paths, reason: str, line: int, *, modes: bool = False, in_passes: bool = False) -> Paths:
         if in_passes:

@@ -29,6 +29,7 @@ class ZeroMove(Enum):
     """Without numbers, nothing is left of it."""
     TURN = "turns, mirrors or scales"
     """Without a word, nothing is left of it."""
+    TURN_FURTHER = "turns, mirrors or scales what is in force"
     FORMULA = "a formula takes the place of all that is in force"
     OTHER = "by an amount that the block does not say"
     DATA = "changes entries of tables, which may be in force"
@@ -48,12 +49,14 @@ _ZERO = Decimal(0)
 
 class Entry(Struct, frozen=True):
     """An entry of a table that a block changes: its group, the offset, None where it is in force whatever is selected,
-    and its axes; none for all. Of numbers that begin with another one, such as T0102, `digits` tells how many count."""
+    and its axes; none for all. Of numbers that begin with another one, such as T0102, `digits` tells how many count. If
+    it `fades`, the offset has other numbers where it is selected next."""
 
     group: str
     offset: Offset | None = None
     axes: tuple[str, ...] = ()
     digits: int = 0
+    fades: bool = False
 
     def is_in(self, zero: Zero) -> bool:
         """Whether it is in force, or may be."""
@@ -131,7 +134,7 @@ class ZeroTable:
                 row = None if word.number is None else codes.get(word.number)  # type: ignore[call-overload]
             else:
                 row = names.get(address)
-                if row is None and (address == "M" or address.startswith("$")):
+                if row is None and (address == "M" or "[" in address):
                     name = f"M{word.number}" if address == "M" else address.partition("[")[0]
                     row = names.get(name)
             if row is not None:
@@ -226,15 +229,17 @@ def is_along_axes(zero: Zero, first: Zero) -> bool:
 
 def change_entries(zero: Zero, entries: Iterable[Entry], axes: tuple[str, ...], reason: str) -> Moved | None:
     """The move by a change of entries of tables: those that are in force, or may be."""
-    lost = dict[str, None]()
+    lost, now = dict[str, None](), zero
     for entry in entries:
         if entry.is_in(zero):
             lost.update(dict.fromkeys(axis for axis in entry.axes or axes if axis in axes))
-    return Moved(lost, zero, f"{reason}, which is in force or may be") if lost else None
+        if entry.fades:
+            now = _with_other_data(now, entry.group)
+    return Moved(lost, now, f"{reason}, which is in force or may be") if lost or now is not zero else None
 
 
-_ASSIGNED = re.compile(r"\#(?:(?P<number>\d++)|\[[^=]*\])[ \t]*+=")
-"""A variable of the machine that is set."""
+_ASSIGNED = re.compile(r"(?P<name>\#\d++|V\.G\.[^ \t=]++)[ \t]*+[-+*/]?=|\#\[[^=]*\][ \t]*+=", re.IGNORECASE)
+"""A variable of the machine that is set, one by one on controls that write # or V.G."""
 
 
 def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: str) -> Moved:
@@ -398,4 +403,4 @@ def entries_of_assignment(table: ZeroTable, block: Block) -> Iterator[Entry]:
     if table.variables is None or block.macro is None:
         return
     for found in _ASSIGNED.finditer(block.syntax.comment.sub("", block.text)):
-        yield from table.variables(f"#{found['number']}" if found["number"] else "")
+        yield from table.variables((found["name"] or "").upper())

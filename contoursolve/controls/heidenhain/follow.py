@@ -77,7 +77,27 @@ def follow(state: State, block: Block, modes: Modes) -> State:
         return moved.lose(own, "its coordinates are those of the machine", block.span)
     if any(word.address == "M" and word.number in _ENDING for word in block.words):
         return moved.lose(modes.axes, "the program ends there", block.span)
-    return moved
+    return _call_cycle(moved, block, modes)
+
+
+def _call_cycle(state: State, block: Block, modes: Modes) -> State:
+    """The state behind a block at whose end M99, or M89 up to the next M99, runs the cycle that is defined."""
+    for word in words_of_cycle(block):
+        memory = {name: each for name, each in state.memory.items() if name != _ALWAYS}
+        state = state.remember(memory if word.number == _ONCE else {**memory, _ALWAYS: word})
+        state = state.lose(modes.axes, _CYCLE, word.span)
+    is_called = _ALWAYS in state.memory and axis_words(block, modes)
+    return state.lose(modes.axes, _CYCLE, block.span) if is_called else state
+
+
+def words_of_cycle(block: Block) -> list[Word]:
+    """The words by which a cycle runs at the end of a block: at this one, or at each from here on."""
+    return [word for word in block.words if word.address == "M" and word.number in (_ONCE, 89)]
+
+
+_ONCE = 99
+_ALWAYS = "a cycle at the end of each move"
+"""Stands in what stays in force behind M89."""
 
 
 def words_of_machine(block: Block) -> list[Word]:
@@ -166,14 +186,11 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
     return state.move({**moved, **positions(state, others, modes, block.is_skippable)})
 
 
-_LOSING: tuple[tuple[re.Pattern[str], str], ...] = tuple(
-    (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), reason)
-    for pattern, reason in (
-        (r"CYCL[ \t]+CALL\b", "a cycle runs"),
-        (r"(?:TRANS|FUNCTION|FN[ \t]*17)\b", "it may change the coordinate system"),
-    )
-)
-_ZERO, _RECALLED = "it changes the coordinate system", BOOK.assumed("coordinate transformations")
+_CALLS_CYCLE = re.compile(BLOCK_NUMBER + r"CYCL[ \t]+CALL\b", re.IGNORECASE)
+_OTHER_ZERO = re.compile(BLOCK_NUMBER + r"(?:TRANS|FUNCTION|FN[ \t]*17)\b", re.IGNORECASE)
+_CYCLE = "a cycle runs"
+_RECALLED = BOOK.assumed("coordinate transformations")
+_MOST_SHOWN = 40
 _MOVING: tuple[tuple[re.Pattern[str], ZeroRow], ...] = tuple(
     (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), ZeroRow(name, move, _RECALLED))
     for pattern, name, move in (
@@ -225,12 +242,22 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
     for pattern, row in _MOVING:
         if pattern.match(block.text):
             return _move_zero(state, block, row, modes)
-    for pattern, reason in _LOSING:
-        if pattern.match(block.text):
-            return state.lose(modes.axes, reason, block.span)
+    if _CALLS_CYCLE.match(block.text):
+        return state.lose(modes.axes, _CYCLE, block.span)
+    if _OTHER_ZERO.match(block.text):
+        return state.lose_all(modes.axes, f"{_shown(block)} may change the coordinate system", block.span)
     if _HARMLESS.match(block.text):
         return state
-    return state.lose(modes.axes, f"{block.text.strip()[:40]} is not known to contoursolve", block.span)
+    return state.lose_all(modes.axes, f"{_shown(block)} is not known to contoursolve", block.span)
+
+
+def _shown(block: Block) -> str:
+    """The begin of a statement, as a message names it."""
+    text = block.syntax.comment.sub("", block.text).replace("~", " ")
+    return " ".join(_NUMBER.sub("", text).split())[:_MOST_SHOWN]
+
+
+_NUMBER = re.compile(BLOCK_NUMBER, re.IGNORECASE)
 
 
 def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
@@ -243,7 +270,8 @@ def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
     for is_step, numbers in steps.items():
         if numbers or (row.move is not ZeroMove.SET and not is_step):
             move, shifts = ZeroMove.ADD if is_step else row.move, numbers if row.move is ZeroMove.SET else None
-            moved = shift_zero(state.zero, move, block, shifts, modes.axes, _ZERO)
+            reason = f"{_shown(block)} changes the coordinate system"
+            moved = shift_zero(state.zero, move, block, shifts, modes.axes, reason)
             state = state_moved(state, moved, block.span)
     return state
 
