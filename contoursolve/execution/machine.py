@@ -1,7 +1,8 @@
 """Runs a program as a control does: assignments, jumps, loops, calls and profiles, from block to block."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from enum import Enum
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -79,10 +80,42 @@ DEEPEST = 50
 """Calls in one another; controls admit ten at most."""
 
 
+class ProgramKind(Enum):
+    """The ways in which a program runs."""
+
+    IN_ORDER = "line by line"
+    FOR_CALLS = "line by line, where another program calls it"
+    FOLLOWED = "as it calls, jumps and computes"
+
+
+def kind_of(lines: Iterable[str], language: MacroLanguage | None) -> ProgramKind:
+    """The way in which a program runs."""
+    ends = set[type[MacroStatement]]()
+    for each in _said(lines, language):
+        if each.words or each.is_part or any(_has_to_run(one, each) for one in each.statements):
+            return ProgramKind.FOLLOWED
+        ends.update(map(type, each.statements))
+    return ProgramKind.FOR_CALLS if _is_returning(ends) else ProgramKind.IN_ORDER
+
+
+def _said(lines: Iterable[str], language: MacroLanguage | None) -> Iterator[CodeLine]:
+    """Those of some lines that may say more than words with numbers."""
+    return (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else iter(())
+
+
+def says_end(lines: Iterable[str], language: MacroLanguage | None) -> bool:
+    """Whether any of some lines ends a program or a subprogram."""
+    return any(isinstance(one, Return | ProgramEnd) for each in _said(lines, language) for one in each.statements)
+
+
 def needs_running(lines: Iterable[str], language: MacroLanguage | None) -> bool:
     """Whether a program calls, jumps or computes, so that it has to be followed as it runs."""
-    said = (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else ()
-    return any(each.words or each.is_part or any(_has_to_run(one, each) for one in each.statements) for each in said)
+    return kind_of(lines, language) is ProgramKind.FOLLOWED
+
+
+def _is_returning(said: Collection[type[MacroStatement]]) -> bool:
+    """Whether a program that says this returns, and nothing in it ends the run, so that others call it."""
+    return Return in said and ProgramEnd not in said
 
 
 def _has_to_run(statement: MacroStatement, line: CodeLine) -> bool:
@@ -468,8 +501,7 @@ class Machine:
     def _is_for_calls(self, begin: int) -> bool:
         """Whether the main program is one that others call: it returns, and nothing in it ends the run."""
         last = self.main.section_end(begin)
-        said = {type(each) for at in range(begin, last + 1) for each in self.main.code(at).statements}
-        return Return in said and ProgramEnd not in said
+        return _is_returning({type(each) for at in range(begin, last + 1) for each in self.main.code(at).statements})
 
     def _begin(self) -> int:
         """The index of the line with which the main program begins: no subprogram by its head, and none calls it."""

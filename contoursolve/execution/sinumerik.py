@@ -224,7 +224,7 @@ def _define(line: LineReader, kind: re.Match[str]) -> Iterator[MacroStatement]:
         elements = [f"{name}[{','.join(map(str, each))}]" for each in itertools.product(*ends)] if ends else [name]
         if not _IS_NAME.match(name) or name in line.names:
             told = f"DEF {name}: the first two characters of a variable's name are letters or underscores"
-            if name in line.names:
+            if _IS_NAME.match(name):
                 told = f"DEF {name}: {name} is a word of the control; give the variable another name"
             line.at = len(line.text)
             yield Forget(Variable(name), told)

@@ -3,7 +3,7 @@ none. A shift by numbers moves the place, a table makes it unknown, and what is 
 
 import pytest
 
-from contoursolve import DIALECTS, expand, solve
+from contoursolve import DIALECTS, OpenProgram, expand, solve
 from contoursolve.reading import ZeroMove
 
 FRAMES = "G17 G71 G90 G54\n{}\nG0 X0 Y0\n{}\nG1 X20 RND=5 F300\nY20\nM30"
@@ -174,6 +174,26 @@ def test_no_contour_has_coordinates_of_the_machine(text):
     assert [each.contour is None for each in plain.answers] == [False]
     assert all(each.contour is None for each in result.answers)
     assert result.diagnostics
+
+
+@pytest.mark.parametrize(
+    ("control", "shift", "end", "last"),
+    [
+        ("siemens-840d", "TRANS X5", "M17", "M30"),
+        ("siemens-840d", "TRANS X5", "RET", "M2"),
+        ("fanuc-mill", "G52 X5.", "M99", "M30"),
+    ],
+)
+def test_what_others_call_does_not_know_the_shift_in_force(control, shift, end, last):
+    text = f"G17 G90\nG0 X0 Y0\n{shift}\nG1 X20. {',R' if 'mill' in control else 'RND='}5. F300.\nY20.\n{{}}"
+    opened = OpenProgram(text.format(last), control=control)
+    for ends, start in ((last, (-5, 0)), (end, UNKNOWN), ("", (-5, 0))):
+        assert starts(text.format(ends), control) == [start]
+        opened.replace(text.format(ends))
+        assert opened.check()
+        assert any(each.code == "position-unknown" for each in opened.diagnostics) is (start is UNKNOWN)
+        written = expand(text.format(ends), control=control, keep_going=True).text
+        assert ("NOT EXPANDED" in written) is (start is UNKNOWN)
 
 
 @pytest.mark.parametrize("word", ["M91", "M99"])
