@@ -43,6 +43,7 @@ from .macro_language import (
     CodeLine as CodeLine,
     Known as Known,
     MacroLanguage as MacroLanguage,
+    ModalCall as ModalCall,
     ProgramEnd as ProgramEnd,
     Unknown as Unknown,
     Vacant as Vacant,

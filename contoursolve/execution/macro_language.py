@@ -259,6 +259,8 @@ class ModalCall(Struct, frozen=True, tag=True):
     """The word of the control that makes it."""
     keeps_modes: bool = False
     """Whether it leaves the modes as they were."""
+    counted: str = ""
+    """The letters of arguments without a decimal point, as of a call."""
 
 
 MacroStatement = (
