@@ -273,6 +273,14 @@ def test_ql_parameters_are_those_of_one_program(tmp_path):
     )
 
 
+def test_a_subprogram_is_no_word_that_another_control_does_not_know(tmp_path):
+    program = tmp_path / "main.mpf"
+    program.write_text(f"{MILL}SUB(3)\nDEEP\n{CORNER.format(20)}PROC SUB(REAL AA)\nG0 X=AA\nRET\nPROC DEEP\nRET\n")
+    done = CliRunner().invoke(main, ["convert", str(program), "--control", SIEMENS, "--to", "siemens-808d"])
+    assert done.exit_code == 0
+    assert "does not know" not in done.stderr
+
+
 # Priorities -----------------------------------------------------------------------------------------------------------
 
 
