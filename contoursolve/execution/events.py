@@ -117,6 +117,10 @@ class Follower:
         """Whether as much is known."""
         return True
 
+    def enter(self, known: Any) -> Any:
+        """The state in which a subprogram begins that saves the modes."""
+        return known
+
     def restore(self, _entry: Any, now: Any, _reason: str, _line: int) -> Any:
         """The state where a subprogram ends that saves the modes, given what was known where it was called."""
         return now

@@ -1361,6 +1361,8 @@ class Machine:
         if call.kind is CallKind.PROFILE or called.saves:
             yield ProgramEvent(EventKind.BARRIER if called.saves else EventKind.ENTER, line, call.cycle)
             called.entry, called.first_ran = self._beside, len(self._ran)
+        if called.saves:
+            self._beside = self._follower.enter(self._beside)
         self._frames.append(called)
         if own is not None:
             self.variables.levels.append(own.copy())

@@ -15,6 +15,7 @@ from contoursolve.gcode import Block
 from contoursolve.reading.brought_back import bring_back, write_back
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Mode, Modes, Position, State, with_diameters
+from contoursolve.reading.moved_zero import zero_at_call
 
 _SAME = Decimal("1e-9")
 """mm by which two positions differ that are one; see `contoursolve.tolerance.LENGTH`."""
@@ -117,6 +118,10 @@ class Ways(Follower):
 
     def is_same(self, one: Paths, other: Paths) -> bool:
         return [*map(_known, one.ways)] == [*map(_known, other.ways)]
+
+    def enter(self, known: Paths) -> Paths:
+        states = (replace(each.state, zero=zero_at_call(each.state.zero)) for each in known.ways)
+        return replace(known, ways=[replace(way, state=each) for way, each in zip(known.ways, states, strict=True)])
 
     def restore(self, entry: Paths, now: Paths, reason: str, line: int) -> Paths:
         if not entry.ways:

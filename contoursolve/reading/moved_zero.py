@@ -219,7 +219,14 @@ def _with_other_data(zero: Zero, group: str) -> Zero:
 
 
 _DATA = "numbers of a work offset"
-"""Stands in what is in force where some were changed."""
+"""Stands in what is in force where some were changed, or may have been, since a call that saves the modes."""
+UNKNOWN_ZERO: Zero = {_DATA: ()}
+"""The zero of which nothing is known."""
+
+
+def zero_at_call(zero: Zero) -> Zero:
+    """The zero in which a subprogram begins that saves the modes."""
+    return {name: value for name, value in zero.items() if name != _DATA} if _DATA in zero else zero
 
 
 def is_along_axes(zero: Zero, first: Zero) -> bool:
@@ -253,9 +260,9 @@ def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: st
         elif old != new:
             by[axis] = new - old
     # What a program changes of the offset in force, it may leave changed: printed, a machine datum.
-    from_now = (TOOL, LENGTH, _DATA) if WORK in now else (TOOL, LENGTH, _DATA, WORK)
+    from_now = (TOOL, LENGTH) if WORK in now else (TOOL, LENGTH, WORK)
     kept = {name: value for name, value in before.items() if name not in from_now}
-    return Moved(by, kept | {name: value for name, value in now.items() if name in from_now}, reason)
+    return Moved(by, kept | {name: value for name, value in now.items() if name in (*from_now, _DATA)}, reason)
 
 
 def zero_written_back(
@@ -266,7 +273,8 @@ def zero_written_back(
     work, frames = before.get(WORK), {move: row.names.split()[0] for row in table.codes.values() for move in [row.move]}
     shifts = [(axis, before.get(_shift(axis)), before.get(_fine(axis))) for axis in axes]
     is_moved = any(before.get(key) != now.get(key) for axis in axes for key in (_shift(axis), _fine(axis)))
-    if (work != now.get(WORK) and not isinstance(work, tuple)) or (is_moved and any(None in each for each in shifts)):
+    is_other = work != now.get(WORK) and (not isinstance(work, tuple) or _DATA in now)
+    if is_other or (is_moved and any(None in each for each in shifts)):
         return None
     lines = list[str]()
     if isinstance(work, tuple) and work != now.get(WORK):

@@ -93,6 +93,20 @@ def test_save_does_not_undo_what_is_written_into_an_offset():
         assert solve(program, control="siemens-840d").answers[0].start.values == start
 
 
+def test_numbers_of_an_offset_matter_to_save_where_they_change_behind_its_call():
+    data, subs = "$P_UIFR[1]=CTRANS(X,5)\nG54\nG0 X0 Y0\n", "PROC SUB SAVE\n{}RET\nPROC DEEP SAVE\n{}RET"
+    moves = "G91 G0 X3\n"
+    for before, sub, deep, start in (
+        (data, moves, "", (3, 0)),
+        ("", f"{data}DEEP\n", moves, None),
+        ("", f"DEEP\n{data[data.index('G') :]}", data, None),
+        ("", "LOST\nG90 G71 G17 G54 DIAMOF\nTRANS\nG0 X0 Y0\n", "", None),
+    ):
+        text = f"{MILL}{before}SUB\n{CORNER.format(20)}{subs.format(sub, deep)}"
+        found = result_of(text).answers[0].start.values
+        assert found == (start or (None, None))
+
+
 def test_what_save_brings_back_is_not_written_where_it_is_not_known(tmp_path):
     program = tmp_path / "main.mpf"
     program.write_text(f"G17 G90 G0 X0 Y0\nSUB\n{CORNER.format(20)}PROC SUB SAVE\nG55 G0 X3 Y0\nRET")
