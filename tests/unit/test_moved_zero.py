@@ -230,6 +230,11 @@ def test_each_selection_of_a_table_makes_the_place_unknown_but_for_the_one_in_fo
             "G52 X10. in program line 5 moves",
         ),
         ("siemens-840d", "G17 G71 G90\nG0 X0 Y0\nG1 X20 RND=5\nTRANS X10\nY40", "TRANS X10 in program line 4 moves"),
+        (
+            "siemens-840d",
+            "G17 G71 G90\nSUB\nM30\nPROC SUB\nG0 X0 Y0\nG1 X20 RND=5\nTRANS X10\nY40\nRET",
+            "TRANS X10 in program line 7 moves",
+        ),
     ],
 )
 def test_a_corner_right_before_a_moved_zero_is_told_why(control, text, told):
