@@ -79,6 +79,10 @@ _BY_AXIS, _AXES_BY_AXIS = 2500, 4
 """Variables of work offsets by axes: from #2500 on those of X, from #2600 on those of the next axis."""
 
 
+_VARIABLES = ", ".join(f"#{first}" for first in sorted((*_WORK_OFFSETS, _BY_AXIS, *(first for first, _ in _TOOLS))))
+"""The first ones of each table."""
+
+
 def zero_table(
     source: Source, axes: tuple[str, ...], *more: ZeroRow, numbers: Mapping[str, int] | None = None, further: str = ""
 ) -> ZeroTable:
@@ -101,7 +105,8 @@ def zero_table(
     else:
         rows.append(ZeroRow("T", ZeroMove.SELECT, source, TOOL, ("X", "Z")))
     shifted = axes if family.is_mill else ()
-    return table_of((*rows, *more), numbers or {}, shifted, variables=family.entries_set)
+    beside = (ZeroRow(_VARIABLES, ZeroMove.DATA, source),)
+    return table_of((*rows, *more), numbers or {}, shifted, variables=family.entries_set, beside=beside)
 
 
 def length_rows(source: Source) -> tuple[ZeroRow, ...]:

@@ -23,7 +23,7 @@ class ZeroMove(Enum):
     SELECT = "selects an offset of a table"
     """The one that is in force again moves nothing."""
     SET = "numbers of the block take the place of those in force on their axes"
-    FINE = "the same, of a second shift beside the first one"
+    FINE = "numbers of the block take the place of those of a second shift, beside the first one"
     ADD = "numbers of the block come to those in force"
     REPLACE = "numbers of the block take the place of all that is in force"
     """Without numbers, nothing is left of it."""
@@ -121,6 +121,8 @@ class ZeroTable:
 
     codes: Mapping[int, ZeroRow] = field(default_factory=dict)
     names: Mapping[str, ZeroRow] = field(default_factory=dict)
+    beside: tuple[ZeroRow, ...] = ()
+    """Those of variables and statements, which are found in other ways: commas part their names."""
     first: Zero = field(default_factory=dict)
     variables: Callable[[str], Iterable[Entry]] | None = None
 
@@ -151,9 +153,10 @@ def table_of(
     axes: Iterable[str] = (),
     first: Zero | None = None,
     variables: Callable[[str], Iterable[Entry]] | None = None,
+    beside: Iterable[ZeroRow] = (),
 ) -> ZeroTable:
     """The table of some rows; `numbers` are those of codes that are no G and a number. On `axes`, no shift is in force
-    where a program begins."""
+    where a program begins. Rows `beside` are those of variables and statements."""
     codes, names = dict[int, ZeroRow](), dict[str, ZeroRow]()
     for row in rows:
         for name in row.names.split():
@@ -163,7 +166,7 @@ def table_of(
                 codes[Decimal(name[1:])] = row  # type: ignore[index]
             names[name] = row
     at_first = {key: _ZERO for axis in axes for key in (_shift(axis), _fine(axis))}
-    return ZeroTable(codes, names, {**at_first, **(first or {})}, variables)
+    return ZeroTable(codes, names, tuple(beside), {**at_first, **(first or {})}, variables)
 
 
 def _shift(axis: str) -> str:

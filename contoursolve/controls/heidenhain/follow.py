@@ -33,6 +33,7 @@ from contoursolve.reading import (
     positions,
     shift_zero,
     state_moved,
+    table_of,
 )
 from contoursolve.tolerance import LENGTH
 
@@ -187,7 +188,6 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
 
 
 _CALLS_CYCLE = re.compile(BLOCK_NUMBER + r"CYCL[ \t]+CALL\b", re.IGNORECASE)
-_OTHER_ZERO = re.compile(BLOCK_NUMBER + r"(?:TRANS|FUNCTION|FN[ \t]*17)\b", re.IGNORECASE)
 _CYCLE = "a cycle runs"
 _RECALLED = BOOK.assumed("coordinate transformations")
 _MOST_SHOWN = 40
@@ -195,13 +195,20 @@ _MOVING: tuple[tuple[re.Pattern[str], ZeroRow], ...] = tuple(
     (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), ZeroRow(name, move, _RECALLED))
     for pattern, name, move in (
         (r"CYCL[ \t]+DEF[ \t]+7\.0*[1-9]\d*[ \t]+(?=I?[XYZ])", "CYCL DEF 7", ZeroMove.SET),
-        (r"CYCL[ \t]+DEF[ \t]+7\.0*[1-9]\d*\b", "CYCL DEF 7 #", ZeroMove.TURN),
-        (r"CYCL[ \t]+DEF[ \t]+(?:8|10|11|19|26)\b", "CYCL DEF 8 10 11 19 26", ZeroMove.TURN),
-        (r"(?:CYCL[ \t]+DEF[ \t]+247|PRESET)\b", "CYCL DEF 247, PRESET SELECT", ZeroMove.TURN),
+        (r"CYCL[ \t]+DEF[ \t]+7\.0*[1-9]\d*\b", "CYCL DEF 7 #", ZeroMove.SELECT),
+        (
+            r"CYCL[ \t]+DEF[ \t]+(?:8|10|11|19|26)\b",
+            "CYCL DEF 8, CYCL DEF 10, CYCL DEF 11, CYCL DEF 19, CYCL DEF 26",
+            ZeroMove.TURN,
+        ),
+        (r"(?:CYCL[ \t]+DEF[ \t]+247|PRESET)\b", "CYCL DEF 247, PRESET", ZeroMove.SELECT),
         (r"PLANE\b", "PLANE", ZeroMove.TURN),
+        (r"(?:TRANS|FUNCTION|FN[ \t]*17)\b", "TRANS, FUNCTION, FN 17", ZeroMove.OTHER),
     )
 )
 """The moves of the coordinate system: by numbers along axes, or in a way that is not followed."""
+ZERO = table_of((), {}, "XYZ", beside=(row for _, row in _MOVING))
+"""At first, no shift is in force."""
 _SHIFT = re.compile(r"(?P<step>I?)(?P<axis>[XYZ])[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))?+", re.IGNORECASE)
 _TOOL = re.compile(
     BLOCK_NUMBER + r"TOOL[ \t]+CALL[ \t]+(?:\"[^\"]*\"|\S+)[ \t]+(?P<axis>[XYZUVW])(?=[ \t;]|$)", re.IGNORECASE
@@ -244,8 +251,6 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
             return _move_zero(state, block, row, modes)
     if _CALLS_CYCLE.match(block.text):
         return state.lose(modes.axes, _CYCLE, block.span)
-    if _OTHER_ZERO.match(block.text):
-        return state.lose_all(modes.axes, f"{_shown(block)} may change the coordinate system", block.span)
     if _HARMLESS.match(block.text):
         return state
     return state.lose_all(modes.axes, f"{_shown(block)} is not known to contoursolve", block.span)
@@ -262,6 +267,8 @@ _NUMBER = re.compile(BLOCK_NUMBER, re.IGNORECASE)
 
 def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
     """The state behind a statement that moves the coordinate system."""
+    if row.move is ZeroMove.OTHER:
+        return state.lose_all(modes.axes, f"{_shown(block)} may change the coordinate system", block.span)
     steps: Mapping[bool, dict[str, Decimal | None]] = {False: {}, True: {}}
     said = block.syntax.comment.sub("", block.text).partition(".")[2] if row.move is ZeroMove.SET else ""
     for each in _SHIFT.finditer(said):

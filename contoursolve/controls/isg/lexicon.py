@@ -185,6 +185,9 @@ _ZERO = table_of(
     {},
     first={WORK: (("G", _INITIAL),)},
     variables=_entries_set,
+    beside=(
+        ZeroRow("V.G.NP, V.G.NP_AKT, V.G.WZ_AKT", ZeroMove.DATA, BOOK.printed("access to the current zero offset")),
+    ),
 )
 """The moves of the coordinate system: at first, no offset is in force."""
 

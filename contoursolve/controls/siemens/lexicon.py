@@ -170,26 +170,28 @@ def _codes() -> dict[int, Code]:
 
 
 CODES = _codes()
-_OFFSETS, _SELECTS = BOOK.assumed("frames and offsets"), ZeroMove.SELECT
+_OFFSETS, _LENGTHS, _SELECTS = BOOK.assumed("frames and offsets"), BOOK.assumed("lengths of tools"), ZeroMove.SELECT
 _BY_PLANE = {"G17": ("Z",), "G18": ("X", "Y", "Z"), "G19": ("X",)}
 """The axes that the lengths of a tool move: the tool's axis, and on lathes (G18) two."""
 _FRAMES = "$P_IFRAME $P_BFRAME $P_ACTBFRAME $P_CHBFRAME $P_NCBFRAME $P_ACTFRAME $P_SETFRAME $P_EXTFRAME"
+_SYSTEM_FRAMES = "$P_PARTFRAME $P_TOOLFRAME $P_WPFRAME $P_CYCFRAME $P_TRAFRAME"
 _TOOL_DATA = " ".join(f"$TC_DP{number}" for number in (3, 4, 5, 12, 13, 14, 21, 22, 23))
 """The lengths of a tool, their wear and their base."""
 _ZERO_ROWS = (
     ZeroRow(" ".join(f"G{code}" for code in (54, 55, 56, 57, 500, *range(505, 600))), _SELECTS,
             BOOK.printed("fundamentals 11/2006 p. 100"), WORK),
-    ZeroRow("T", _SELECTS, _OFFSETS, TOOL, _BY_PLANE, words="D"),
-    ZeroRow("D", _SELECTS, _OFFSETS, TOOL, _BY_PLANE, words="D", goes_on=True),
-    ZeroRow("M6 DL TOFFL TOFFLR", ZeroMove.OTHER, _OFFSETS, TOOL, _BY_PLANE),
-    ZeroRow("TOFF TCARR", ZeroMove.OTHER, _OFFSETS, TOOL),
-    ZeroRow(_TOOL_DATA, ZeroMove.OTHER, _OFFSETS, TOOL, _BY_PLANE),
+    ZeroRow("T", _SELECTS, _LENGTHS, TOOL, _BY_PLANE, words="D"),
+    ZeroRow("D", _SELECTS, _LENGTHS, TOOL, _BY_PLANE, words="D", goes_on=True),
+    ZeroRow("M6 DL TOFFL TOFFLR", ZeroMove.OTHER, _LENGTHS, TOOL, _BY_PLANE),
+    ZeroRow("TOFF TCARR", ZeroMove.OTHER, _LENGTHS, TOOL),
+    ZeroRow(_TOOL_DATA, ZeroMove.OTHER, _LENGTHS, TOOL, _BY_PLANE),
     ZeroRow("TRANS", ZeroMove.REPLACE, BOOK.printed("NC programming 12/2019 p. 315")),
     ZeroRow("ATRANS", ZeroMove.ADD, BOOK.printed("NC programming 12/2019 p. 315")),
     ZeroRow("ROT SCALE MIRROR ROTS", ZeroMove.TURN, _OFFSETS),
     ZeroRow("AROT ASCALE AMIRROR AROTS", ZeroMove.TURN_FURTHER, _OFFSETS),
     ZeroRow("$P_PFRAME", ZeroMove.FORMULA, BOOK.printed("NC programming 12/2019 p. 315: CTRANS")),
-    ZeroRow(f"{_FRAMES} $P_PARTFRAME $P_TOOLFRAME $P_WPFRAME $P_CYCFRAME $P_TRAFRAME", ZeroMove.OTHER, _OFFSETS, WORK),
+    ZeroRow(_FRAMES, ZeroMove.OTHER, _OFFSETS, WORK),
+    ZeroRow(_SYSTEM_FRAMES, ZeroMove.OTHER, BOOK.assumed("system frames"), WORK),
     ZeroRow("$P_UIFR $P_UBFR $P_CHBFR $P_NCBFR $P_SETFR $P_EXTFR", ZeroMove.LATER, _OFFSETS, WORK),
 )  # fmt: skip
 """The moves of the coordinate system of every SINUMERIK."""
