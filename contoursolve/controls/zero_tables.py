@@ -11,8 +11,8 @@ from contoursolve.gcode import Block
 from contoursolve.reading import LENGTH, TOOL, WORK, Entry, ZeroMove, ZeroRow, ZeroTable, table_of
 
 _FIRST_CODE = 54
-_OF_WORK, _OF_FURTHER = 2, 20
-"""L of G10: work offsets, and further ones."""
+_OF_WORK, _OF_FURTHER, _OF_PARAMETERS = 2, 20, 50
+"""L of G10: work offsets, further ones, and from here on parameters, among which offsets are as well."""
 _PLACES = 20
 """Variables of each work offset, one an axis."""
 _EXTERNAL, _BY_CODE = 5201, 5221
@@ -49,6 +49,8 @@ class _Family(Struct, frozen=True):
             yield Entry(WORK, None if number is None else (("G", self.further), ("P", number)), axes)
         elif kind is None or kind < _OF_FURTHER:
             yield self.tool(number)
+        elif kind >= _OF_PARAMETERS:
+            yield Entry(WORK, None, axes)
 
     def entries_set(self, name: str) -> Iterator[Entry]:
         """The entries of tables that a variable is; any may be one whose index is not known."""
@@ -77,6 +79,10 @@ _BY_AXIS, _AXES_BY_AXIS = 2500, 4
 """Variables of work offsets by axes: from #2500 on those of X, from #2600 on those of the next axis."""
 
 
+_VARIABLES = ", ".join(f"#{first}" for first in sorted((*_WORK_OFFSETS, _BY_AXIS, *(first for first, _ in _TOOLS))))
+"""The first ones of each table."""
+
+
 def zero_table(
     source: Source, axes: tuple[str, ...], *more: ZeroRow, numbers: Mapping[str, int] | None = None, further: str = ""
 ) -> ZeroTable:
@@ -99,7 +105,8 @@ def zero_table(
     else:
         rows.append(ZeroRow("T", ZeroMove.SELECT, source, TOOL, ("X", "Z")))
     shifted = axes if family.is_mill else ()
-    return table_of((*rows, *more), numbers or {}, shifted, variables=family.entries_set)
+    beside = (ZeroRow(_VARIABLES, ZeroMove.DATA, source),)
+    return table_of((*rows, *more), numbers or {}, shifted, variables=family.entries_set, beside=beside)
 
 
 def length_rows(source: Source) -> tuple[ZeroRow, ...]:

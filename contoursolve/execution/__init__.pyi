@@ -26,8 +26,11 @@ from .machine import (
     MOST_BLOCKS as MOST_BLOCKS,
     Limit as Limit,
     Machine as Machine,
+    ProgramKind as ProgramKind,
+    kind_of as kind_of,
     machine_of as machine_of,
     needs_running as needs_running,
+    says_end as says_end,
 )
 from .macro_language import (
     ANGLE_INCREMENT as ANGLE_INCREMENT,
@@ -40,6 +43,7 @@ from .macro_language import (
     CodeLine as CodeLine,
     Known as Known,
     MacroLanguage as MacroLanguage,
+    ModalCall as ModalCall,
     ProgramEnd as ProgramEnd,
     Unknown as Unknown,
     Vacant as Vacant,

@@ -117,12 +117,16 @@ class Follower:
         """Whether as much is known."""
         return True
 
+    def enter(self, known: Any) -> Any:
+        """The state in which a subprogram begins that saves the modes."""
+        return known
+
     def restore(self, _entry: Any, now: Any, _reason: str, _line: int) -> Any:
         """The state where a subprogram ends that saves the modes, given what was known where it was called."""
         return now
 
-    def write_back(self, _entry: Any, _now: Any, _ran: Sequence[Block]) -> WrittenBack:
-        """The same in blocks, for a program without calls, given all blocks that have run between."""
+    def write_back(self, _entry: Any, _now: Any, _earlier: Sequence[Block], _ran: Sequence[Block]) -> WrittenBack:
+        """The same in blocks, for a program without calls, given all blocks that have run up to the call, and since."""
         return WrittenBack()
 
     def lose(

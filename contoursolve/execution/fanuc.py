@@ -139,6 +139,13 @@ def _macro_call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStateme
     yield Call(CallKind.PROGRAM, target, count=count, arguments=tuple(arguments), counted=counted, is_local=True)
 
 
+def _modal_call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    begin = line.at
+    counted = "".join(each.counted for each in _macro_call(line, found) if isinstance(each, Call))
+    line.at = begin
+    yield ModalCall("contoursolve does not read G66 yet: it calls a macro after each move", counted=counted)
+
+
 def _return(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     end = line.at
     if line.take("P(?=[ \t]*+[0-9#\\[])"):
@@ -170,11 +177,7 @@ _TABLE = (
     Spelling(r"GOTO", lambda line, _: [Jump(_block(line))]),
     Spelling(r"M0*+9(?P<kind>8)(?![\d.])", _call),
     Spelling(r"G0*+65(?![\d.])", _macro_call),
-    Spelling(
-        r"G0*+66(?!\d)",
-        lambda *_: [ModalCall("contoursolve does not read G66 yet: it calls a macro after each move")],
-        stays=True,
-    ),
+    Spelling(r"G0*+66(?>(?:\.\d)?)(?!\d)", _modal_call, stays=True),
     Spelling(r"G0*+67(?![\d.])", lambda *_: [ModalCall()], stays=True),
     Spelling(r"M0*+99(?![\d.])", _return, stays=True),
     Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),

@@ -167,6 +167,7 @@ def isg() -> MacroLanguage:
         _files,
         _unknown,
         variables=_NAMES,
+        moving=r"V\.G\.(?:NP|WZ_AKT).*",
         examples="P100 or V.P.X",
         scope=_scope,
         made_by=isg,

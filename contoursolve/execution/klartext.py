@@ -25,6 +25,7 @@ from contoursolve.execution.macro_language import (
     MacroStatement,
     ProgramEnd,
     Return,
+    VariableScope,
 )
 from contoursolve.execution.notation import KLARTEXT
 from contoursolve.numeric import Apply, Variable
@@ -87,7 +88,7 @@ def _program_name(text: str) -> str:
 
 
 def _call_program(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
-    yield Call(CallKind.PROGRAM, _program_name(found["file"]))
+    yield Call(CallKind.PROGRAM, _program_name(found["file"]), is_local=True)
 
 
 def _contours(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
@@ -96,7 +97,8 @@ def _contours(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement
     line.at = len(line.text)
     for name in re.finditer(_LABEL if "CYCL" in cycle else _NAMED, rest, re.IGNORECASE):
         label = _program_name(name[1]) if name[1] is not None else number_of(name[2])
-        yield Call(CallKind.PROFILE, label, cycle=cycle)
+        is_program = name[1] is not None and "CYCL" not in cycle
+        yield Call(CallKind.PROFILE, label, cycle=cycle, is_local=is_program)
 
 
 _LABEL = r'"([^"]*+)"|(?<!Q)(?<!Q[LRS])(?<!\d)(\d++)'
@@ -104,7 +106,7 @@ _NAMED = r'"([^"]*+)"|LBL[ \t]*+(\d++)'
 
 
 def _begin(line: LineReader, found: re.Match[str]) -> Iterable[MacroStatement]:
-    line.begins = found["name"].upper() or None
+    line.begins, line.unit = found["name"].upper() or None, found["unit"].upper()
     return ()
 
 
@@ -120,7 +122,7 @@ _TABLE = (
         r"(?<![A-Z])(?:CYCL[ \t]++DEF[ \t]++14(?>(?:\.\d++)?)(?!\d)|CONTOUR[ \t]++DEF|(?:DECLARE|SEL)[ \t]++CONTOUR)",
         _contours,
     ),
-    Spelling(r"(?<![A-Z])BEGIN[ \t]++PGM[ \t]*+(?P<name>[^ \t]*+)[ \t]++(?:MM|INCH)(?![A-Z])", _begin),
+    Spelling(r"(?<![A-Z])BEGIN[ \t]++PGM[ \t]*+(?P<name>[^ \t]*+)[ \t]++(?P<unit>MM|INCH)(?![A-Z])", _begin),
     Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
     Spelling(r"(?=[-+][ \t]*+Q[LRS]?\d|Q[LRS]?\d)", word, stays=True),
 )
@@ -146,6 +148,11 @@ def _unknown(name: str) -> str:
     return f"{name}{MACHINES}" if is_machines else f"{name}{UNSET}"
 
 
+def _scope(name: str) -> VariableScope:
+    # Printed: TNC 640 03/2014 p. 265. A label of the same program sees them: recalled.
+    return VariableScope.LEVEL if name.startswith("QL") else VariableScope.EVERYWHERE
+
+
 @cache
 def klartext() -> MacroLanguage:
     """The statements of HEIDENHAIN's programs."""
@@ -159,5 +166,6 @@ def klartext() -> MacroLanguage:
         variables=r"Q[LRS]?\d+",
         examples="Q100, QL1 or QR1",
         passes_return=True,
+        scope=_scope,
         made_by=klartext,
     )

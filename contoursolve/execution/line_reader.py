@@ -34,6 +34,7 @@ class LineReader:
         self.at = 0
         self.number = ""
         self.begins: str | None = None
+        self.unit = ""
         self.is_part = self.saves = False
         self.labels, self.words = list[str](), list[WordFormula]()
         self.statements, self.parameters = list[MacroStatement](), list[FormalParameter]()
@@ -156,6 +157,7 @@ class LineReader:
             tuple(words),
             tuple(self.parameters),
             self.saves,
+            self.unit,
         )
 
 

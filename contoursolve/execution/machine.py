@@ -1,7 +1,8 @@
 """Runs a program as a control does: assignments, jumps, loops, calls and profiles, from block to block."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from enum import Enum
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -79,10 +80,42 @@ DEEPEST = 50
 """Calls in one another; controls admit ten at most."""
 
 
+class ProgramKind(Enum):
+    """The ways in which a program runs."""
+
+    IN_ORDER = "line by line"
+    FOR_CALLS = "line by line, where another program calls it"
+    FOLLOWED = "as it calls, jumps and computes"
+
+
+def kind_of(lines: Iterable[str], language: MacroLanguage | None) -> ProgramKind:
+    """The way in which a program runs."""
+    ends = set[type[MacroStatement]]()
+    for each in _said(lines, language):
+        if each.words or each.is_part or any(_has_to_run(one, each) for one in each.statements):
+            return ProgramKind.FOLLOWED
+        ends.update(map(type, each.statements))
+    return ProgramKind.FOR_CALLS if _is_returning(ends) else ProgramKind.IN_ORDER
+
+
+def _said(lines: Iterable[str], language: MacroLanguage | None) -> Iterator[CodeLine]:
+    """Those of some lines that may say more than words with numbers."""
+    return (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else iter(())
+
+
+def says_end(lines: Iterable[str], language: MacroLanguage | None) -> bool:
+    """Whether any of some lines ends a program or a subprogram."""
+    return any(isinstance(one, Return | ProgramEnd) for each in _said(lines, language) for one in each.statements)
+
+
 def needs_running(lines: Iterable[str], language: MacroLanguage | None) -> bool:
     """Whether a program calls, jumps or computes, so that it has to be followed as it runs."""
-    said = (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else ()
-    return any(each.words or each.is_part or any(_has_to_run(one, each) for one in each.statements) for each in said)
+    return kind_of(lines, language) is ProgramKind.FOLLOWED
+
+
+def _is_returning(said: Collection[type[MacroStatement]]) -> bool:
+    """Whether a program that says this returns, and nothing in it ends the run, so that others call it."""
+    return Return in said and ProgramEnd not in said
 
 
 def _has_to_run(statement: MacroStatement, line: CodeLine) -> bool:
@@ -195,8 +228,8 @@ class _Frame(Struct):
     """Whether the modes at the call are in force again where it ends."""
     doubt: str = ""
     """The reason why nobody knows how often it runs."""
-    ran: list[Block] = field(default_factory=list)
-    """The blocks that have run in it, if that has to be written back."""
+    first_ran: int = 0
+    """The number of blocks that had run before it, if what it changes has to be written back."""
 
     def go_to(self, index: int) -> None:
         """Go on at a line: what the line that runs still says is left out."""
@@ -314,6 +347,8 @@ class Machine:
         """The fault of the line that runs, and may run on."""
         self._has_to_decide = False
         """Whether it ends where nobody knows what is decided."""
+        self._ran: list[Block] = []
+        """All blocks that have run, where what SAVE brings back has to be written."""
 
     def follow(self, ran: Iterable[Block | ProgramEvent], follower: Follower) -> Iterator[Any]:
         """Let somebody follow what runs; all that he finds, one by one, and None for a block that waits to be read."""
@@ -466,8 +501,7 @@ class Machine:
     def _is_for_calls(self, begin: int) -> bool:
         """Whether the main program is one that others call: it returns, and nothing in it ends the run."""
         last = self.main.section_end(begin)
-        said = {type(each) for at in range(begin, last + 1) for each in self.main.code(at).statements}
-        return Return in said and ProgramEnd not in said
+        return _is_returning({type(each) for at in range(begin, last + 1) for each in self.main.code(at).statements})
 
     def _begin(self) -> int:
         """The index of the line with which the main program begins: no subprogram by its head, and none calls it."""
@@ -513,8 +547,7 @@ class Machine:
                     if isinstance(each, ProgramEvent) and each.kind is not EventKind.BARRIER:
                         self._go_on()
                     elif self._has_to_decide and isinstance(each, Block):
-                        for calling in self._frames:
-                            calling.ran += [each] if calling.saves else []
+                        self._ran.append(each)
                     yield from self._tell(frame)
                     yield each
                 yield from self._tell(frame)
@@ -694,6 +727,9 @@ class Machine:
     def _is_passed_over(self, frame: _Frame, code: CodeLine, ran: Block) -> bool:
         """Whether a line has nothing to run: it is the head of a program that is called, or written out elsewhere."""
         if code.begins is not None and (frame.callers or not (self._is_reached or self._is_alone)):
+            return True
+        if self._is_alone and frame.callers and _ENDS_FILE.fullmatch(ran.text):
+            # The end of a file that is called ends no program.
             return True
         is_bare = all(word.address == "N" for word in ran.words) and ran.macro is None
         if self._is_alone and is_bare and (code.statements or code.labels):
@@ -1310,6 +1346,10 @@ class Machine:
         line, text = self._line(frame, index), frame.source.blocks[index].text.strip()
         head, depth = source.head(first, last), len(self.variables.levels)
         own = self._level_of(call, head, text)
+        ours = frame.source.code(frame.source.section_of(index).start).unit
+        if head.unit and ours and head.unit != ours:
+            told = f"{text} calls a program in {head.unit}, and this one is in {ours}: what that moves is not known"
+            own = Unknown(told)
         if isinstance(own, Unknown):
             self.variables.lose_all(own.reason)
             yield from self._unclear(frame, index, own.reason)
@@ -1320,7 +1360,9 @@ class Machine:
         called.saves = head.saves and call.kind is CallKind.PROGRAM
         if call.kind is CallKind.PROFILE or called.saves:
             yield ProgramEvent(EventKind.BARRIER if called.saves else EventKind.ENTER, line, call.cycle)
-            called.entry = self._beside
+            called.entry, called.first_ran = self._beside, len(self._ran)
+        if called.saves:
+            self._beside = self._follower.enter(self._beside)
         self._frames.append(called)
         if own is not None:
             self.variables.levels.append(own.copy())
@@ -1399,6 +1441,10 @@ class Machine:
         name = self.variables.name(term)
         if isinstance(name, Unknown):
             return Unknown(f"which variable {text} hands over for {formal.name} is not known: {name.reason}")
+        held = self.variables.type_of(name)
+        if held is not None and held is not formal.of_type:
+            told = f"{text} hands over {name}, of type {held.value}, for {formal.name} (VAR {formal.of_type.value})"
+            raise _RefusedError(f"{told}; write a variable of type {formal.of_type.value} there")
         return self.variables.place(name)
 
     def _return(self, frame: _Frame, _index: int, end: Return) -> Iterator[Block | ProgramEvent]:
@@ -1463,15 +1509,16 @@ class Machine:
 
     def _write_back(self, frame: _Frame, line: int) -> Iterator[Block | ProgramEvent]:
         """Blocks that say what SAVE brings back. Raises _UndecidedError where there are none."""
-        call, back = frame.callers[-1], self._follower.write_back(frame.entry, self._beside, frame.ran)
+        call, ran = frame.callers[-1], (self._ran[: frame.first_ran], self._ran[frame.first_ran :])
+        back = self._follower.write_back(frame.entry, self._beside, *ran)
         if back.refused:
             raise _UndecidedError(line, f"SAVE behind {call.text} cannot be written out: {back.refused}")
         if back.left_out:
             yield ProgramEvent(EventKind.BARRIER, line, f"SAVE behind {call.text}: {back.left_out}")
         for text in back.lines:
             block = parse_block(text, call.line, frame.source.blocks[frame.first].syntax)
-            yield replace(block, callers=frame.callers, file=frame.source.name)
-        frame.ran = []
+            self._ran.append(replace(block, callers=frame.callers, file=frame.source.name))
+            yield self._ran[-1]
 
 
 def _is_loop(call: Call | None) -> bool:

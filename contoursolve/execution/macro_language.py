@@ -259,6 +259,8 @@ class ModalCall(Struct, frozen=True, tag=True):
     """The word of the control that makes it."""
     keeps_modes: bool = False
     """Whether it leaves the modes as they were."""
+    counted: str = ""
+    """The letters of arguments without a decimal point, as of a call."""
 
 
 MacroStatement = (
@@ -306,6 +308,8 @@ class CodeLine(Struct, frozen=True):
     """The variables that a call's arguments set, in order: PROC NAME(REAL A, VAR INT B)."""
     saves: bool = False
     """Whether the modes at a call are in force again where the subprogram ends: PROC NAME SAVE."""
+    unit: str = ""
+    """The unit of the program that begins with it, where its head states that: BEGIN PGM NAME INCH."""
 
 
 class MacroLanguage(Struct, frozen=True, eq=False):

@@ -222,8 +222,10 @@ def _define(line: LineReader, kind: re.Match[str]) -> Iterator[MacroStatement]:
         name = found["name"].upper()
         ends = [range(int(each)) for each in re.findall(r"\d+", found["size"] or "")]
         elements = [f"{name}[{','.join(map(str, each))}]" for each in itertools.product(*ends)] if ends else [name]
-        if not _IS_NAME.match(name):
+        if not _IS_NAME.match(name) or name in line.names:
             told = f"DEF {name}: the first two characters of a variable's name are letters or underscores"
+            if _IS_NAME.match(name):
+                told = f"DEF {name}: {name} is a word of the control; give the variable another name"
             line.at = len(line.text)
             yield Forget(Variable(name), told)
             yield Refused(told)
@@ -255,13 +257,15 @@ def _initial(line: LineReader, elements: list[str], of_type: VariableType) -> It
 def _equals(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     """A word with a value, or a variable that gets one."""
     name = found["name"].upper()
-    is_parameter = name[0] == "R" and (name[1:].isdigit() or (name == "R" and found["index"] is not None))
+    # In synchronous actions, R parameters have this sign, and elsewhere they may have it.
+    own = name.removeprefix("$")
+    is_parameter = own[0] == "R" and (own[1:].isdigit() or (own == "R" and found["index"] is not None))
     is_address = len(name) == 1 or name[1:].isdigit()
     if not is_parameter and (name.startswith("$") or name in line.names or is_address):
         line.take(r"(?:AC|IC|DC|ACP|ACN|CAC|CIC|CDC)[ \t]*+\(")
         line.word(is_value=False)
         return
-    line.at = found.start()
+    line.at = found.start() + (len(name) - len(own) if is_parameter else 0)
     said = line.assignment()
     if isinstance(said, Forget) and isinstance(said.variable, Variable | Indexed) and found["index"]:
         # A field that gets several values: A[0]=SET(1,2,3).
@@ -343,7 +347,7 @@ _TABLE = (
     Spelling(r"M0*+17(?![\w.=])", lambda *_: [Return()], stays=True),
     Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
     Spelling(
-        r"(?P<name>\$?[A-Z_]{2}\w*+|[A-Z]\d*+)[ \t]*+(?P<index>" + IN_BRACKETS + r")?+[ \t]*+=(?!=)[ \t]*+",
+        r"(?P<name>\$?(?:[A-Z_]{2}\w*+|[A-Z]\d*+))[ \t]*+(?P<index>" + IN_BRACKETS + r")?+[ \t]*+=(?!=)[ \t]*+",
         _equals,
     ),
     Spelling(r"(?P<name>L\d++)(?![\w.])", _call),
@@ -384,11 +388,11 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
         table=_TABLE,
         skip=r"[ \t]++|\"[^\"]*+\"?+|[A-Z](?![A-Z_])[\d.]*+|[A-Z_$]\w*+|[\d.]++|.",
         behind_value="[A-Z_$]",
-        says=rf"(?<![A-Z_])(?=[A-Z_]{{2}})(?!(?:{long})(?![A-Z_]))"
+        says=rf"(?<![A-Z_])(?=[A-Z_]{{2}})(?!(?:{long})(?![A-Z_]|\d\w*+[ \t]*+=))"
         rf"|(?<![A-Z_\d]){SYNCHRONOUS}"
         r"|(?<![A-Z_])(?:DEF|PROC)[ \t]|(?<![A-Z_\d])[A-Z][ \t]*+\(|[A-Z_]\w++:(?!=)"
         r"|=[ \t]*+[-+]?+(?:[^-+.\d \t]|[\d.,]++[ \t]*+[-+*/])"
-        r"|(?<![A-Z_])(?:[RL]\d|MCALL(?![A-Z_])|M0*+(?:2|17|30)(?!\d|[ \t]*+=))|%_N_|\$",
+        r"|(?<![A-Z_])(?:[RL]\d|R[ \t]*+\[|MCALL(?![A-Z_])|M0*+(?:2|17|30)(?!\d|[ \t]*+=))|%_N_|\$",
         names=known,
     )
     return MacroLanguage(

@@ -305,7 +305,8 @@ class Library:
             is_command = name.replace("_", "A").isalpha() and "CALL" not in text.upper()
             if files and is_command and self.language.with_names is not None:
                 where += f", or state with --set {self.control}.words={name} that it moves nothing"
-            return Unknown(f"{text} calls {name}, which is not in this file{where}")
+            told = f"{name} is called, and" if text.upper() == name else f"{text} calls {name}, which"
+            return Unknown(f"{told} is not in this file{where}")
         first = found.sections.get(name, 0)
         return found, first, found.section_end(first) if len(found.sections) > 1 else len(found) - 1
 

@@ -80,8 +80,8 @@ def indexed(prefix: str, indices: Sequence[Term], suffix: str = "") -> Variable 
     return Variable(name) if isinstance(name, str) else Indexed(prefix, tuple(indices), suffix)
 
 
-_R_NUMBER = re.compile(r"\AR0+(?=\d+\Z)")
-"""R01 is R1: printed, SINUMERIK fundamentals 11/2006 p. 62."""
+_R_NUMBER = re.compile(r"\A(?:\$?R0*(?=\d+\Z)|\$R\[[ \t]*0*(?=\d+[ \t]*\]\Z))")
+"""R01 is R1: printed, SINUMERIK fundamentals 11/2006 p. 62. $R1 and $R[1] are recalled."""
 
 
 @v_args(inline=True)
@@ -100,7 +100,8 @@ class _Builder(Transformer):  # type: ignore[type-arg]
         return Quoted(text[1:-1])
 
     def variable(self, name: str) -> Term:
-        return Variable(_R_NUMBER.sub("R", "".join(name.upper().split())))
+        name = "".join(name.upper().split())
+        return Variable(_R_NUMBER.sub("R", name).rstrip("]") if name.startswith("$R[") else _R_NUMBER.sub("R", name))
 
     def constant(self, name: str) -> Term:
         return _CONSTANTS.get(name.upper()) or Apply("pi", ())

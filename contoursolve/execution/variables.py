@@ -188,6 +188,12 @@ class Variables:
             case _:
                 return 0, name
 
+    def type_of(self, name: str) -> VariableType | None:
+        """The type of a variable, where that is known: an R parameter is REAL."""
+        depth, there = self.place(name)
+        is_number = re.fullmatch(r"R\d+", there) is not None
+        return self.levels[depth].types.get(_array(there), VariableType.REAL if is_number else None)
+
     def is_set(self, name: str) -> bool:
         """Whether a variable has been set."""
         depth, there = self.place(name)
@@ -313,9 +319,8 @@ class Variables:
         if depth:
             value = self.levels[depth].values.get(there)
             # A call does not give what is empty.
-            empty = (
-                VACANT if self._language.scope(name) is VariableScope.LEVEL else Unknown(self._language.unknown(name))
-            )
+            is_vacant = self._language.always_empty and self._language.scope(name) is VariableScope.LEVEL
+            empty = VACANT if is_vacant else Unknown(self._language.unknown(name))
             return value if value is not None else empty
         definer = self._where_defined(name)
         if definer:

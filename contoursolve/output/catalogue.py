@@ -1,14 +1,15 @@
 """The catalogue as text: the rules of each control, and the further facts that can be stated about a contour."""
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from msgspec import Struct
 
 from contoursolve.diagnosis import tabulate
-from contoursolve.diagnostics import Alarm, members
+from contoursolve.diagnostics import Alarm, Source, members
 from contoursolve.output.plain_text import columns
-from contoursolve.reading import THIS_CONTROL, Dialect, Rule
+from contoursolve.reading import THIS_CONTROL, Dialect, Rule, ZeroMove, ZeroRow
 
 
 def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
@@ -21,6 +22,7 @@ def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
         ]
         header = ("code", "severity", "evidence", "alarm", "message")
         lines += [f"{dialect.name}: {dialect.title}", *columns([header, *rows], left=(0, 1, 2, 3, 4)), ""]
+        lines += _zero_lines(dialect)
         lines += _setting_lines(dialect)
     return lines
 
@@ -34,6 +36,7 @@ def catalogue_data(dialects: Iterable[Dialect]) -> dict[str, Any]:
                 {**members(rule, _FIELDS), "options": rule.options.replace(THIS_CONTROL, dialect.name)}
                 for rule in sorted(dialect.catalogue, key=lambda rule: rule.code)
             ],
+            "zero": [members(each, "names move source") for each in _moves_of_zero(dialect)],
             "settings": [members(each, "name meaning values default bounds unit source") for each in dialect.settings],
             "assumptions": [members(each, "name meaning source") for each in dialect.assumptions],
         }
@@ -43,6 +46,35 @@ def catalogue_data(dialects: Iterable[Dialect]) -> dict[str, Any]:
 
 
 _FIELDS = "code severity message=title advice note source alarm wrong=rejected right=accepted"
+
+
+def _zero_lines(dialect: Dialect) -> Iterator[str]:
+    """Lines about what moves the coordinate system."""
+    for row in _moves_of_zero(dialect):
+        yield f"zero {dialect.name}: {row.names}: {row.move.value} ({row.source})"
+    yield ""
+
+
+def _moves_of_zero(dialect: Dialect) -> Iterator[ZeroRow]:
+    """The moves of the coordinate system, rows that are alike as one: of codes in a row, the first and the last one."""
+    table, names = dialect.modes.zero, dict[tuple[ZeroMove, Source], list[str]]()
+    for name, row in table.names.items():
+        names.setdefault((row.move, row.source), []).append(name)
+    for row in table.beside:
+        names.setdefault((row.move, row.source), []).extend(row.names.split(", "))
+    for (move, source), each in names.items():
+        parts = list[list[str]]()
+        for name in each:
+            here, before = _NUMBERED.fullmatch(name), _NUMBERED.fullmatch(parts[-1][-1] if parts else "")
+            if here and before and here[1] == before[1] and int(here[2]) == int(before[2]) + 1:
+                parts[-1].append(name)
+            else:
+                parts.append([name])
+        told = (one[0] if len(one) == 1 else f"{one[0]} to {one[-1]}" for one in parts)
+        yield ZeroRow(", ".join(told), move, source)
+
+
+_NUMBERED = re.compile(r"(.*?)(\d+)")
 
 
 def _setting_lines(dialect: Dialect) -> Iterator[str]:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 from msgspec.structs import replace as replace_fields
 
 from contoursolve.diagnosis import Depth
-from contoursolve.execution import EventKind, ProgramEvent
+from contoursolve.execution import EventKind, ProgramEvent, ProgramKind
 from contoursolve.gcode import Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.postprocess.expander import OPENING, Expander
@@ -27,14 +27,14 @@ def expand_lines(
     summary: Summary,
     *,
     numbers: Numbers | None = None,
-    is_run: bool = False,
+    runs: ProgramKind = ProgramKind.IN_ORDER,
     expander: Callable[..., Expander] | None = None,
 ) -> Iterator[str | object]:
     """The lines of a program for a control (each with its end) with every contour replaced, and `OPENING` once.
 
-    `numbers` are those of the whole program, where every line is to have one. A program that calls or computes `is_run`
-    and is read as a whole; `expander` makes another pass than the usual one. Unless the control of the
-    lines is certain, raises UnknownControlError if some block is for another one.
+    `numbers` are those of the whole program, where every line is to have one. A program that `runs` as it calls or
+    computes is read as a whole; `expander` makes another pass than the usual one. Unless the control of the lines is
+    certain, raises UnknownControlError if some block is for another one.
     """
     writing, kind = dialect.writing, Expander
     if writing is not None and options.post is SAME:
@@ -44,7 +44,7 @@ def expand_lines(
     together = Batch(dialect, asked.policy, is_proven=False)
     blocks: Iterable[Line] = lines.blocks()
     machine = None
-    if is_run:
+    if runs is ProgramKind.FOLLOWED:
         whole = tuple(each_block([*blocks], 0))
         program = Program("", "", whole, dialect.modes.syntax)
         blocks, machine = whole, machine_for(program, dialect, asked.around, asked.unit)
@@ -57,7 +57,7 @@ def expand_lines(
 
     telling = leave if options.is_inline or kind is InGCodes else None
     asked = replace_fields(asked, dialect=dialect, depth=Depth.PATH)
-    steps = walk(blocks, asked, together, machine, telling)
+    steps = walk(blocks, asked, together, machine, telling, is_called=runs is ProgramKind.FOR_CALLS)
     yield from (expander or kind)(dialect, options, summary, lines, numbers).expand(steps)
 
 

@@ -8,7 +8,7 @@ from typing import IO, Any, Protocol
 
 from msgspec import Struct
 
-from contoursolve.execution import needs_running
+from contoursolve.execution import ProgramKind, kind_of
 from contoursolve.gcode import Block, OpenFile, parse, parse_block
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of
@@ -114,7 +114,7 @@ def rewrite(
             options,
             summary,
             numbers=numbers_of(source.lines(), dialect) if options.numbering is Numbering.ALL else None,
-            is_run=writer is None and needs_running(source.lines(), dialect.modes.language),
+            runs=ProgramKind.IN_ORDER if writer else kind_of(source.lines(), dialect.modes.language),
             expander=writer.expander if writer else None,
         )
     held: list[str] = []

@@ -27,6 +27,7 @@ _CENTERS = frozenset("IJKR")
 
 
 _NOT_KNOWN = Other("is not known")
+_NAME = re.compile(r"[A-Za-z_]{2}\w*+(?:\(.*\))?")
 _LONG = re.compile(r"=|^[ \t]*#|\d,|^[ \t]*[A-Za-z]{2}")
 """Words that are no letter with a plain number."""
 _PATH_WITHOUT_POINT = "path without point"
@@ -139,6 +140,9 @@ class Watch:
             return _NOT_KNOWN
         if word.address not in ("G", "M"):
             return reading.otherwise.get(word.address)
+        if word.number is None and not self.is_spelled_otherwise and _NAME.fullmatch(word.text.strip()):
+            # The name of what is called, on both.
+            return None
         known = reading.g if word.address == "G" else reading.m
         if word.number is None or word.number != word.number.to_integral_value():
             return _NOT_KNOWN

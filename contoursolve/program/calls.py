@@ -9,8 +9,8 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report, status_text
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
-from contoursolve.execution import ARGUMENT, MACHINES, Call, Limit, Machine, Surroundings, counts_in
-from contoursolve.gcode import Block, Caller, Program, Substitution, spell, typed_span
+from contoursolve.execution import ARGUMENT, MACHINES, Call, Limit, Machine, ModalCall, Surroundings, When, counts_in
+from contoursolve.gcode import Block, Caller, Program, Substitution, parse_block, spell, typed_span
 from contoursolve.geometry import Length
 from contoursolve.program.cycle_profiles import CycleProfile, profiles_of, turns_back
 from contoursolve.program.request import Request
@@ -35,9 +35,14 @@ def arguments_without_point(machine: Machine, asked: Request) -> Iterator[Diagno
     """The arguments of calls in a program that have no decimal point, with what the called program gets."""
     context, given = Context(asked.rules, asked.unit), machine.variables.given
     for index, block in enumerate(machine.main.blocks):
-        said = [each for each in machine.main.code(index).statements if isinstance(each, Call)]
-        letters = "".join(each.counted for each in said)
-        words = [each for each in block.words if each.address in letters and each.number and not each.has_point]
+        said = machine.main.code(index).statements
+        within = (one for each in said for one in (each.then if isinstance(each, When) else (each,)))
+        letters = "".join(each.counted for each in within if isinstance(each, Call | ModalCall))
+        if not letters:
+            continue
+        # Behind IF and THEN, a block has words as well.
+        own = parse_block(_CONDITION.sub(lambda found: " " * len(found[0]), block.text), block.line, block.syntax)
+        words = [each for each in own.words if each.address in letters and each.number and not each.has_point]
         if not words:
             continue
         numbers = [each.number or Decimal(0) for each in words]
@@ -54,6 +59,9 @@ def arguments_without_point(machine: Machine, asked: Request) -> Iterator[Diagno
             meant=join([f"{each.text.strip()}." for each in words]),
             same=join([spell(each.address, text) for each, text in zip(words, texts, strict=True)]),
         )
+
+
+_CONDITION = re.compile(r"\A.*\]THEN", re.IGNORECASE)
 
 
 def in_text_order(

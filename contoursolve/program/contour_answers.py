@@ -16,7 +16,7 @@ from contoursolve.program.outside_contours import NEAR
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Ahead, Pending
 from contoursolve.program.windows import Parts, last_of, near, window_of
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, next_place
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue, axis_words, next_place
 
 if TYPE_CHECKING:
     from contoursolve.diagnosis import Window
@@ -35,10 +35,13 @@ def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: P
     """The answer to a contour, with the values that it asks for filled in; its findings are not explained yet."""
     behind = islice(pending.view, pending.after, None)
     answer = examine(found, asked.rules, asked.policy, lambda: next_place(behind, found, dialect.modes), asked.depth)
-    if pending.view.end_at_call and answer.contour is None:
-        answer = replace(answer, diagnostics=tuple(_at_call(each, answer, dialect) for each in answer.diagnostics))
-    elif answer.contour is None and (moving := _moving(pending, dialect)) is not None:
-        answer = replace(answer, diagnostics=tuple(_at_moved_zero(each, moving) for each in answer.diagnostics))
+    if answer.contour is None:
+        following = [each for each in pending.view[pending.after : pending.after + BEHIND] if each.says_something]
+        block, goes_on = next(iter(following), None), any(axis_words(each, dialect.modes) for each in following)
+        if pending.view.end_at_call and not goes_on:
+            answer = replace(answer, diagnostics=tuple(_at_call(each, answer, dialect) for each in answer.diagnostics))
+        elif block is not None and dialect.modes.zero.rows_in(block):
+            answer = replace(answer, diagnostics=tuple(_at_moved_zero(each, block) for each in answer.diagnostics))
     if answer.contour is not None and any(value.value is not None for value in answer.answers):
         from contoursolve.diagnosis import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
@@ -62,14 +65,8 @@ def _at_call(finding: Diagnostic, answer: Answer, dialect: Dialect) -> Diagnosti
     return replace(told, severity=finding.severity, help=help_)
 
 
-def _moving(pending: Pending, dialect: Dialect) -> Block | None:
-    """The next block, if it moves the coordinate system."""
-    block = next((each for each in pending.view[pending.after : pending.after + BEHIND] if each.says_something), None)
-    return block if block is not None and dialect.modes.zero.rows_in(block) else None
-
-
 def _at_moved_zero(finding: Diagnostic, moving: Block) -> Diagnostic:
-    """The finding about a contour right before such a block."""
+    """The finding about a contour right before a block that moves the coordinate system."""
     if not any(finding.code.endswith(f"-{code}") for code in _CUT_OFF):
         return finding
     text = " ".join(word.text.strip() for word in moving.words)

@@ -91,7 +91,8 @@ class WalkStep(Struct, frozen=True):
 class Examination:
     """The walk over one program of a control. Its contours are solved one by one, or `together`; if it `goes_on`, those
     behind one that is refused are checked from where its best fix ends. A program that `is_run` may come to a line
-    again and again; one `is_ahead` that is followed, and not examined."""
+    again and again; one `is_ahead` that is followed, and not examined. Where one `is_called`, the program that calls it
+    says which offsets and shifts are in force."""
 
     def __init__(
         self,
@@ -102,6 +103,7 @@ class Examination:
         goes_on: bool = False,
         is_run: bool = False,
         is_ahead: bool = False,
+        is_called: bool = False,
     ) -> None:
         self.asked, self.dialect = asked, dialect
         answers = AnswersInPasses if is_run else AnswersAhead if is_ahead else Answers
@@ -112,6 +114,7 @@ class Examination:
         self._plain = PlainLines(dialect.modes, has_points=asked.is_strict and is_counted)
         """The lines of which nothing is told: of a number without a point, it may be."""
         state, found = state_before(asked, dialect)
+        state = replace(state, zero={}) if is_called else state
         # A program that runs is not read in its order, in which a % stands.
         self.begin = Cursor(state, Marks(is_done=is_run), start_count(asked, state), findings=found)
         """The cursor before the program, behind the block that states its start point apart."""

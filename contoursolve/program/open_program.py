@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Context, Policy, rank
 from contoursolve.diagnostics import Diagnostic, Span, choice_of
-from contoursolve.execution import needs_running, surroundings_of
+from contoursolve.execution import ProgramKind, kind_of, needs_running, says_end, surroundings_of
 from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax
 from contoursolve.geometry import Length
 from contoursolve.program.contour_answers import TooFarError
@@ -228,6 +228,7 @@ class OpenProgram:
         is_run = self.dialect is not None and (
             self._examination is None
             or needs_running(change.come, self.dialect.modes.language)
+            or says_end((*change.gone, *change.come), self.dialect.modes.language)
             or any(map(has_named, change.come))
         )
         if is_another or is_run:
@@ -244,11 +245,12 @@ class OpenProgram:
         # A program that calls or computes is examined as a whole, or that names words for all of it.
         if (
             self.dialect is not None
-            and not needs_running(self._lines.texts, self.dialect.modes.language)
+            and (kind := kind_of(self._lines.texts, self.dialect.modes.language)) is not ProgramKind.FOLLOWED
             and not any(map(is_named_for_all, (self._lines[at] for at in self._marked_lines())))
         ):
             asked, self._kept = replace(self._asked, dialect=self.dialect), KeptSteps()
-            self._examination = Examination(asked, self.dialect, goes_on=True)
+            is_called = kind is ProgramKind.FOR_CALLS
+            self._examination = Examination(asked, self.dialect, goes_on=True, is_called=is_called)
             known = self._examination.begin
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
 

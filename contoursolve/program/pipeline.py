@@ -9,8 +9,8 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Policy, rank
 from contoursolve.diagnostics import Diagnostic, ProgramError, Shown, Span
-from contoursolve.execution import ALONE, Machine, ProgramEvent, Surroundings
-from contoursolve.gcode import Directive, Program, spelled
+from contoursolve.execution import ALONE, Machine, ProgramEvent, ProgramKind, Surroundings, kind_of
+from contoursolve.gcode import Directive, Program, spelled, telling
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.calls import machine_for
 from contoursolve.program.cycle_profiles import CycleProfile
@@ -210,8 +210,13 @@ class Run:
         return self._examination(asked.dialect).steps(blocks)
 
     def _examination(self, dialect: Dialect) -> Examination:
-        is_run = self._machine is not None
-        return Examination(self.asked, dialect, self._together, goes_on=self.asked.depth.is_full, is_run=is_run)
+        machine, goes_on = self._machine, self.asked.depth.is_full
+        told = (block.text for block in telling(self.frame.program.blocks))
+        kind = None if machine is not None else kind_of(told, dialect.modes.language)
+        is_called = kind is ProgramKind.FOR_CALLS if machine is None else machine.is_for_calls
+        return Examination(
+            self.asked, dialect, self._together, goes_on=goes_on, is_run=machine is not None, is_called=is_called
+        )
 
     @property
     def is_strict(self) -> bool:
@@ -236,14 +241,16 @@ def walk(
     told: Callable[[ProgramEvent], None] | None = None,
     *,
     is_whole: bool = False,
+    is_called: bool = False,
 ) -> Iterator[Step]:
     """Every block and every contour of a program in order; lines that are not a sequence are read as they are needed,
     so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
     are read into words only where that matters. Contours are solved one by one, or `together`. Where a machine runs the
     program, it has its lines; with `told`, its calls are written out, and with `is_whole`, what nothing calls as
-    well."""
+    well. One that returns `is_called` by others."""
     is_run = machine is not None and not is_whole
-    examination = Examination(asked, cast("Dialect", asked.dialect), together, is_run=is_run)
+    is_called = is_called if machine is None else machine.is_for_calls
+    examination = Examination(asked, cast("Dialect", asked.dialect), together, is_run=is_run, is_called=is_called)
     if machine is None:
         return examination.steps(lines)
     if is_whole:

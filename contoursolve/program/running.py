@@ -134,9 +134,6 @@ class Running(Ways):
         lines: Iterable[Block | ProgramEvent] | None = None,
     ) -> None:
         begin = examination.begin
-        if machine.is_for_calls:
-            # Which shifts are in force there, the caller says.
-            begin = replace(begin, state=replace(begin.state, zero={}))
         super().__init__(lambda: begin.state, examination.dialect.modes, self._read)
         self.examination, self.machine, self.cursor = examination, machine, begin
         self.kept = kept

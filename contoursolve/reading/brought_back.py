@@ -3,7 +3,7 @@
 Of G54 and shifts, SINUMERIK's basic functions print it (09/2011, p. 793); of other G codes, it is assumed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from msgspec.structs import replace
 
@@ -24,9 +24,9 @@ def bring_back(before: State, now: State, reason: str, span: Span) -> State:
     return state_moved(state, zero_brought_back(before.zero, now.zero, tuple(now.axes), reason), span)
 
 
-def write_back(before: State, now: State, ran: Sequence[Block], modes: Modes) -> WrittenBack:
-    """Blocks for a program without calls that say what is in force again behind some blocks; no block says what is not
-    known."""
+def write_back(before: State, now: State, earlier: Sequence[Block], ran: Sequence[Block], modes: Modes) -> WrittenBack:
+    """Blocks for a program without calls that say what is in force again behind some blocks that ran, given those that
+    did so earlier; no block says what is not known."""
     old, new, codes = before.in_force(), now.in_force(), list[str]()
     changed = [mode for mode in _ORDER if old[mode] != new[mode] or before.doubts.get(mode) != now.doubts.get(mode)]
     for mode in changed:
@@ -39,14 +39,24 @@ def write_back(before: State, now: State, ran: Sequence[Block], modes: Modes) ->
         return WrittenBack(
             refused="which work offset and shift are in force at the call is not known: select them before it"
         )
-    others = dict.fromkeys(
-        code.text
-        for block in ran
-        for code in rows_of(block, modes)
-        if code.effect is Effect.NONE and not code.name and code.diameter is None
-    )
-    told = f"what was in force before {' and '.join(others)} is again, and is not written here" if others else ""
-    return WrittenBack((*([" ".join(filter(None, codes))] if any(codes) else []), *lines), told)
+    others = _left_by(ran, modes)
+    earlier_ones = _left_by(earlier, modes, others.keys())
+    codes += (earlier_ones[group] for group, code in others.items() if earlier_ones.get(group, code) != code)
+    left = [code for group, code in others.items() if group not in earlier_ones]
+    told = f"what was in force before {', '.join(left)} is again, and no line says what: write it before the call"
+    return WrittenBack((*([" ".join(filter(None, codes))] if any(codes) else []), *lines), told if left else "")
+
+
+def _left_by(blocks: Sequence[Block], modes: Modes, groups: Collection[str] | None = None) -> dict[str, str]:
+    """The codes that blocks leave in force, by their groups: all of them, or those that are asked for."""
+    found = dict[str, str]()
+    for block in reversed(blocks):
+        if groups is not None and len(found) == len(groups):
+            break
+        for row in reversed(rows_of(block, modes)):
+            if row.group and (groups is None or row.group in groups):
+                found.setdefault(row.group, row.text)
+    return dict(reversed(found.items()))
 
 
 _ORDER = (Mode.UNIT, Mode.PLANE, Mode.INCREMENTS, Mode.DIAMETER, Mode.COMPENSATION, Mode.MOTION)

@@ -32,7 +32,7 @@ def machine_in(
     """The machine that runs a program, which begins in a unit, for a control; None for one that neither calls, jumps
     nor computes."""
     machine = machine_of(program, modes.language, modes.syntax, around, limit)
-    if machine is None or not any("65" in block.text for block in program.blocks):
+    if machine is None or not any("65" in block.text or "66" in block.text for block in program.blocks):
         return machine
     values = {**around.values, **_increments(program.blocks, modes, unit)}
     return machine_of(program, modes.language, modes.syntax, replace(around, values=values), limit)

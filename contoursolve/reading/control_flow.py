@@ -15,6 +15,7 @@ from contoursolve.gcode import Block
 from contoursolve.reading.brought_back import bring_back, write_back
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Mode, Modes, Position, State, with_diameters
+from contoursolve.reading.moved_zero import zero_at_call
 
 _SAME = Decimal("1e-9")
 """mm by which two positions differ that are one; see `contoursolve.tolerance.LENGTH`."""
@@ -118,6 +119,10 @@ class Ways(Follower):
     def is_same(self, one: Paths, other: Paths) -> bool:
         return [*map(_known, one.ways)] == [*map(_known, other.ways)]
 
+    def enter(self, known: Paths) -> Paths:
+        states = (replace(each.state, zero=zero_at_call(each.state.zero)) for each in known.ways)
+        return replace(known, ways=[replace(way, state=each) for way, each in zip(known.ways, states, strict=True)])
+
     def restore(self, entry: Paths, now: Paths, reason: str, line: int) -> Paths:
         if not entry.ways:
             return now
@@ -129,10 +134,10 @@ class Ways(Follower):
         ]
         return replace(now, ways=ways)
 
-    def write_back(self, entry: Paths, now: Paths, ran: Sequence[Block]) -> WrittenBack:
+    def write_back(self, entry: Paths, now: Paths, earlier: Sequence[Block], ran: Sequence[Block]) -> WrittenBack:
         if not (entry.ways and now.ways):
             return WrittenBack()
-        return write_back(entry.ways[0].state, now.ways[0].state, ran, self.modes)
+        return write_back(entry.ways[0].state, now.ways[0].state, earlier, ran, self.modes)
 
     def lose(self, known: Paths, reason: str, line: int, *, modes: bool = False, in_passes: bool = False) -> Paths:
         if in_passes:

@@ -70,6 +70,8 @@ class Code:
     """Whether it does nothing without axis words in its block."""
     is_read: bool = True
     """Whether contoursolve follows what it does; else it is told, and a contour that depends on it is refused."""
+    group: str = ""
+    """The codes of which one is in force, this one among them, where nothing else is known of them."""
 
     @property
     def text(self) -> str:

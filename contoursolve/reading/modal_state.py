@@ -34,6 +34,7 @@ from contoursolve.reading.contour_form import Convention, Setting
 from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon
 from contoursolve.reading.moved_zero import (
     NOTHING_MOVES,
+    UNKNOWN_ZERO,
     Moved,
     Zero,
     ZeroRow,
@@ -234,7 +235,7 @@ class State(Struct, frozen=True):
 
     def lose_all(self, axes: tuple[str, ...], reason: str, span: Span) -> "State":
         """The same where it is not known either which offsets are in force."""
-        return replace(self.lose(axes, reason, span), zero={})
+        return replace(self.lose(axes, reason, span), zero=UNKNOWN_ZERO)
 
 
 def unread_state(unit: Length) -> State:
@@ -381,7 +382,7 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
             case Effect.SHIFT | Effect.FRAME if code.number not in modes.zero.codes:
                 reason = f"{code.text} changes the coordinate system"
                 state = state.lose(modes.axes, reason, block.span)
-                state = replace(state, zero=forget_shifts(state.zero) if code.is_read else {})
+                state = replace(state, zero=forget_shifts(state.zero) if code.is_read else UNKNOWN_ZERO)
             case Effect.PRESET:
                 state = replace(state, zero=forget_shifts(state.zero))
             case _:
@@ -483,7 +484,7 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         # What is stated apart from the program holds for its beginning.
         stated = [axis for axis, at in state.axes.items() if at.span is not None and at.span.line > 0]
         state = state.lose(tuple(stated), "a new program begins", block.span)
-        state = replace(state, zero={}) if stated else state
+        state = replace(state, zero=UNKNOWN_ZERO) if stated else state
     for word in block.words:
         if modes.is_call(word) or modes.is_unread_call(word):
             why = modes.why_lost(word)

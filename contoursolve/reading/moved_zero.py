@@ -23,12 +23,13 @@ class ZeroMove(Enum):
     SELECT = "selects an offset of a table"
     """The one that is in force again moves nothing."""
     SET = "numbers of the block take the place of those in force on their axes"
-    FINE = "the same, of a second shift beside the first one"
+    FINE = "numbers of the block take the place of those of a second shift, beside the first one"
     ADD = "numbers of the block come to those in force"
     REPLACE = "numbers of the block take the place of all that is in force"
     """Without numbers, nothing is left of it."""
     TURN = "turns, mirrors or scales"
     """Without a word, nothing is left of it."""
+    TURN_FURTHER = "turns, mirrors or scales what is in force"
     FORMULA = "a formula takes the place of all that is in force"
     OTHER = "by an amount that the block does not say"
     DATA = "changes entries of tables, which may be in force"
@@ -48,12 +49,14 @@ _ZERO = Decimal(0)
 
 class Entry(Struct, frozen=True):
     """An entry of a table that a block changes: its group, the offset, None where it is in force whatever is selected,
-    and its axes; none for all. Of numbers that begin with another one, such as T0102, `digits` tells how many count."""
+    and its axes; none for all. Of numbers that begin with another one, such as T0102, `digits` tells how many count. If
+    it `fades`, the offset has other numbers where it is selected next."""
 
     group: str
     offset: Offset | None = None
     axes: tuple[str, ...] = ()
     digits: int = 0
+    fades: bool = False
 
     def is_in(self, zero: Zero) -> bool:
         """Whether it is in force, or may be."""
@@ -118,6 +121,8 @@ class ZeroTable:
 
     codes: Mapping[int, ZeroRow] = field(default_factory=dict)
     names: Mapping[str, ZeroRow] = field(default_factory=dict)
+    beside: tuple[ZeroRow, ...] = ()
+    """Those of variables and statements, which are found in other ways: commas part their names."""
     first: Zero = field(default_factory=dict)
     variables: Callable[[str], Iterable[Entry]] | None = None
 
@@ -131,7 +136,7 @@ class ZeroTable:
                 row = None if word.number is None else codes.get(word.number)  # type: ignore[call-overload]
             else:
                 row = names.get(address)
-                if row is None and (address == "M" or address.startswith("$")):
+                if row is None and (address == "M" or "[" in address):
                     name = f"M{word.number}" if address == "M" else address.partition("[")[0]
                     row = names.get(name)
             if row is not None:
@@ -148,9 +153,10 @@ def table_of(
     axes: Iterable[str] = (),
     first: Zero | None = None,
     variables: Callable[[str], Iterable[Entry]] | None = None,
+    beside: Iterable[ZeroRow] = (),
 ) -> ZeroTable:
     """The table of some rows; `numbers` are those of codes that are no G and a number. On `axes`, no shift is in force
-    where a program begins."""
+    where a program begins. Rows `beside` are those of variables and statements."""
     codes, names = dict[int, ZeroRow](), dict[str, ZeroRow]()
     for row in rows:
         for name in row.names.split():
@@ -160,7 +166,7 @@ def table_of(
                 codes[Decimal(name[1:])] = row  # type: ignore[index]
             names[name] = row
     at_first = {key: _ZERO for axis in axes for key in (_shift(axis), _fine(axis))}
-    return ZeroTable(codes, names, {**at_first, **(first or {})}, variables)
+    return ZeroTable(codes, names, tuple(beside), {**at_first, **(first or {})}, variables)
 
 
 def _shift(axis: str) -> str:
@@ -216,7 +222,14 @@ def _with_other_data(zero: Zero, group: str) -> Zero:
 
 
 _DATA = "numbers of a work offset"
-"""Stands in what is in force where some were changed."""
+"""Stands in what is in force where some were changed, or may have been, since a call that saves the modes."""
+UNKNOWN_ZERO: Zero = {_DATA: ()}
+"""The zero of which nothing is known."""
+
+
+def zero_at_call(zero: Zero) -> Zero:
+    """The zero in which a subprogram begins that saves the modes."""
+    return {name: value for name, value in zero.items() if name != _DATA} if _DATA in zero else zero
 
 
 def is_along_axes(zero: Zero, first: Zero) -> bool:
@@ -226,15 +239,17 @@ def is_along_axes(zero: Zero, first: Zero) -> bool:
 
 def change_entries(zero: Zero, entries: Iterable[Entry], axes: tuple[str, ...], reason: str) -> Moved | None:
     """The move by a change of entries of tables: those that are in force, or may be."""
-    lost = dict[str, None]()
+    lost, now = dict[str, None](), zero
     for entry in entries:
         if entry.is_in(zero):
             lost.update(dict.fromkeys(axis for axis in entry.axes or axes if axis in axes))
-    return Moved(lost, zero, f"{reason}, which is in force or may be") if lost else None
+        if entry.fades:
+            now = _with_other_data(now, entry.group)
+    return Moved(lost, now, f"{reason}, which is in force or may be") if lost or now is not zero else None
 
 
-_ASSIGNED = re.compile(r"\#(?:(?P<number>\d++)|\[[^=]*\])[ \t]*+=")
-"""A variable of the machine that is set."""
+_ASSIGNED = re.compile(r"(?P<name>\#\d++|V\.G\.[^ \t=]++)[ \t]*+[-+*/]?=|\#\[[^=]*\][ \t]*+=", re.IGNORECASE)
+"""A variable of the machine that is set, one by one on controls that write # or V.G."""
 
 
 def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: str) -> Moved:
@@ -248,9 +263,9 @@ def zero_brought_back(before: Zero, now: Zero, axes: tuple[str, ...], reason: st
         elif old != new:
             by[axis] = new - old
     # What a program changes of the offset in force, it may leave changed: printed, a machine datum.
-    from_now = (TOOL, LENGTH, _DATA) if WORK in now else (TOOL, LENGTH, _DATA, WORK)
+    from_now = (TOOL, LENGTH) if WORK in now else (TOOL, LENGTH, WORK)
     kept = {name: value for name, value in before.items() if name not in from_now}
-    return Moved(by, kept | {name: value for name, value in now.items() if name in from_now}, reason)
+    return Moved(by, kept | {name: value for name, value in now.items() if name in (*from_now, _DATA)}, reason)
 
 
 def zero_written_back(
@@ -261,7 +276,8 @@ def zero_written_back(
     work, frames = before.get(WORK), {move: row.names.split()[0] for row in table.codes.values() for move in [row.move]}
     shifts = [(axis, before.get(_shift(axis)), before.get(_fine(axis))) for axis in axes]
     is_moved = any(before.get(key) != now.get(key) for axis in axes for key in (_shift(axis), _fine(axis)))
-    if (work != now.get(WORK) and not isinstance(work, tuple)) or (is_moved and any(None in each for each in shifts)):
+    is_other = work != now.get(WORK) and (not isinstance(work, tuple) or _DATA in now)
+    if is_other or (is_moved and any(None in each for each in shifts)):
         return None
     lines = list[str]()
     if isinstance(work, tuple) and work != now.get(WORK):
@@ -398,4 +414,4 @@ def entries_of_assignment(table: ZeroTable, block: Block) -> Iterator[Entry]:
     if table.variables is None or block.macro is None:
         return
     for found in _ASSIGNED.finditer(block.syntax.comment.sub("", block.text)):
-        yield from table.variables(f"#{found['number']}" if found["number"] else "")
+        yield from table.variables((found["name"] or "").upper())

@@ -326,13 +326,14 @@ def leave(
         state = state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
         return _move_beside(state, claim, modes)
     lost = state.lose(axes, reason, cause or last.span)
-    if last.faults:
+    if last.faults or any(word in last.words for word in claim.unread):
         return lost
     # Increments count from where the last block begins, which is known of an only one.
     origin = state if len(claim.blocks) == 1 else lost
     moved = positions(origin, axis_words(last, modes), modes, last.is_skippable)
     is_read = all(word.number is not None for word in claim.words.values())
-    if is_read and not (claim.repeated or claim.doubts or any(block.faults for block in claim.blocks)):
+    is_read = is_read and not (claim.unread or claim.repeated or claim.doubts)
+    if is_read and not any(block.faults for block in claim.blocks):
         for axis, value in zip(axes, _stated_end(claim), strict=True):
             # Where the coordinate system moves between two blocks, only the last one says where it is.
             if state.axes[axis] is before[axis] and (axis not in moved or moved[axis].value != value):

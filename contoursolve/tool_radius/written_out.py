@@ -3,6 +3,8 @@
 from collections import deque
 from collections.abc import Iterator, Sequence
 
+from msgspec.structs import replace
+
 from contoursolve.comparison import FINISHING, ToolPath, Travel, follow, in_cycle
 from contoursolve.execution import Call, CallKind, EventKind, Machine, MacroLanguage, ProgramEvent, needs_running
 from contoursolve.gcode import Block, comment_out, parse_block
@@ -52,7 +54,9 @@ def _followed(machine: Machine, dialect: Dialect, unit: Length) -> Iterator[Bloc
             ran.append(each)
             yield each
 
-    ways = Ways(lambda: dialect.initial_state(unit), dialect.modes, take)
+    begin = dialect.initial_state(unit)
+    begin = replace(begin, zero={}) if machine.is_for_calls else begin
+    ways = Ways(lambda: begin, dialect.modes, take)
     deque(machine.follow(kept(), ways), 0)
     yield from ran
 

@@ -147,17 +147,18 @@ RULE |= {name: TEXT | {"minLength": 1} for name in ("code", "message", "advice")
 RULE |= {"note": TEXT, "options": TEXT, "wrong": TEXTS, "right": TEXTS}
 SETTING = dict.fromkeys(("name", "meaning", "default", "unit"), TEXT)
 SETTING |= {"source": SOURCE, "values": {"type": "object"}, "bounds": {"type": ["array", "null"]}}
+ZERO = {"names": TEXT | {"minLength": 1}, "move": TEXT | {"minLength": 1}, "source": SOURCE}
 
 
 def test_the_catalogue_as_json_has_the_fields_that_the_page_lists():
     document = data("rules")
     assert document["schema"] == "contoursolve/rules/1"
     page = (PROGRAMS.parents[1] / "docs" / "programs.md").read_text(encoding="utf-8")
-    for kind, schema in (("rules", RULE), ("settings", SETTING)):
+    for kind, schema in (("rules", RULE), ("zero", ZERO), ("settings", SETTING)):
         assert all(f"`{name}`" in page for name in schema)
         exact = {"type": "object", "properties": schema, "required": [*schema], "additionalProperties": False}
         for control in document["controls"]:
-            Draft202012Validator({"items": exact}).validate(control[kind])
+            Draft202012Validator({"items": exact, "minItems": 1}).validate(control[kind])
     told = {control["name"]: {rule["code"] for rule in control["rules"]} for control in document["controls"]}
     assert told == {name: {rule.code for rule in dialect.catalogue} for name, dialect in DIALECTS.items()}
 

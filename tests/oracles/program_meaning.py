@@ -85,7 +85,7 @@ def _of_contour(
         if not any(isinstance(each, Path) and are_alike(own, each) for each, _ in possible):
             yield Verdict("wrong", lines, "", own, [each for each, _ in possible])
             return
-    if len(solved) == len(answers) and not all(_is_told(each, solved) for each in paths):
+    if len(solved) == len(answers) and not is_refused and not all(_is_told(each, solved) for each in paths):
         yield Verdict("wrong", lines, "not all", solved, expected)
     elif len(solved) == len(answers) and len(paths) < len(expected) and not is_refused:
         yield Verdict("wrong", lines, "not always known", solved, expected)

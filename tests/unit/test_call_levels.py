@@ -44,6 +44,12 @@ SAVES = (
     ("SUB P2", "PROC SUB SAVE\nX4\nG91 G0 X3", (7, 0), "G90"),
     ("SUB", "PROC SUB SAVE\nG19 G91 G0 X3\nDEEP\nRET\nPROC DEEP\nG70 G42", (3, 0), "G71 G17 G90 G40"),
     ("SUB", "PROC SUB SAVE\nG91 G0 X3\nIF R5>0\nRET\nENDIF\nG70", (3, 0), ""),
+    (
+        "G64 G94 SOFT\nSUB",
+        "PROC SUB SAVE\nG95 G9\nG60\nDEEP\nG91 G0 X3\nRET\nPROC DEEP SAVE\nG961 BRISK",
+        (3, 0),
+        "G95 SOFT\nG91 G0 X3\nG90 G64 G94",
+    ),
     ("SUB\nG55\nG0 X1 Y0", "PROC SUB SAVE\nG55 G0 X3", (1, 0), "G54"),
 )
 
@@ -87,12 +93,33 @@ def test_save_does_not_undo_what_is_written_into_an_offset():
         assert solve(program, control="siemens-840d").answers[0].start.values == start
 
 
+def test_numbers_of_an_offset_matter_to_save_where_they_change_behind_its_call():
+    data, subs = "$P_UIFR[1]=CTRANS(X,5)\nG54\nG0 X0 Y0\n", "PROC SUB SAVE\n{}RET\nPROC DEEP SAVE\n{}RET"
+    moves = "G91 G0 X3\n"
+    for before, sub, deep, start in (
+        (data, moves, "", (3, 0)),
+        ("", f"{data}DEEP\n", moves, None),
+        ("", f"DEEP\n{data[data.index('G') :]}", data, None),
+        ("", "LOST\nG90 G71 G17 G54 DIAMOF\nTRANS\nG0 X0 Y0\n", "", None),
+    ):
+        text = f"{MILL}{before}SUB\n{CORNER.format(20)}{subs.format(sub, deep)}"
+        found = result_of(text).answers[0].start.values
+        assert found == (start or (None, None))
+
+
 def test_what_save_brings_back_is_not_written_where_it_is_not_known(tmp_path):
     program = tmp_path / "main.mpf"
     program.write_text(f"G17 G90 G0 X0 Y0\nSUB\n{CORNER.format(20)}PROC SUB SAVE\nG55 G0 X3 Y0\nRET")
     done = CliRunner().invoke(main, ["expand", "--inline", str(program), "--control", SIEMENS])
     assert (done.exit_code, done.stdout) == (1, "")
     assert "which work offset and shift are in force at the call is not known" in done.stderr
+
+
+def test_what_save_brings_back_is_told_where_no_line_says_what_it_is(tmp_path):
+    program = tmp_path / "main.mpf"
+    program.write_text(f"{MILL}SUB\n{CORNER.format(20)}PROC SUB SAVE\nG95 G9 BRISK\nRET")
+    done = CliRunner().invoke(main, ["expand", "--inline", str(program), "--control", SIEMENS])
+    assert "what was in force before G95, BRISK is again, and no line says what" in done.stderr
 
 
 # What is not followed -------------------------------------------------------------------------------------------------
@@ -156,6 +183,9 @@ VALUES = (
     ('DEF CHAR BB="A"\nDEF REAL AA=BB', "PROC SUB", 65),
     ("DEF REAL AA\nSUB\nAA=R7", "PROC SUB\nR7=33", 33),
     ("DEF INT AA=10\nSUB P3\nAA=AA+R1", "PROC SUB\nDEF INT BB\nBB=BB+1\nR1=BB", 11),
+    # R parameters by their other names; and names that begin as words do.
+    ("DEF REAL AA\nR[1]=5\n$R1=$R[1]+20\nSUB\nAA=R01", "PROC SUB\n$R[1]=R1*2", 50),
+    ("DEF REAL AA, ANG1=45\nANG1=30\nPOS2=5\nAA=ANG1+POS2", "PROC SUB", 35),
 )
 
 
@@ -171,6 +201,7 @@ def test_variables_have_their_levels_and_types(call, sub, value):
     [
         ("SUB", "PROC SUB\nDEF REAL AA=15", "AA is not known here: SUB defines it for itself alone"),
         ("DEF REAL A1=5", "PROC SUB", "DEF A1: the first two characters"),
+        ("DEF REAL AR[3]\nAR[1]=5", "PROC SUB", "DEF AR: AR is a word of the control"),
         ("SUB(5)", "PROC SUB(REAL BB)\nDEEP\nRET\nPROC DEEP\nAA=BB", "BB is not known here: SUB defines it"),
     ],
 )
@@ -218,7 +249,12 @@ def test_what_a_type_cannot_hold_is_not_known(type_):
 
 
 @pytest.mark.parametrize(
-    ("call", "told"), [("SUB(5)", "write a variable there"), ("SUB(AA,3)", "hands over 2 values, and SUB takes 1")]
+    ("call", "told"),
+    [
+        ("SUB(5)", "write a variable there"),
+        ("SUB(AA,3)", "hands over 2 values, and SUB takes 1"),
+        ("DEF INT CC\nSUB(CC)", "hands over CC, of type INT, for BB (VAR REAL)"),
+    ],
 )
 def test_what_is_handed_over_is_what_the_subprogram_takes(call, told):
     (finding, *_) = result_of(HEAD.format(f"DEF REAL AA=15\n{call}", "PROC SUB(VAR REAL BB)\nBB=1")).diagnostics
@@ -234,6 +270,29 @@ def test_variables_of_isg_end_with_their_level():
     assert corner_of(program.format("#VAR\nV.L.A = 9\n#ENDVAR\nV.L.A = 5", "V.L.A"), "isg") == 15
     assert corner_of(program.format("V.P.B = 7", "V.P.B"), "isg") == 7
     assert codes_of(program.format("V.L.C = 9", "V.L.C"), "isg")[0][0] == "value-variable"
+
+
+def test_ql_parameters_are_those_of_one_program(tmp_path):
+    head, contour = "0 BEGIN PGM {} {}\n", "L X+60 R0 F300\nRND R2\nL Y+60\nM30\nEND PGM A MM"
+    called = "QL1=+50\nQ1=+7\nCALL LBL 1\nL X+QL1\nLBL 1\nQL1=QL1+1\nLBL 0\nEND PGM B MM"
+    (tmp_path / "B.H").write_text(head.format("B", "MM") + called)
+    (tmp_path / "C.H").write_text(head.format("C", "INCH") + called)
+    for call, start in (("CALL PGM B\nL X+QL1 Y+Q1", (30, 7)), ("CALL PGM B", (51, 0)), ("CALL PGM C", (None, None))):
+        text = f"{head.format('A', 'MM')}QL1=+30\nL X+0 Y+0\n{call}\n{contour}"
+        (answer,) = solve(text, control="heidenhain", folders=[tmp_path]).answers
+        assert answer.start.values == start
+    assert (
+        "END PGM B"
+        not in expand(text.replace("PGM C", "PGM B"), control="heidenhain", folders=[tmp_path], inline=True).text
+    )
+
+
+def test_a_subprogram_is_no_word_that_another_control_does_not_know(tmp_path):
+    program = tmp_path / "main.mpf"
+    program.write_text(f"{MILL}SUB(3)\nDEEP\n{CORNER.format(20)}PROC SUB(REAL AA)\nG0 X=AA\nRET\nPROC DEEP\nRET\n")
+    done = CliRunner().invoke(main, ["convert", str(program), "--control", SIEMENS, "--to", "siemens-808d"])
+    assert done.exit_code == 0
+    assert "does not know" not in done.stderr
 
 
 # Priorities -----------------------------------------------------------------------------------------------------------

@@ -322,10 +322,10 @@ FN 14: ERROR = 1000
 {CALL LBL 1} -> Call label 1
 {CALL LBL 1 REP 2/2} -> Call section 1 count=2
 {CALL LBL "a" REP Q5} -> Call section A count=Q5
-{CALL PGM TNC:\\dir\\name.H} -> Call program NAME
+{CALL PGM TNC:\\dir\\name.H} -> Call program NAME is_local=True
 6 CYCL DEF 14.0 KONTUR
 6 {CYCL DEF 14.1 KONTURLABEL1 /2} -> Call profile 1 cycle=CYCL DEF 14; Call profile 2 cycle=CYCL DEF 14
-{CONTOUR DEF P1 = LBL 1 I2 = "B.H" DEPTH 5} -> Call profile 1 cycle=CONTOUR DEF; Call profile B cycle=CONTOUR DEF
+{CONTOUR DEF P1 = LBL 1 I2 = "B.H"} -> Call profile 1 cycle=CONTOUR DEF; Call profile B is_local=True cycle=CONTOUR DEF
 L Z+100 R0 FMAX M30 -> ProgramEnd
 CYCL DEF 200 A {Q200=2 Q201=-20} ~ -> Assign Q200 2; Assign Q201 -20
 {Q206=FAUTO} -> Forget Q206 Q206=FAUTO cannot be read

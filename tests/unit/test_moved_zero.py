@@ -3,7 +3,7 @@ none. A shift by numbers moves the place, a table makes it unknown, and what is 
 
 import pytest
 
-from contoursolve import DIALECTS, expand, solve
+from contoursolve import DIALECTS, OpenProgram, expand, solve
 from contoursolve.reading import ZeroMove
 
 FRAMES = "G17 G71 G90 G54\n{}\nG0 X0 Y0\n{}\nG1 X20 RND=5 F300\nY20\nM30"
@@ -51,6 +51,13 @@ MOVES = [
     ("siemens-840d", "", "G53 X5", (None, 0)),
     ("siemens-840d", "", "D2", AT),
     ("siemens-840d", ZX, "D2\nG18 G1 Z5 RND=2\nX30\nM30", UNKNOWN),
+    ("siemens-840d", "TRANS X5", "AROT", UNKNOWN),
+    *(("siemens-840d", "", each, UNKNOWN) for each in ("TOFF[X]=3", "TCARR=1", "AX[X]=5", "AX[AXV]=5")),
+    *(
+        ("siemens-840d", ZX, f"{each}\nG18 G1 Z5 RND=2\nX30\nM30", UNKNOWN)
+        for each in ("DL=1", "TOFFL=2", "$TC_DP3[1,1]=5", "$TC_DP12[R1,1]=R2")
+    ),
+    ("siemens-840d", "", "TOFFL=2\nDL=1\n$TC_DP3[1,1]=5\n$TC_DP6[1,1]=4", AT),
     ("siemens-808d", "", "G58", UNKNOWN),
     ("siemens-808d", "", "G58 G0 X3 Y0", (3, 0)),
     ("isg", "", "G53", AT),
@@ -59,7 +66,18 @@ MOVES = [
     ("isg", "G159=2", "G159=2", AT),
     ("isg", "G159=2", "G159=3", UNKNOWN),
     ("isg", "", "G92 X5", (None, 0)),
+    ("isg", "", "V.G.NP_AKT.V.X = 10", (None, 0)),
+    ("isg", "", "$IF P1==1\nV.G.NP_AKT.ALL = V.G.NP[2].ALL\n$ENDIF", UNKNOWN),
+    ("isg", "G54", "V.G.NP_AKT.V.X += 5\nG0 X1 Y1\nG54", UNKNOWN),
+    ("isg", "G54", "V.G.NP[1].V.Y = 5", (0, None)),
+    ("isg", "G159=1", "V.G.NP[P1].V.Y = 5", (0, None)),
+    ("isg", "G55", "V.G.NP[1].V.X = 5\nV.G.TIMER[1] = 5", AT),
+    ("isg", "", "V.G.WZ_AKT.L = 5", UNKNOWN),
     ("heidenhain", "", "TOOL CALL 5 Z S1000 DR+0.1", AT),
+    ("heidenhain", "CYCL DEF 7.1 X+60", "TRANS DATUM RESET\nL X+0 Y+0\nCYCL DEF 7.1 X+0", UNKNOWN),
+    ("heidenhain", "", "L X+5 M99", UNKNOWN),
+    ("heidenhain", "", "L X+5 M89\nL X+5 Y+5", UNKNOWN),
+    ("heidenhain", "", "L X+5 M89\nL X+5 Y+5 M99\nL X+3 Y+4", (3, 4)),
     ("heidenhain", "", "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+60\nCYCL DEF 7.2 Y-5", (-60, 5)),
     ("heidenhain", "CYCL DEF 7.1 X+60", "CYCL DEF 7.1 IX+5", (-5, 0)),
     ("heidenhain", "CYCL DEF 7.1 X+60", "CYCL DEF 7.1 #5", UNKNOWN),
@@ -71,6 +89,7 @@ MOVES = [
         for each in ("CYCL DEF 247 DATUM ~\nQ339=+4", "CYCL DEF 8.1 X", "CYCL DEF 26.1 X2", "PLANE RESET STAY")
     ),
     ("fanuc-mill", "", "G10 L2 P1 X10. Y0.", UNKNOWN),
+    ("fanuc-mill", "", "G10 L50\nN1221 P1 R100\nG11", UNKNOWN),
     ("fanuc-mill", "", "#5221=#5221+10.", (None, 0)),
     ("fanuc-mill", "", "#2502=7.\n#2601=#2601+10.", (0, None)),
     ("haas-mill", "G110", "G154 P1", AT),
@@ -157,6 +176,32 @@ def test_no_contour_has_coordinates_of_the_machine(text):
     assert result.diagnostics
 
 
+@pytest.mark.parametrize(
+    ("control", "shift", "end", "last"),
+    [
+        ("siemens-840d", "TRANS X5", "M17", "M30"),
+        ("siemens-840d", "TRANS X5", "RET", "M2"),
+        ("fanuc-mill", "G52 X5.", "M99", "M30"),
+    ],
+)
+def test_what_others_call_does_not_know_the_shift_in_force(control, shift, end, last):
+    text = f"G17 G90\nG0 X0 Y0\n{shift}\nG1 X20. {',R' if 'mill' in control else 'RND='}5. F300.\nY20.\n{{}}"
+    opened = OpenProgram(text.format(last), control=control)
+    for ends, start in ((last, (-5, 0)), (end, UNKNOWN), ("", (-5, 0))):
+        assert starts(text.format(ends), control) == [start]
+        opened.replace(text.format(ends))
+        assert opened.check()
+        assert any(each.code == "position-unknown" for each in opened.diagnostics) is (start is UNKNOWN)
+        written = expand(text.format(ends), control=control, keep_going=True).text
+        assert ("NOT EXPANDED" in written) is (start is UNKNOWN)
+
+
+@pytest.mark.parametrize("word", ["M91", "M99"])
+def test_behind_a_refused_contour_nothing_is_known_by_words_that_are_not_read(word):
+    text = f"0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL AN+30 LEN20\n3 FL X+60 Y+40 {word}\n4 L X+80\n5 RND R2\n6 L Y+60"
+    assert starts(text, "heidenhain") == [AT, UNKNOWN]
+
+
 SELECTIONS = [
     (control, name)
     for control, dialect in DIALECTS.items()
@@ -185,6 +230,11 @@ def test_each_selection_of_a_table_makes_the_place_unknown_but_for_the_one_in_fo
             "G52 X10. in program line 5 moves",
         ),
         ("siemens-840d", "G17 G71 G90\nG0 X0 Y0\nG1 X20 RND=5\nTRANS X10\nY40", "TRANS X10 in program line 4 moves"),
+        (
+            "siemens-840d",
+            "G17 G71 G90\nSUB\nM30\nPROC SUB\nG0 X0 Y0\nG1 X20 RND=5\nTRANS X10\nY40\nRET",
+            "TRANS X10 in program line 7 moves",
+        ),
     ],
 )
 def test_a_corner_right_before_a_moved_zero_is_told_why(control, text, told):

@@ -233,6 +233,14 @@ def test_an_argument_without_a_point_counts_the_least_increment_of_its_address(c
     assert [each.code for each in whole.diagnostics].count("argument-in-increments") == 1
 
 
+@pytest.mark.parametrize("call", ["G66 P9 X2 A5.\nG67", "G66.1 P9 X2\nG67", "IF[#1 EQ 1]THEN G65 P9 X2 D3"])
+def test_an_argument_without_a_point_is_told_of_each_kind_of_call(call: str):
+    result = contoursolve.solve(f"G21 G90\n{call}\nM30\nO9\nG00 X#24\nM99", control="fanuc-mill")
+    (warning,) = (each for each in result.diagnostics if each.code == "argument-in-increments")
+    assert "X2 has no decimal point and is read as 0.002 in the called program" in warning.message
+    assert (warning.span.line, warning.span.column) == (2, call.index("X2") + 1)
+
+
 def test_an_argument_is_not_known_where_the_unit_changes():
     program = "G21 G90\nG00 X0. Y0.\nG65 P9 X20000\nG20\nG65 P9 X20000\nM30\nO9\nG01 X#24 ,R3. F1.\nY40.\nM99"
     result = contoursolve.solve(program, control="fanuc-mill")

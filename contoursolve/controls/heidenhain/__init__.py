@@ -6,13 +6,13 @@ Its words, elements and rules come in; a control goes out. Begin with `elements`
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.heidenhain.examples import WORDS
 from contoursolve.controls.heidenhain.find import find
-from contoursolve.controls.heidenhain.follow import follow
+from contoursolve.controls.heidenhain.follow import ZERO, follow
 from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SETTINGS, SYNTAX, shown_by
 from contoursolve.controls.heidenhain.rules import RULES
 from contoursolve.controls.heidenhain.writer import WRITING
 from contoursolve.controls.plain import PLANES
 from contoursolve.execution import klartext
-from contoursolve.reading import Dialect, Modes, table_of
+from contoursolve.reading import Dialect, Modes
 
 HEIDENHAIN = Dialect(
     name="heidenhain",
@@ -25,8 +25,7 @@ HEIDENHAIN = Dialect(
         syntax=SYNTAX,
         follow=follow,
         language=klartext(),
-        # At first, no shift is in force.
-        zero=table_of((), {}, "XYZ"),
+        zero=ZERO,
     ),
     plane=PLANES[17],
     forms=(),

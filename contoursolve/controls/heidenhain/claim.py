@@ -45,6 +45,7 @@ from contoursolve.controls.heidenhain.follow import (
     TOOL_AXIS,
     full_circles,
     senses,
+    words_of_cycle,
     words_of_machine,
 )
 from contoursolve.controls.heidenhain.form import compose
@@ -119,7 +120,7 @@ def claim_of(chain: ChainBlocks, before: State, modes: Modes) -> ParsedContour:
     claim = replace_fields(
         builder.build(compose(tuple(elements), labels, stated, chain.words), before, chain.state),
         unknown=tuple(word for block in chain.blocks for word in _foreign(block, chain)),
-        unread=tuple(word for block in chain.blocks for word in words_of_machine(block)),
+        unread=tuple(word for block in chain.blocks for word in (*words_of_machine(block), *words_of_cycle(block))),
         choices=tuple(_choices(members, elements, labels)),
         makes=tuple(_makes(chain, labels)),
         picks=tuple(_picks(picks, len(members), modes)),

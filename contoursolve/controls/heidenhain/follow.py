@@ -33,6 +33,7 @@ from contoursolve.reading import (
     positions,
     shift_zero,
     state_moved,
+    table_of,
 )
 from contoursolve.tolerance import LENGTH
 
@@ -77,7 +78,27 @@ def follow(state: State, block: Block, modes: Modes) -> State:
         return moved.lose(own, "its coordinates are those of the machine", block.span)
     if any(word.address == "M" and word.number in _ENDING for word in block.words):
         return moved.lose(modes.axes, "the program ends there", block.span)
-    return moved
+    return _call_cycle(moved, block, modes)
+
+
+def _call_cycle(state: State, block: Block, modes: Modes) -> State:
+    """The state behind a block at whose end M99, or M89 up to the next M99, runs the cycle that is defined."""
+    for word in words_of_cycle(block):
+        memory = {name: each for name, each in state.memory.items() if name != _ALWAYS}
+        state = state.remember(memory if word.number == _ONCE else {**memory, _ALWAYS: word})
+        state = state.lose(modes.axes, _CYCLE, word.span)
+    is_called = _ALWAYS in state.memory and axis_words(block, modes)
+    return state.lose(modes.axes, _CYCLE, block.span) if is_called else state
+
+
+def words_of_cycle(block: Block) -> list[Word]:
+    """The words by which a cycle runs at the end of a block: at this one, or at each from here on."""
+    return [word for word in block.words if word.address == "M" and word.number in (_ONCE, 89)]
+
+
+_ONCE = 99
+_ALWAYS = "a cycle at the end of each move"
+"""Stands in what stays in force behind M89."""
 
 
 def words_of_machine(block: Block) -> list[Word]:
@@ -166,25 +187,28 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
     return state.move({**moved, **positions(state, others, modes, block.is_skippable)})
 
 
-_LOSING: tuple[tuple[re.Pattern[str], str], ...] = tuple(
-    (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), reason)
-    for pattern, reason in (
-        (r"CYCL[ \t]+CALL\b", "a cycle runs"),
-        (r"(?:TRANS|FUNCTION|FN[ \t]*17)\b", "it may change the coordinate system"),
-    )
-)
-_ZERO, _RECALLED = "it changes the coordinate system", BOOK.assumed("coordinate transformations")
+_CALLS_CYCLE = re.compile(BLOCK_NUMBER + r"CYCL[ \t]+CALL\b", re.IGNORECASE)
+_CYCLE = "a cycle runs"
+_RECALLED = BOOK.assumed("coordinate transformations")
+_MOST_SHOWN = 40
 _MOVING: tuple[tuple[re.Pattern[str], ZeroRow], ...] = tuple(
     (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), ZeroRow(name, move, _RECALLED))
     for pattern, name, move in (
         (r"CYCL[ \t]+DEF[ \t]+7\.0*[1-9]\d*[ \t]+(?=I?[XYZ])", "CYCL DEF 7", ZeroMove.SET),
-        (r"CYCL[ \t]+DEF[ \t]+7\.0*[1-9]\d*\b", "CYCL DEF 7 #", ZeroMove.TURN),
-        (r"CYCL[ \t]+DEF[ \t]+(?:8|10|11|19|26)\b", "CYCL DEF 8 10 11 19 26", ZeroMove.TURN),
-        (r"(?:CYCL[ \t]+DEF[ \t]+247|PRESET)\b", "CYCL DEF 247, PRESET SELECT", ZeroMove.TURN),
+        (r"CYCL[ \t]+DEF[ \t]+7\.0*[1-9]\d*\b", "CYCL DEF 7 #", ZeroMove.SELECT),
+        (
+            r"CYCL[ \t]+DEF[ \t]+(?:8|10|11|19|26)\b",
+            "CYCL DEF 8, CYCL DEF 10, CYCL DEF 11, CYCL DEF 19, CYCL DEF 26",
+            ZeroMove.TURN,
+        ),
+        (r"(?:CYCL[ \t]+DEF[ \t]+247|PRESET)\b", "CYCL DEF 247, PRESET", ZeroMove.SELECT),
         (r"PLANE\b", "PLANE", ZeroMove.TURN),
+        (r"(?:TRANS|FUNCTION|FN[ \t]*17)\b", "TRANS, FUNCTION, FN 17", ZeroMove.OTHER),
     )
 )
 """The moves of the coordinate system: by numbers along axes, or in a way that is not followed."""
+ZERO = table_of((), {}, "XYZ", beside=(row for _, row in _MOVING))
+"""At first, no shift is in force."""
 _SHIFT = re.compile(r"(?P<step>I?)(?P<axis>[XYZ])[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))?+", re.IGNORECASE)
 _TOOL = re.compile(
     BLOCK_NUMBER + r"TOOL[ \t]+CALL[ \t]+(?:\"[^\"]*\"|\S+)[ \t]+(?P<axis>[XYZUVW])(?=[ \t;]|$)", re.IGNORECASE
@@ -225,16 +249,26 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
     for pattern, row in _MOVING:
         if pattern.match(block.text):
             return _move_zero(state, block, row, modes)
-    for pattern, reason in _LOSING:
-        if pattern.match(block.text):
-            return state.lose(modes.axes, reason, block.span)
+    if _CALLS_CYCLE.match(block.text):
+        return state.lose(modes.axes, _CYCLE, block.span)
     if _HARMLESS.match(block.text):
         return state
-    return state.lose(modes.axes, f"{block.text.strip()[:40]} is not known to contoursolve", block.span)
+    return state.lose_all(modes.axes, f"{_shown(block)} is not known to contoursolve", block.span)
+
+
+def _shown(block: Block) -> str:
+    """The begin of a statement, as a message names it."""
+    text = block.syntax.comment.sub("", block.text).replace("~", " ")
+    return " ".join(_NUMBER.sub("", text).split())[:_MOST_SHOWN]
+
+
+_NUMBER = re.compile(BLOCK_NUMBER, re.IGNORECASE)
 
 
 def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
     """The state behind a statement that moves the coordinate system."""
+    if row.move is ZeroMove.OTHER:
+        return state.lose_all(modes.axes, f"{_shown(block)} may change the coordinate system", block.span)
     steps: Mapping[bool, dict[str, Decimal | None]] = {False: {}, True: {}}
     said = block.syntax.comment.sub("", block.text).partition(".")[2] if row.move is ZeroMove.SET else ""
     for each in _SHIFT.finditer(said):
@@ -243,7 +277,8 @@ def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
     for is_step, numbers in steps.items():
         if numbers or (row.move is not ZeroMove.SET and not is_step):
             move, shifts = ZeroMove.ADD if is_step else row.move, numbers if row.move is ZeroMove.SET else None
-            moved = shift_zero(state.zero, move, block, shifts, modes.axes, _ZERO)
+            reason = f"{_shown(block)} changes the coordinate system"
+            moved = shift_zero(state.zero, move, block, shifts, modes.axes, reason)
             state = state_moved(state, moved, block.span)
     return state
 

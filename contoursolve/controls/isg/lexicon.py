@@ -1,7 +1,7 @@
 """ISG kernel: how blocks are spelled, addresses, numbers, planes and G codes."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from contoursolve.controls.further import rows as rows_beside
@@ -19,6 +19,7 @@ from contoursolve.reading import (
     Code,
     Diameter,
     Effect,
+    Entry,
     Lexicon,
     Modes,
     NumberFormat,
@@ -146,6 +147,31 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
 _LINES_OF_COMMENT = re.compile(r"\s*+#\s*+COMMENT\s++(?:(?P<begins>BEGIN)|END)\b", re.IGNORECASE)
 
 
+_INITIAL = 53
+"""The code without an offset; those behind it select the first ones of the table."""
+
+
+def _entries_set(name: str) -> Iterator[Entry]:
+    """The entries of tables that a variable is. Those of the offset in force hold until it is selected next."""
+    found = _OFFSET_DATA.fullmatch(name)
+    if found is None:
+        return
+    axes = (found["axis"],) if found["axis"] else ()
+    if found["tool"]:
+        yield Entry(TOOL, None, axes, fades=True)
+    elif found["index"] is None:
+        yield Entry(WORK, None, axes, fades=True)
+    elif found["index"].isdigit():
+        number = int(found["index"])
+        yield Entry(WORK, (("G", _INITIAL + number),), axes, fades=True)
+        yield Entry(WORK, (("G159", number),), axes, fades=True)
+    else:
+        yield Entry(WORK, None, axes, fades=True)
+
+
+_OFFSET_DATA = re.compile(
+    r"V\.G\.(?:NP_AKT|NP[ \t]*+\[[ \t]*+(?P<index>[^\]]*?)[ \t]*+\]|(?P<tool>WZ_AKT))\.(?:V\.(?P<axis>[XYZ])|.*+)"
+)
 _OFFSETS = BOOK.printed("zero offsets")
 _BY_PLANE = {"G17": ("Z",), "G18": ("X", "Y", "Z"), "G19": ("X",)}
 """The axes that the lengths of a tool move: the tool's axis, and on lathes (G18) two."""
@@ -157,7 +183,11 @@ _ZERO = table_of(
         ZeroRow("D", ZeroMove.SELECT, BOOK.printed("tool geometry"), TOOL, _BY_PLANE),
     ),
     {},
-    first={WORK: (("G", 53),)},
+    first={WORK: (("G", _INITIAL),)},
+    variables=_entries_set,
+    beside=(
+        ZeroRow("V.G.NP, V.G.NP_AKT, V.G.WZ_AKT", ZeroMove.DATA, BOOK.printed("access to the current zero offset")),
+    ),
 )
 """The moves of the coordinate system: at first, no offset is in force."""
 

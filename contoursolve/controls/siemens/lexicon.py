@@ -125,6 +125,31 @@ _DIAMETERS = {
 }
 
 
+_GROUPS = (
+    "G60 G64 G641 G642 G643 G644 G645",
+    "G601 G602 G603",
+    "G93 G94 G95 G96 G97 G931 G942 G952 G961 G962 G971 G972 G973",
+    "G62 G621 FENDNORM",
+    "G140 G141 G142 G143",
+    "G450 G451",
+    "G460 G461 G462",
+    "BRISK SOFT DRIVE",
+    "FFWON FFWOF",
+    "DYNNORM DYNPOS DYNROUGH DYNSEMIFIN DYNFINISH DYNPREC",
+    "COMPON COMPCURV COMPCAD COMPSURF COMPOF",
+    "CFC CFTCP CFIN",
+    "FNORM FLIN FCUB",
+    "NORM KONT KONTC KONTT",
+    "CDON CDOF CDOF2",
+    "CUT2D CUT2DF CUT3DC CUT3DF CUT3DFS CUT3DFF",
+    "CUTCONON CUTCONOF",
+    "WALIMON WALIMOF",
+    "UPATH SPATH",
+    "CP PTP PTPG0",
+)
+"""G functions of which each takes the place of another one of its group, as the manual lists them; recalled."""
+
+
 def _codes() -> dict[int, Code]:
     rows = [*code_rows(BOOK.assumed("list of G functions"), _CODES, PLANES, _UNITS).values()]
     rows.append(Code(TANGENT_ARC, Effect.MOTION, "arc that begins tangentially", BOOK.printed("p. 201"), name="CT"))
@@ -140,25 +165,33 @@ def _codes() -> dict[int, Code]:
                 source = BOOK.assumed("commands and predefined subprograms")
                 row = Code(number, effect, meaning, source, name=name, is_read=is_read)
                 rows.append(coming_back(row))
-    return {code.number: code for code in rows}
+    groups = {name: group for group in _GROUPS for name in group.split()}
+    return {code.number: replace(code, group=groups.get(code.text, "")) for code in rows}
 
 
 CODES = _codes()
-_OFFSETS, _SELECTS = BOOK.assumed("frames and offsets"), ZeroMove.SELECT
+_OFFSETS, _LENGTHS, _SELECTS = BOOK.assumed("frames and offsets"), BOOK.assumed("lengths of tools"), ZeroMove.SELECT
 _BY_PLANE = {"G17": ("Z",), "G18": ("X", "Y", "Z"), "G19": ("X",)}
 """The axes that the lengths of a tool move: the tool's axis, and on lathes (G18) two."""
 _FRAMES = "$P_IFRAME $P_BFRAME $P_ACTBFRAME $P_CHBFRAME $P_NCBFRAME $P_ACTFRAME $P_SETFRAME $P_EXTFRAME"
+_SYSTEM_FRAMES = "$P_PARTFRAME $P_TOOLFRAME $P_WPFRAME $P_CYCFRAME $P_TRAFRAME"
+_TOOL_DATA = " ".join(f"$TC_DP{number}" for number in (3, 4, 5, 12, 13, 14, 21, 22, 23))
+"""The lengths of a tool, their wear and their base."""
 _ZERO_ROWS = (
     ZeroRow(" ".join(f"G{code}" for code in (54, 55, 56, 57, 500, *range(505, 600))), _SELECTS,
             BOOK.printed("fundamentals 11/2006 p. 100"), WORK),
-    ZeroRow("T", _SELECTS, _OFFSETS, TOOL, _BY_PLANE, words="D"),
-    ZeroRow("D", _SELECTS, _OFFSETS, TOOL, _BY_PLANE, words="D", goes_on=True),
-    ZeroRow("M6", ZeroMove.OTHER, _OFFSETS, TOOL, _BY_PLANE),
+    ZeroRow("T", _SELECTS, _LENGTHS, TOOL, _BY_PLANE, words="D"),
+    ZeroRow("D", _SELECTS, _LENGTHS, TOOL, _BY_PLANE, words="D", goes_on=True),
+    ZeroRow("M6 DL TOFFL TOFFLR", ZeroMove.OTHER, _LENGTHS, TOOL, _BY_PLANE),
+    ZeroRow("TOFF TCARR", ZeroMove.OTHER, _LENGTHS, TOOL),
+    ZeroRow(_TOOL_DATA, ZeroMove.OTHER, _LENGTHS, TOOL, _BY_PLANE),
     ZeroRow("TRANS", ZeroMove.REPLACE, BOOK.printed("NC programming 12/2019 p. 315")),
     ZeroRow("ATRANS", ZeroMove.ADD, BOOK.printed("NC programming 12/2019 p. 315")),
-    ZeroRow("ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS", ZeroMove.TURN, _OFFSETS),
+    ZeroRow("ROT SCALE MIRROR ROTS", ZeroMove.TURN, _OFFSETS),
+    ZeroRow("AROT ASCALE AMIRROR AROTS", ZeroMove.TURN_FURTHER, _OFFSETS),
     ZeroRow("$P_PFRAME", ZeroMove.FORMULA, BOOK.printed("NC programming 12/2019 p. 315: CTRANS")),
-    ZeroRow(f"{_FRAMES} $P_PARTFRAME $P_TOOLFRAME $P_WPFRAME $P_CYCFRAME $P_TRAFRAME", ZeroMove.OTHER, _OFFSETS, WORK),
+    ZeroRow(_FRAMES, ZeroMove.OTHER, _OFFSETS, WORK),
+    ZeroRow(_SYSTEM_FRAMES, ZeroMove.OTHER, BOOK.assumed("system frames"), WORK),
     ZeroRow("$P_UIFR $P_UBFR $P_CHBFR $P_NCBFR $P_SETFR $P_EXTFR", ZeroMove.LATER, _OFFSETS, WORK),
 )  # fmt: skip
 """The moves of the coordinate system of every SINUMERIK."""
@@ -235,9 +268,9 @@ _WORDS = (
     ("FXS FXST FXSW FOC FOCON OS OSP1 OSP2 OSB OST1 OST2 OSCTRL OSNSC OSE CPL POLF", "axis on its own", Bearing.NONE),
     ("LEAD TILT THETA ORIRESET", "direction of the tool", Bearing.NONE),
     ("P", "argument of a call", Bearing.ARGUMENT),
-    ("A B C E O Q U V W AX POS POSA POSP", "further axis", Bearing.AXIS),
+    ("A B C E O Q U V W POS POSA POSP", "further axis", Bearing.AXIS),
     ("I J K TURN MEAS MEAW PL PW SD DITS DITE", "part of the path", Bearing.UNREAD),
-    (f"AP AR RP PO X Y Z {_POSITIONED}", "end of the block", Bearing.END),
+    (f"AP AR RP PO AX X Y Z {_POSITIONED}", "end of the block", Bearing.END),
 )  # fmt: skip
 """The words beside contours, by the names of all of which there are some with a number or an index behind."""
 _MACHINES = (("DRESS", "word of a machine builder", Bearing.NONE),)
