@@ -127,7 +127,7 @@ TURNED_AXES = frozenset({"X", "Z"})
 
 _MAY_TELL_MORE = re.compile(r"Y|G0?1[789]|96|DIAM|LIMS", re.IGNORECASE)
 _PLANE_CODES = frozenset({"G17", "G18", "G19"})
-_OF_A_LATHE = frozenset({"G18", "G96", "G961", "G962", "DIAMON", "DIAM90", "LIMS"})
+_OF_A_LATHE = frozenset({"G96", "G961", "G962", "DIAMON", "DIAM90", "LIMS"})
 
 
 def named_control(control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:
@@ -162,7 +162,8 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
     text = ISO.comment.sub(" ", block.text)
     shown |= {mark for mark, pattern in _KINDS.items() if pattern.search(text)}
     shown |= {mark for mark, pattern in _OTHER_WORDS.items() if pattern.search(block.text)}
-    if "Y" in stated:
+    # Beside words of a lathe's contour, Y is a slip.
+    if "Y" in stated and not stated & _OF_CONTOURS:
         shown.add(Y_AXIS)
     if stated & {"Z", "W"} and stated & _SHARED:
         shown.add(_CORNER_ON_Z)
@@ -305,6 +306,7 @@ _KINDS = {
 """Words that speak for a kind of machine, on Fanuc and its kin: tools with their offset in one number, limits of the
 spindle, constant cutting speed, increments by U and W, cycles that turn, feeds per turn; and of a mill Y, tool lengths,
 tool changes, drilling. A plane, G90 or G95 speaks for neither (assumed, from real programs)."""
+_OF_CONTOURS = frozenset("ABCDIKPQ")
 _OTHER_WORDS = {
     POLAR_WORDS: late_pattern(r"(?<![A-Z_])[AR]P\s*=", re.IGNORECASE),
     SEMICOLON_COMMENT: late_pattern(r"^[^(]*;[ \t]*\w"),
