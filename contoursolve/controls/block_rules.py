@@ -376,7 +376,7 @@ READING_RULES = (
     ),
     Rule(
         code="control-alike",
-        message="{controls} read this program alike: its findings are those of {control}; "
+        message="{controls} {how}: its findings are those of {control}; "
         "name yours by --control, or in the workbench's list",
         help=f"name your control {_WAYS}: rules, alarms and fixes are then its own",
         source=_READING,
@@ -397,7 +397,7 @@ READING_RULES = (
     ),
     Rule(
         code="machine-taken",
-        message="X and Z move alone and no plane is selected: the program is read as one for a lathe, in G18; "
+        message="X and Z move, and Y never: the program is read as one for a lathe, in G18; "
         "for a mill, --set {setting}=mill",
         help="write G18 into the program, or state {setting} in contoursolve.toml",
         source=_READING,

@@ -29,6 +29,10 @@ from .control_flow import (
     Ways as Ways,
 )
 from .dialect import (
+    POLAR_WORDS as POLAR_WORDS,
+    SEMICOLON_COMMENT as SEMICOLON_COMMENT,
+    SINUMERIK_FILE as SINUMERIK_FILE,
+    Y_AXIS as Y_AXIS,
     Behind as Behind,
     Dialect as Dialect,
     Taken as Taken,
