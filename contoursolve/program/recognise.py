@@ -86,8 +86,12 @@ def for_machine(dialect: Dialect, settings: Mapping[str, str], lines: Iterable[s
     """A control that is on mills and on lathes, for the kind of machine that a program is for, if nothing states it: a
     lathe where X and Z move alone and no plane is selected."""
     turned = for_kind(dialect, settings, "lathe")
-    if turned is dialect or not _is_turned(lines, dialect.modes.syntax):
+    shown = frozenset[str]() if turned is dialect else _shown_of_turning(lines, dialect.modes.syntax)
+    if not shown:
         return dialect
+    # A program that selects the plane and diameters says all that is taken of it.
+    if "G18" in shown and shown & _DIAMETERS:
+        return turned
     told = Taken(ReadIssue.MACHINE_TAKEN, {"setting": f"{dialect.name}.{_MACHINE}"})
     return replace(turned, taken=(*turned.taken, told))
 
@@ -99,16 +103,18 @@ def for_kind(dialect: Dialect, settings: Mapping[str, str], kind: str) -> Dialec
     return configure(dialect, {name: kind}) if is_open else dialect
 
 
-def _is_turned(lines: Iterable[str], syntax: Syntax) -> bool:
-    """Whether X and Z move and no line has Y, in a program that selects no plane or speaks of a lathe."""
+def _shown_of_turning(lines: Iterable[str], syntax: Syntax) -> frozenset[str]:
+    """What lines show of a lathe: X and Z move and no line has Y, in a program that selects no plane or speaks of a
+    lathe. Nothing for what may be another one."""
     shown = set[str]()
     for line in lines:
         if shown >= TURNED_AXES and not _MAY_TELL_MORE.search(line):
             continue
         shown |= shown_of_machine(line, syntax)
         if "Y" in shown:
-            return False
-    return shown >= TURNED_AXES and (bool(shown & _OF_A_LATHE) or not shown & _PLANE_CODES)
+            return frozenset()
+    is_turned = shown >= TURNED_AXES and (bool(shown & _OF_A_LATHE) or not shown & _PLANE_CODES)
+    return frozenset(shown if is_turned else ())
 
 
 def shown_of_machine(line: str, syntax: Syntax) -> frozenset[str]:
@@ -127,7 +133,8 @@ TURNED_AXES = frozenset({"X", "Z"})
 
 _MAY_TELL_MORE = re.compile(r"Y|G0?1[789]|96|DIAM|LIMS", re.IGNORECASE)
 _PLANE_CODES = frozenset({"G17", "G18", "G19"})
-_OF_A_LATHE = frozenset({"G96", "G961", "G962", "DIAMON", "DIAM90", "LIMS"})
+_DIAMETERS = frozenset({"DIAMON", "DIAM90"})
+_OF_A_LATHE = frozenset({"G96", "G961", "G962", "LIMS", *_DIAMETERS})
 
 
 def named_control(control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:

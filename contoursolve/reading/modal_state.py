@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
@@ -451,8 +452,10 @@ def state_moved(state: State, moved: Moved, span: Span) -> State:
 
 
 def _shifted(at: Position, by: Decimal, reason: str, span: Span) -> Position:
-    """The coordinate of a place after the zero has moved, mm."""
-    return at if at.value is None else Position(at.value - by, reason, span, at.is_skippable)
+    """The coordinate of a place after the zero has moved, mm: another one also where it is not known."""
+    if at.value is None:
+        return copy(at)
+    return Position(at.value - by, reason, span, at.is_skippable)
 
 
 def with_diameters(state: State) -> State:

@@ -48,8 +48,11 @@ def judged(text: str, control: str) -> Iterator[Verdict]:
             told[lines].append(answer)
         covered |= {*lines}
     refused = {lines[0] for lines, answers in told.items() if any(each.status.value != "solved" for each in answers)}
+    # A vacant variable takes a word out, so that a contour may end before where it ends on another pass.
+    begins = Counter(lines[0] for lines in told)
     for lines, answers in told.items():
-        yield from _of_contour(lines, answers, [*_runs_of(lines, ways)], is_refused=lines[0] in refused)
+        is_other = lines[0] in refused or begins[lines[0]] > 1
+        yield from _of_contour(lines, answers, [*_runs_of(lines, ways)], is_other=is_other)
     wanted = {move.line for way in ways for move in way if move.corner or move.angle is not None}
     if wanted - covered:
         causes = [each for each in result.diagnostics if each.code.endswith(UNKNOWN) or each.severity.value == "error"]
@@ -69,9 +72,9 @@ def _runs_of(lines: tuple[int, ...], ways: list[list[Move]]) -> Iterator[tuple[l
 
 
 def _of_contour(
-    lines: tuple[int, ...], answers: list[Answer], parts: list[tuple[list[Move], bool]], *, is_refused: bool
+    lines: tuple[int, ...], answers: list[Answer], parts: list[tuple[list[Move], bool]], *, is_other: bool
 ) -> Iterator[Verdict]:
-    """The verdict about a contour; if it `is_refused`, another pass of it is, which may have fewer lines."""
+    """The verdict about a contour; if another pass of it `is_other`, it is refused or has other lines."""
     solved = [own for each in answers if each.status.value == "solved" and (own := path_told(each))]
     try:
         # Where a corner beside it is refused, a contour begins at its point, or ends there.
@@ -85,9 +88,9 @@ def _of_contour(
         if not any(isinstance(each, Path) and are_alike(own, each) for each, _ in possible):
             yield Verdict("wrong", lines, "", own, [each for each, _ in possible])
             return
-    if len(solved) == len(answers) and not is_refused and not all(_is_told(each, solved) for each in paths):
+    if len(solved) == len(answers) and not is_other and not all(_is_told(each, solved) for each in paths):
         yield Verdict("wrong", lines, "not all", solved, expected)
-    elif len(solved) == len(answers) and len(paths) < len(expected) and not is_refused:
+    elif len(solved) == len(answers) and len(paths) < len(expected) and not is_other:
         yield Verdict("wrong", lines, "not always known", solved, expected)
     elif len(solved) == len(answers):
         yield Verdict("same", lines)

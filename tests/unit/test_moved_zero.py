@@ -115,6 +115,11 @@ def starts(text: str, control: str) -> list[tuple[float | None, ...]]:
     return [tuple(None if value is None else float(value) for value in each) for each in values]
 
 
+def test_a_place_that_a_refused_corner_states_moves_with_the_zero_though_it_was_not_known_before():
+    move = "G153 G0 X3\nG1 X54 RND=2\n$P_PFRAME=CTRANS(X,17)\nY4"
+    assert starts(PROGRAMS["siemens-840d"].format("", move), "siemens-840d")[1] == (37, 4)
+
+
 @pytest.mark.parametrize(("control", "before", "move", "start"), MOVES)
 def test_what_moves_the_zero_moves_the_place_or_makes_it_unknown(control, before, move, start):
     result = solve(PROGRAMS[control].format(before, move), control=control)

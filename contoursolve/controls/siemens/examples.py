@@ -67,7 +67,7 @@ _SLIPS = {
     },
     "axis-crossed": {"wrong": "G18 DIAMON G90 G0 X20 Z0\nG1 Z-20 RND=2\nX-20 Z-30"},
     "corner-twice": {"contour": "G1 X30 CHR=5 CHF=5\nX40 Y40"},
-    "start-diameter": {"wrong": "G18 DIAMON\nG1 X40 RND=2\nZ-50", "options": '--start "X20 Z0"'},
+    "start-diameter": {"wrong": "G18 DIAMON\nG1 X40 RND=2\nZ-50\nG0 Y5", "options": '--start "X20 Z0"'},
 }
 _ABSENT = {
     **AS_WRITTEN,
