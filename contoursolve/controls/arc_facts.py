@@ -25,6 +25,7 @@ from contoursolve.controls.arc_rules import (
 from contoursolve.controls.control_settings import setting
 from contoursolve.diagnostics import Alarm, Evidence, Source
 from contoursolve.reading import ArcIssue, ArcTable, Beyond, BothStated, Dialect, Setting, State
+from contoursolve.tolerance import CIRCLE_DEVIATION
 
 
 class ArcFacts(Struct, frozen=True):
@@ -334,12 +335,12 @@ ARC_FACTS: Mapping[str, ArcFacts] = {
     "mitsubishi": _MITSUBISHI_FACTS,
     "yasnac-lx3": _YASNAC_FACTS,
     "heidenhain": ArcFacts(
-        ArcTable(difference=0.016),
+        ArcTable(difference=CIRCLE_DEVIATION),
         ArcRows(
             _HEIDENHAIN_ISSUES,
             ArcExamples("0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 F500\n", _in_klartext),
         ),
-        (radius_difference_setting(printed(_TNC, "TNC 320 p. 155: circleDeviation, at most 0.016 mm"), 0.016),),
+        (radius_difference_setting(printed(_TNC, "TNC 320 p. 155: circleDeviation"), CIRCLE_DEVIATION),),
     ),
 }
 """By the name of the control. On a CNC PILOT each arc is a contour."""

@@ -51,6 +51,7 @@ from contoursolve.reading import (
     doubtful_words,
     suspected,
 )
+from contoursolve.solving import RefusalKind
 
 NEAR = 8
 """Blocks at a place that are looked at together for what may have been meant there."""
@@ -315,7 +316,7 @@ def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
     if step.answer is not None or (not step.blocks and step.passage is None):
         return step
     modes, context, found = dialect.modes, Context(asked.rules, asked.unit), list[Diagnostic]()
-    for block in step.blocks:
+    for block in () if any(map(_is_of_shape, step.findings)) else step.blocks:
         found += _elsewhere(context, block, explain_arc(context, block, step.before, modes))
     if step.passage is not None:
         passage = step.passage
@@ -324,6 +325,11 @@ def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
             line = passage.lines[index].rstrip("\r\n")
             found += explain_arc(context, parse_block(line, passage.line + index, passage.syntax), before, modes)
     return replace(step, findings=(*step.findings, *found)) if found else step
+
+
+def _is_of_shape(finding: Diagnostic) -> bool:
+    """Whether a finding is an error in the shape of what is read as a contour is: it says what is wrong."""
+    return finding.is_error and (finding.about is None or isinstance(finding.about, RefusalKind))
 
 
 def _elsewhere(context: Context, block: Block, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
@@ -340,6 +346,8 @@ def _elsewhere(context: Context, block: Block, found: Iterable[Diagnostic]) -> I
 
 
 def findings_of_values(pending: Pending, examine: Examine) -> Sequence[Diagnostic]:
-    """Findings about what is read as a contour is, and is none, whatever its values are."""
+    """Findings about what is read as a contour is, and is none."""
     answer = examine(pending.contour, pending)
-    return [each for each in answer.diagnostics if each.about not in _ABOUT_VALUES]
+    if not pending.contour.form.needs_values:
+        return [each for each in answer.diagnostics if each.about not in _ABOUT_VALUES]
+    return answer.diagnostics if answer.start.is_known else ()

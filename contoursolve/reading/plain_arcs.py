@@ -143,7 +143,8 @@ class _Reading:
         is_alone = not any((*ends, *centers, *beside))
         if not found or not beside <= _linear(self.modes) or (shape and is_alone and not table.needs_end):
             return None
-        others = (word.address for word, kind in named if not kind and word.address not in table.beside)
+        others = {word.address for word, kind in named if not kind} - {"G", *table.beside}
+        # A word that the control has not may be meant for one that it has.
         is_whole = not any(each in rows or self.lexicon.bearing(each) in _SHAPING for each in others)
         outside = () if beside and table.has_pitch else outside
         return PlainArc(
@@ -198,7 +199,7 @@ def _pair(words: tuple[ArcWord | None, ...]) -> Words:
 
 _CENTERS = ("I", "J", "K")
 _ABSOLUTE = "=AC"
-_SHAPING = (Bearing.UNREAD, Bearing.END, Bearing.AXIS)
+_SHAPING = (None, Bearing.UNREAD, Bearing.END, Bearing.AXIS)
 
 
 @cache

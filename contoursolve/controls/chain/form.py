@@ -180,6 +180,7 @@ def _compose(language: Language, elements: tuple[Element, ...], options: _Option
         meanings=dict(_meanings(language, elements, names)),
         corner_note=language.corner.note,
         assumptions=language.assumptions,
+        is_contour=name != "arc",
     )
 
 

@@ -1,0 +1,43 @@
+"""Every arc of every control: right ones are told nothing, impossible ones are found, in whatever order words stand."""
+
+from random import Random
+
+import pytest
+from drawn_arcs import Drawing, kinds_of
+from hypothesis import given, strategies as st
+
+import contoursolve
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics import Severity
+
+SEEDS = st.integers(0, 2**32)
+
+
+def findings(arcs):
+    # Where each arc is a contour, odd ones are warned of.
+    quiet = {"cnc-pilot.suspicions": "off"} if arcs.control == "cnc-pilot" else None
+    return contoursolve.check(arcs.text, control=arcs.control, settings=quiet)
+
+
+def told(arcs):
+    return [each for each in findings(arcs) if each.severity is not Severity.INFO]
+
+
+@pytest.mark.parametrize("control", DIALECTS)
+@given(SEEDS)
+def test_right_arcs_are_told_nothing(control, seed):
+    arcs = Drawing(control, Random(seed)).arcs()
+    assert told(arcs) == [], arcs.text
+
+
+@pytest.mark.parametrize("control", DIALECTS)
+@given(SEEDS, st.data())
+def test_an_impossible_arc_is_found_in_whatever_order_its_words_stand(control, seed, data):
+    kind = data.draw(st.sampled_from(kinds_of(control)))
+    arcs = Drawing(control, Random(seed)).arcs(kind)
+    found = told(arcs)
+    lines, last = {each.span.line for each in found}, arcs.text.count("\n") - (control != "heidenhain")
+    # Where arcs make contours, the one before may be another one with it.
+    assert (last in lines) if control in ("nct-99m", "cnc-pilot") else (lines == {last}), arcs.text
+    other = told(arcs.shuffled(Random(seed)))
+    assert [(each.code, each.values) for each in other] == [(each.code, each.values) for each in found], arcs.text
