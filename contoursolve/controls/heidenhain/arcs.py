@@ -55,7 +55,7 @@ def arc_of(block: Block, before: State, modes: Modes) -> PlainArc | None:
         (centers[0], centers[1]),
         radius,
         # Of a parameter there is a word.
-        is_whole=not (text and not any(centers)) and radius is None,
+        is_whole=not text or any(centers),
         center_text=text,
     )
 
