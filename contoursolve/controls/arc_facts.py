@@ -230,6 +230,8 @@ _NCT_FACTS = ArcFacts(
             ArcIssue.EMPTY: (assumed(_NCT, "p. 26 (4.3): not described"), None),
         },
         _ON_MILL,
+        # With both coordinates of its end it begins in an intersection.
+        wrong={ArcIssue.BOTH: "G02 X20. I10. J0. R12."},
     ),
     (centres_setting(printed(_NCT, "p. 25: centres count from the start")),),
 )

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
+from functools import partial
 from typing import Any
 
 from msgspec import Struct
@@ -133,6 +134,8 @@ class ArcRows(Struct, frozen=True):
     before: Mapping[ArcIssue, str] = {}
     """A line before the arc of the wrong examples of some."""
     notes: Mapping[ArcIssue, str] = {}
+    wrong: Mapping[ArcIssue, str] = {}
+    """Arcs that are wrong, where those of most controls are contours."""
     warns_of: frozenset[ArcIssue] = frozenset()
     """Issues that are warned of, as no page tells of an alarm."""
     is_by_agreement: bool = False
@@ -145,6 +148,7 @@ class ArcRows(Struct, frozen=True):
             if issue is ArcIssue.BOTH and self.is_by_agreement:
                 message = _BOTH_DISAGREE
             right, wrong = self._programs(issue)
+            wrong = (self.examples.begin + self.wrong[issue],) if issue in self.wrong else wrong
             yield Rule(
                 issue.value,
                 message,
@@ -218,12 +222,12 @@ def number_of_arcs(name: str, meaning: str, default: str, source: Source, most: 
 
 def with_arcs(**fields: Any) -> Callable[[Dialect], Dialect]:
     """The change to a control that reads arcs otherwise."""
+    return partial(_with_fields, fields=fields)
 
-    def change(dialect: Dialect) -> Dialect:
-        arcs = replace(dialect.modes.arcs or ArcTable(), **fields)
-        return replace(dialect, modes=replace(dialect.modes, arcs=arcs))
 
-    return change
+def _with_fields(dialect: Dialect, *, fields: Mapping[str, Any]) -> Dialect:
+    arcs = replace(dialect.modes.arcs or ArcTable(), **fields)
+    return replace(dialect, modes=replace(dialect.modes, arcs=arcs))
 
 
 def no_centre_setting(source: Source) -> Setting:

@@ -12,6 +12,7 @@ from contoursolve.diagnosis import (
     Answer,
     Context,
     Depth,
+    Policy,
     corner_words,
     explain_arc,
     explain_asked_outside,
@@ -313,7 +314,7 @@ def with_letters(
 
 def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
     """A step with the findings about its arcs, if it is no contour: about those in plain lines as well."""
-    if step.answer is not None or (not step.blocks and step.passage is None):
+    if step.answer is not None or asked.policy is Policy.OFF or (not step.blocks and step.passage is None):
         return step
     modes, context, found = dialect.modes, Context(asked.rules, asked.unit), list[Diagnostic]()
     for block in () if any(map(_is_of_shape, step.findings)) else step.blocks:
@@ -324,6 +325,8 @@ def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
             before = advance_plainly(step.before, passage.part(0, index), modes) if index else step.before
             line = passage.lines[index].rstrip("\r\n")
             found += explain_arc(context, parse_block(line, passage.line + index, passage.syntax), before, modes)
+    if asked.policy is Policy.WARN:
+        found = [replace(each, severity=Severity.WARNING) if each.is_error else each for each in found]
     return replace(step, findings=(*step.findings, *found)) if found else step
 
 

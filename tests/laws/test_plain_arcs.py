@@ -23,6 +23,11 @@ def told(arcs):
     return [each for each in findings(arcs) if each.severity is not Severity.INFO]
 
 
+def by_line(found):
+    """Findings without their columns, which the order of words changes."""
+    return sorted((each.span.line, each.code, sorted(each.values.items())) for each in found)
+
+
 @pytest.mark.parametrize("control", DIALECTS)
 @given(SEEDS)
 def test_right_arcs_are_told_nothing(control, seed):
@@ -40,4 +45,4 @@ def test_an_impossible_arc_is_found_in_whatever_order_its_words_stand(control, k
     # Where arcs make contours, the one before may be another one with it.
     assert (last in lines) if control in ("nct-99m", "cnc-pilot") else (lines == {last}), arcs.text
     other = told(arcs.shuffled(Random(seed)))
-    assert [(each.code, each.values) for each in other] == [(each.code, each.values) for each in found], arcs.text
+    assert by_line(other) == by_line(found), arcs.text
