@@ -51,6 +51,7 @@ from .explain import (
     report as report,
     spans_of as spans_of,
 )
+from .explain_arcs import explain_arc as explain_arc
 from .fact_words import (
     condition_text as condition_text,
     fact_text as fact_text,

@@ -18,9 +18,9 @@ from contoursolve.program.lookahead import Line, Lookahead, View
 from contoursolve.program.named_words import untouched
 from contoursolve.program.outside_contours import (
     NEAR,
-    findings_of_arc,
-    findings_of_arc_before,
     findings_of_block,
+    findings_of_values,
+    with_arcs,
     with_slips,
 )
 from contoursolve.program.request import Request
@@ -153,9 +153,8 @@ class Examination:
 
     def _take_contour(self, view: View, blocks: tuple[Block, ...], contour: ParsedContour, here: Cursor) -> WalkStep:
         """The step that takes a contour, which is solved now or later."""
-        arc = findings_of_arc_before(self.asked, self.dialect, view, here.ahead, self.answers.examine)
         strange = [each for block in blocks for each in self._codes_beside(block, contour)]
-        step = Step(blocks, here.state, findings=(*here.findings, *arc, *strange))
+        step = Step(blocks, here.state, findings=(*here.findings, *strange))
         pending = self.queue.add(contour, step, view, len(blocks), here.ahead)
 
         def behind() -> Cursor:
@@ -176,14 +175,13 @@ class Examination:
             if each.span not in told and each.about is ReadIssue.CODE_UNKNOWN:
                 yield each
 
-    def _take_block(self, view: View, blocks: tuple[Block, ...], arc: ParsedContour | None, here: Cursor) -> WalkStep:
-        """The step that takes a block that is no contour, or an arc that is read as a contour is."""
+    def _take_block(self, view: View, blocks: tuple[Block, ...], read: ParsedContour | None, here: Cursor) -> WalkStep:
+        """The step that takes a block that is no contour, though it may be `read` as one is."""
         block, asked, modes = blocks[0], self.asked, self.dialect.modes
         states = here.state, advance(here.state, block, modes)
-        if arc is not None:
-            pending = Pending(arc, Step((), here.state), view, len(blocks))
-            found = findings_of_arc(asked, self.dialect, pending, states[1], self.answers.examine)
-            findings = (*here.findings, *found)
+        if read is not None:
+            pending = Pending(read, Step((), here.state), view, len(blocks))
+            findings = (*here.findings, *findings_of_values(pending, self.answers.examine))
         else:
             found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.ahead)
             told_of = [*here.findings, *(each for each in found if each.span not in here.told)]
@@ -287,9 +285,14 @@ class Examination:
             size, most = 1, 1
         while window := [*islice(steps, size)]:
             self.queue.settle()
-            yield from tell(window, outside)
+            yield from tell(map(self.with_arcs, window), outside)
             size = min(2 * size, most)
         yield from tell_rest(outside)
+
+    def with_arcs(self, step: Step | Pending) -> Step:
+        """A step that is solved, with the findings about its arcs."""
+        own = step.step if isinstance(step, Pending) else step
+        return own if self.asked.depth is Depth.TRIAL else with_arcs(self.asked, self.dialect, own)
 
     def _passages(self, lines: Blocks) -> Iterator[Block | Passage]:
         return self._plain.among(in_passages(lines))
@@ -302,7 +305,7 @@ class Examination:
             view = View(blocks, index)
             taken = self.take(view, self.find(view, cursor.state), cursor)
             cursor, index = taken.behind(), index + taken.lines
-            yield taken.step.step if isinstance(taken.step, Pending) else taken.step, view.reach, cursor
+            yield self.with_arcs(taken.step), view.reach, cursor
 
 
 class _OneByOne:

@@ -31,6 +31,7 @@ from contoursolve.gcode import (
     words_of,
 )
 from contoursolve.geometry import Length, Plane, Start
+from contoursolve.reading.arc_table import ArcTable
 from contoursolve.reading.contour_form import Convention, Setting
 from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon
 from contoursolve.reading.moved_zero import (
@@ -46,7 +47,7 @@ from contoursolve.reading.moved_zero import (
     is_along_axes,
     move_zero,
 )
-from contoursolve.tolerance import RADIUS_DIFFERENCE, TRAVEL
+from contoursolve.tolerance import TRAVEL
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,6 +281,8 @@ class Modes:
     follow: Callable[[State, Block, "Modes"], State] | None = field(default=None, kw_only=True)
     """From the state before a block that is no contour to the one behind it, where the control is not programmed in G
     codes."""
+    arcs: ArcTable | None = field(default=None, kw_only=True)
+    """The reading of arcs outside contours; None where each arc is a contour."""
 
     def code_of(self, unit: Length) -> str:
         """The first code that sets a unit; empty where none does."""
@@ -329,9 +332,8 @@ class Modes:
 
     @property
     def radius_difference(self) -> float:
-        """The allowed difference of the radii at two points of an arc, mm: a setting where a machine parameter
-        tells."""
-        return float(self.settings.get("radius-difference", RADIUS_DIFFERENCE))
+        """The allowed difference of the radii at two points of an arc, mm: a machine parameter, and so a setting."""
+        return (self.arcs or ArcTable()).with_numbers(self.settings).difference
 
     @property
     def travel(self) -> float:

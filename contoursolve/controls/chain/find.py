@@ -68,7 +68,7 @@ class ChainFinder:
             return None
         members = [self._member(block, state, modes, is_over=False)]
         is_alone = self._is_over_defined(block, members[0].here)
-        is_tied = is_alone or self._is_tied_alone(members[0], modes)
+        is_tied = is_alone or self._is_tied_alone(members[0])
         position = index
         while members[0].here.motion in self._cutting or self._runs_in_rapid(members):
             last = members[-1]
@@ -404,24 +404,16 @@ class ChainFinder:
         is_kept = member.here.motion != 0 and member.here.memory.keys() & self.language.corner.stays.keys()
         return self._has_corner(member) or bool(is_kept)
 
-    def _is_tied_alone(self, member: Member, modes: Modes) -> bool:
-        """Whether a block is calculated although nothing follows that belongs to it: a line by its angle, one with
-        a corner; and where arcs are checked, an arc with an end, if its values are known. About its centre, it is a
-        full circle if that is where it begins (assumed)."""
+    def _is_tied_alone(self, member: Member) -> bool:
+        """Whether a block is calculated although nothing follows that belongs to it: a line by its angle, one with a
+        corner, and an arc about a centre that it has to itself."""
         block, here = member.block, member.here
         stated = self._stated(block, here)
         is_centered = here.motion in _TURNS and bool(stated & {*self.language.arc.centers})
         is_open = is_centered and not stated & {"I", "J", "K", "R"}
         if self._has_corner(member) or member.element.is_smooth or is_open:
             return True
-        if stated & {*self._angles, self.language.meeting.selector} or self._keeps_angle(member):
-            return True
-        is_variable = any(word.number is None and not word.is_asked for word in block.words)
-        if not self.language.arc.is_checked or here.motion not in _TURNS or is_variable:
-            return False
-        if not stated & {*here.plane.axes, "R"}:
-            return False
-        return "R" in stated or not stated & {*here.plane.centers} or not _ends_where_it_begins(block, here, modes)
+        return bool(stated & {*self._angles, self.language.meeting.selector}) or self._keeps_angle(member)
 
 
 def reading(
@@ -451,15 +443,6 @@ def reading(
         return replace_fields(dialect, modes=replace_fields(dialect.modes, lexicon=words), find=ChainFinder(language))
 
     return change
-
-
-def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:
-    ends = {word.address: word for word in block.words if word.address in here.plane.axes}
-    return all(
-        word.number is not None
-        and modes.words(here).value(word, here.unit) == (0 if here.is_incremental else here.axes[axis].value)
-        for axis, word in ends.items()
-    )
 
 
 def _ways_of(segment: Segment) -> _Ways:

@@ -312,7 +312,7 @@ class BlockMeeting:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ArcWords:
-    """The words of arcs that other controls do not have, and the arcs that are checked."""
+    """The words of arcs that other controls do not have."""
 
     centers: tuple[str, str] | tuple[()] = ()
     """The addresses of the coordinates of a centre, of an arc without an end: for I and J, for I and K, or J and K."""
@@ -321,8 +321,6 @@ class ArcWords:
     its block."""
     tangent: int | None = None
     """The motion of an arc that begins in the direction of the element before it."""
-    is_checked: bool = False
-    """Whether an arc for which the control calculates nothing is checked, too."""
 
     def centers_at(self, plane: Plane) -> Mapping[str, str]:
         """The names of these addresses in a plane."""

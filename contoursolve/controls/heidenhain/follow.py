@@ -134,6 +134,9 @@ def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:
     """The state behind a block that sets a pole: where the tool is, if it has no coordinates."""
     moved = positions(state, axis_words(block, modes), modes, block.is_skippable)
     memory, stated = dict(state.memory), list[str]()
+    if function == CENTER:
+        # The line that states it, as it is written.
+        memory[CENTER] = Word(CENTER, None, False, block.text, block.span)
     for axis in state.plane.axes:
         # A centre keeps the coordinate that its block leaves out; CC alone takes the position.
         if axis in moved or (function == CENTER and not moved):

@@ -13,6 +13,7 @@ from contoursolve.diagnostics import Book, Source
 from contoursolve.gcode import NUMBER, Block, Syntax, Word, late_pattern, plain_spelling, words_as
 from contoursolve.geometry import CornerShape, Unit
 from contoursolve.reading import TURNED, Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.tolerance import CIRCLE_DEVIATION, RADIUS_DIFFERENCE
 
 BOOK = Book("HEIDENHAIN TNC user's manuals")
 _FK, _PATH = BOOK.printed("free contour programming FK"), BOOK.printed("path functions")
@@ -79,6 +80,8 @@ class PlaneWords(Struct, frozen=True, dict=True):
     has_corners: bool = False
     """Whether the block of an element may have the corner behind it."""
     chamfer: CornerShape = CornerShape.CHAMFER_SETBACK
+    slack: float = RADIUS_DIFFERENCE
+    """mm. By how much the radii at two points of an arc may differ."""
 
     def each(self, *texts: str) -> tuple[str, ...]:
         """Texts with each axis for their braces, text by text."""
@@ -132,7 +135,7 @@ class PlaneWords(Struct, frozen=True, dict=True):
         )
 
 
-IN_KLARTEXT = PlaneWords()
+IN_KLARTEXT = PlaneWords(slack=CIRCLE_DEVIATION)
 
 
 def _long(words: PlaneWords) -> str:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import cast
 
+from contoursolve.controls.arc_facts import reading_arcs
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.plain import PLANES
@@ -62,7 +63,7 @@ def _main_def(default: str) -> Setting:
     )
 
 
-SIEMENS_840D = Dialect(
+_840D = Dialect(
     name="siemens-840d",
     title="SINUMERIK 840D sl, 828D and ONE",
     modes=AXIAL_MODES,
@@ -76,8 +77,8 @@ SIEMENS_840D = Dialect(
     motion=1,
     diameter=Diameter.BY_PLANE,
 )
-SIEMENS_808D = replace(
-    SIEMENS_840D,
+_808D = replace(
+    _840D,
     name="siemens-808d",
     title="SINUMERIK 808D",
     # A lexicon of its own tells for which control words were read.
@@ -87,3 +88,4 @@ SIEMENS_808D = replace(
     # Nothing in a program tells it from its larger sibling.
     rare=LANGUAGE.own,
 )
+SIEMENS_840D, SIEMENS_808D = reading_arcs(_840D), reading_arcs(_808D)
