@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.edits import AT_LEAST, Edit, apply_edits, change, drop, has_plus, with_plus, write_word
 from contoursolve.diagnosis.explain import Context, report
-from contoursolve.diagnosis.wording import join, length_text, limit_text
+from contoursolve.diagnosis.wording import join, length_limit, length_text, limit_text
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, LineChange, Span
 from contoursolve.gcode import Block, Word, parse_block, spell
 from contoursolve.reading import (
@@ -69,7 +69,7 @@ def _told(context: Context, arc: PlainArc, fault: ArcFault) -> Diagnostic:
     blamed = [word for word in blamed if word.span.line == arc.block.line]
     lengths = {name: length_text(value, unit) for name, value in values.items()}
     if fault.issue is ArcIssue.RADIUS_SMALL:
-        lengths["limit"] = limit_text(values["limit"] / float(unit.in_mm), unit.value, -1)
+        lengths["limit"] = limit_text(length_limit(values["limit"], unit, -1), unit.value)
     center = " and ".join(sorted(arc.here.plane.centers))
     fields = {"path": _PATHS.get(arc.table.beyond, ""), "plane": arc.here.plane.code, "center": center}
     off = next((lengths[name] for name in ("shift", "off_by_mm") if name in lengths), "")
