@@ -1,4 +1,4 @@
-"""Where something begins to hold: what lies between two values is divided again and again."""
+"""The place where something begins to hold: what lies between two values is divided again and again."""
 
 from collections.abc import Callable
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from contoursolve.numeric.linear_algebra import Array
 
 SECTIONS, _PLACES = 12, 33
-"""How often what lies between two values is divided, at most, and values that divide it."""
+"""The number of times that what lies between two values is divided, at most, and values that divide it."""
 
 
 def section(

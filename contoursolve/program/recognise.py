@@ -104,7 +104,7 @@ def for_kind(dialect: Dialect, settings: Mapping[str, str], kind: str) -> Dialec
 
 
 def _shown_of_turning(lines: Iterable[str], syntax: Syntax) -> frozenset[str]:
-    """What lines show of a lathe: X and Z move and no line has Y, in a program that selects no plane or speaks of a
+    """The marks of a lathe in lines: X and Z move and no line has Y, in a program that selects no plane or speaks of a
     lathe. Nothing for what may be another one."""
     shown = set[str]()
     for line in lines:

@@ -167,7 +167,7 @@ class _Reading:
         return None if value is None else float(value)
 
     def _start(self, index: int) -> float | None:
-        """Where the arc begins along an axis, mm; None where that is not known for sure."""
+        """The place where the arc begins along an axis, mm; None where that is not known for sure."""
         at = self.here.axes[self.here.plane.axes[index]]
         return None if at.value is None or at.is_skippable else float(at.value)
 
@@ -389,7 +389,7 @@ class _Quick:
         return radius > LENGTH and self.table.allows(off, radius)
 
     def _before(self, lines: tuple[str, ...], index: int, axis: str, syntax: Syntax) -> float | None:
-        """Where an axis is before a line, mm."""
+        """The place of an axis before a line, mm."""
         for place in range(index - 1, -1, -1):
             line = lines[place]
             if axis in line or axis.lower() in line:

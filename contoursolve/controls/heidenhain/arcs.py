@@ -127,7 +127,7 @@ def _words(text: str) -> dict[str, float]:
 
 
 def _before(lines: tuple[str, ...], index: int, axis: str, state: State, scale: float) -> float | None:
-    """Where an axis is before a line, mm."""
+    """The place of an axis before a line, mm."""
     for place in range(index - 1, -1, -1):
         line = lines[place]
         if axis in line and not ((found := _FUNCTION.match(line)) and found[1].upper() == CENTER):
