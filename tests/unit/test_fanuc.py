@@ -75,6 +75,28 @@ def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
     assert found[0].fixes[0].replacement == fix
 
 
+START_UPS = [
+    ("G42\nG01 X30. ,R5.\nY40.", True),
+    ("G01 X10.\nG42 D1\nM8\nX30. ,R5.\nY40.", True),
+    ("G42 D1\nG01 Z-5. F100.\nX30. ,R5.\nY40.", True),
+    ("G42\nG01 X10.\nX30.\nG40\nY40. ,R5.\nX60.", True),
+    ("G42\nG01 X10.\nX20.\nX30.\nG40\nX40. ,R5.\nY40.", True),
+    ("G42\nG01 X10.\nG41\nX30. ,R5.\nY40.", True),
+    ("G42\nM98 P7\nG00 X0 Y0\nG01 X30. ,R5.\nY40.\nM30\nO7\nG01 X5.\nM99", False),
+    ("G42\nG01 X10.\nG42\nX30. ,R5.\nY40.", False),
+    ("G42\nG01 X10.\nX20.\nX25.\nX30. ,R5.\nY40.", False),
+    ("G40 G80\nG01 X30. ,R5.\nY40.", False),
+    ("G42\nG01 X10.\nX30. ,R5.\nY40. ,R5.\nX60. ,R5.\nY80.\nG40\nX90.", False),
+]
+"""Behind a rapid to X0 Y0 of a mill: whether a corner stands in the first move since the compensation was switched."""
+
+
+@pytest.mark.parametrize(("text", "is_told"), START_UPS)
+def test_no_corner_stands_in_the_first_move_behind_a_switch_of_the_compensation(text, is_told):
+    found = [each.code for each in errors(solve(f"G17 G90 G00 X0 Y0\n{text}", control=MILL))]
+    assert found == ["fanuc-corner-start-up"] * is_told
+
+
 # Random contours --------------------------------------------------------------------------------------------
 
 MACHINES = {

@@ -41,13 +41,15 @@ from contoursolve.controls.fanuc.lexicon import (
 from contoursolve.controls.plain import LATHE
 from contoursolve.diagnostics import Book, Evidence, Source
 from contoursolve.geometry import CornerShape
-from contoursolve.reading import Modes, Sample, Setting, State, all_of, some
+from contoursolve.reading import Mode, Modes, Sample, Setting, State, all_of, some
 
 GUARD = Decimal(1)
 """Degrees: the angles within which a control computes no vertex and makes no corner."""
 
 WRONG_PLANE, UNGUARDED = "@wrong-plane", "@unguarded"
 STRICT_ANGLE, COMPENSATION_CHANGES = "@strict-angle", "@compensation-changes"
+COMPENSATION_CHANGED = "@compensation-changed"
+"""G40, G41 or G42 stands in a block before, and this is the first move since."""
 SUPPLEMENTARY, ALONG_ARC = "@supplementary", "@along-arc"
 STRAIGHT_ONLY = "@straight-only"
 """Corners stand between lines alone."""
@@ -170,11 +172,14 @@ def _refuses(modes: Modes) -> bool:
 
 def _circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
     is_first = len(states) == 2  # noqa: PLR2004 - no block of the contour is before it
+    moved_with = member.before.moved_with if is_first else states[-2].compensation
     is_entered = is_first or not _is_wrong_plane(member.before)
     holds = {
         WRONG_PLANE: is_entered and _is_wrong_plane(member.here),
         UNGUARDED: not _guarded(modes),
         COMPENSATION_CHANGES: member.before.compensation != member.here.compensation,
+        COMPENSATION_CHANGED: moved_with != member.before.compensation == member.here.compensation
+        and Mode.COMPENSATION not in member.here.doubts,
     }
     return (name for name, is_true in holds.items() if is_true)
 

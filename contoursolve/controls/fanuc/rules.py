@@ -20,6 +20,7 @@ from contoursolve.controls.chain.language import (
 from contoursolve.controls.chain.rules import ExampleWords, Manual, chain_rules
 from contoursolve.controls.fanuc.language import (
     ALONG_ARC,
+    COMPENSATION_CHANGED,
     COMPENSATION_CHANGES,
     GUARD,
     STRAIGHT_ONLY,
@@ -228,6 +229,29 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
         alarm=machine.alarm(_NOT_SQUARE, Evidence.DERIVED),
     )
     return (*own_rows, sign)
+
+
+def _start_up(machine: _Machine) -> Rule:
+    """The row about a corner in the first move behind a block with G40, G41 or G42 alone."""
+    switched = machine.cut.replace("G01", "G42\nG01")
+    short = machine.line.replace("20.", "5.").replace("30.", "5.")
+    return Rule(
+        code=f"{machine.prefix}-corner-start-up",
+        message="{words}: this is the first move since G40, G41 or G42, and the move that switches takes no corner",
+        help="put a move without a corner between them",
+        source=machine.source(
+            "alarm 039 is printed; that the next move starts or ends it is recalled", Evidence.ASSUMED
+        ),
+        alarm=machine.alarm("039 CHF/CNR NOT ALLOWED IN NRC", Evidence.ASSUMED),
+        roles=_ANY,
+        when=some(*_CORNERS) & some(COMPENSATION_CHANGED),
+        accepted=(machine.cut, switched.replace("G01 ", f"G01 {short}\n")),
+        rejected=(
+            switched,
+            switched.replace("G42", "G42\nM8"),
+            switched.replace("G00", "G42 G00").replace("\nG42", "\nG40"),
+        ),
+    )
 
 
 _ALONG_ARC = (
@@ -526,6 +550,7 @@ def _lathe_examples(machine: _Machine) -> dict[str, tuple[str, str]]:
 
 FANUC_LATHE_RULES = (
     *_corner_rules(_FANUC_LATHE),
+    _start_up(_FANUC_LATHE),
     *_square_rules(_FANUC_LATHE, "I5.", "K5.", "X40."),
     _straight_only(_FANUC_LATHE),
     *_angle_rules(_FANUC_LATHE),
@@ -536,6 +561,7 @@ FANUC_LATHE_RULES = (
 )
 FANUC_MILL_RULES = (
     *_corner_rules(_FANUC_MILL),
+    _start_up(_FANUC_MILL),
     *_square_rules(_FANUC_MILL, "J5.", "I5.", "Y40."),
     *_mill_rules(_FANUC_MILL),
     *_shared_rules(_FANUC_MILL),
