@@ -79,18 +79,24 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     return builder.build(
         form,
         _begins(before, members[0]),
-        last,
+        replace(last, plane=replace(last.plane, diameters=_counted(members))),
         words=known,
         unknown=tuple(word for word in unknown if word not in unread),
         unread=tuple(dict.fromkeys((*unread, *filter(None, (member.unread for member in members))))),
         choices=tuple(_choices(language, elements, names, known, modes)),
         selectors=tuple(_selectors(language, elements, names, known, modes)),
-        selected=language.planes.get(last.plane.code),
+        selected=language.planes.get(last.plane.code, last.plane),
         conventions=tuple({each.setting.name: each for each in conventions}.values()),
         makes=_makes(form, members) if len(builder.blocks) > len(members) else (),
         lasting=frozenset(name for name in known if name.partition(":")[2] in language.corner.stays),
         doubts={mode: why for member in members for mode, why in member.here.doubts.items()},
     )
+
+
+def _counted(members: Sequence[Member]) -> tuple[bool, bool]:
+    """The axes of the plane that count diameters: X does where it does in one of the blocks."""
+    first, second = (any(axis) for axis in zip(*(member.here.plane.diameters for member in members), strict=True))
+    return first, second
 
 
 def _begins(before: State, member: Member) -> State:
@@ -334,7 +340,10 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         OTHER_PLANE: replace(plane, diameters=first.plane.diameters) != first.plane,
         OTHER_ZERO: member.here.axes is not first.axes
         and any(member.here.axes[axis] is not first.axes[axis] for axis in first.plane.axes),
-        OTHER_DIAMETER: plane.code == first.plane.code and plane.diameters != first.plane.diameters,
+        OTHER_DIAMETER: plane.code == first.plane.code
+        and plane.diameters != first.plane.diameters
+        # One command may tell diameters in absolute coordinates from radii in increments.
+        and member.here.diameter is not first.diameter,
         RAPID: member.here.motion == 0,
         THREAD: member.here.motion in language.order.threads,
         FOLLOWED: member.element.is_followed,

@@ -90,6 +90,10 @@ _RIGHT = {
         "{start}G1 X40 RND=6\nG2 X60 Y20 CR=20",
         "G18 DIAMOF G90 G0 X0 Z0\nG1 X40 RND=6\nG2 X60 Z-20 I20 K0",
     ),
+    "siemens-diameter-changes": (
+        "G18 DIAM90 G90 G0 X20 Z0\nG1 Z-10\nG91 X5 RND=1\nG90 Z-30 RND=1\nX40",
+        "G18 DIAM90 G90 G0 X20 Z0\nG1 Z-10\nX=DAC(30) RND=1\nZ-30 RND=1\nX=RIC(5)",
+    ),
     "siemens-closing-increment": (
         "{start}G1 X=AC(30) Y=AC(0) RND=5\nX=IC(10) Y=IC(40)",
         "G18 DIAMON G90 G0 X0 Z0\nG1 Z=AC(-30) RND=5\nX=AC(40) Z=IC(-10)",

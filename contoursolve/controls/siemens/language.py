@@ -124,7 +124,8 @@ _START = "G17 G90 G0 X0 Y0"
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
     allowed=frozenset({*"NGFSTMDHXYZIJK", "ANG", "RND", "CHR", "CHF", "CR", "RNDM", "FRC", "FRCM"})
-    | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")},
+    | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")}
+    | {f"X={way}" for way in ("DAC", "DIC", "RAC", "RIC")},
     meeting=BlockMeeting(joining=Joining.OPEN, closes_by_steps=True),
     angle=AngleWords(address="ANG", sense=SENSE),
     names={MODES.radius: "R"},
