@@ -255,7 +255,8 @@ def examine(
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
-    explained = spans_of(notebook.findings)
+    left_out = (claim.words.get(offence.ignored) for offence in ignoring)
+    explained = spans_of(notebook.findings) | {word.span for word in left_out if word is not None}
     # What rules refuse of a chain is not solved without a word either.
     is_doubtful = any(claim.open_modes())
     is_refused = bool(claim.unread) or (claim.form.is_general and (is_doubtful or Status.REJECTED in notebook.statuses))

@@ -13,6 +13,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import (
+    LEAST_SHOWN,
     NUMBERS,
     angle_text,
     by_line,
@@ -263,7 +264,14 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
     expected = values.get("expected")
     comparison = "; they leave it no value to have"
     label = ""
-    if expected is not None:
+    given = profile.givens.get(offence.ignored)
+    if expected is not None and given is not None and given.unit is Unit.MM:
+        text = length_text(expected if abs(expected) > LEAST_SHOWN else 0.0, context.unit)
+        is_same = values["off_by_mm"] <= fact.allowance(at, increments_of(profile))
+        away = f"; they make it {text}, {length_text(values['off_by_mm'], context.unit)} away"
+        comparison = "; it agrees with them" if is_same else away
+        label = f"ignored; the path has {text}"
+    elif expected is not None:
         comparison = _compared(values, fact.allowance(at, increments_of(profile)), context.unit)
         label = f"ignored; the line runs at {angle_text(expected)}"
     return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)

@@ -126,6 +126,32 @@ def test_under_diam90_coordinates_and_increments_make_one_contour_and_a_word_may
     assert path(meant.replace("DIAM90", "DIAMON").replace("X5 ", "X10 ").replace("X5\n", "X10\n")) == path(plain)
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["G0 X30 {}=5\nY40\nG1 X60", "G1 X30 {}=5\nG0 Y40", "G0 X30 {}=5\nG1 Y40", "G0 X30 {}=5\nM8\nG0 Y40"],
+)
+@pytest.mark.parametrize("word", ["RND", "CHR", "CHF"])
+def test_the_808d_makes_corners_beside_rapids_and_larger_ones_where_that_is_set(text, word):
+    text = MILL + text.format(word)
+    made, plain = path(text, CONTROLS[1]), path(text.replace("G0 X30", "G1 X30").replace("G0 Y40", "G1 Y40"))
+    assert made[:3] == plain[:3]
+    assert path(text, rapid_corner="made") == made
+    assert siemens(text).has_errors
+    assert siemens(text, CONTROLS[1], rapid_corner="error").diagnostics
+
+
+@pytest.mark.parametrize("behind", ["M30", "M8\n" * 4 + "Y40", "G18\nX40 Z40"])
+@pytest.mark.parametrize("word", ["RND", "CHR", "CHF"])
+def test_the_808d_leaves_out_a_corner_without_a_second_move(word, behind):
+    text = f"{MILL}G1 X10\nX30 {word}=5\n{behind}"
+    result = siemens(text, CONTROLS[1])
+    assert [each.code for each in result.diagnostics] == [f"siemens-{word.lower()}-left-out"]
+    (answer,) = result.answers
+    assert [(each.kind, each.end) for each in path_of(answer)] == [("line", 30 + 0j)]
+    for refusing in (siemens(text), siemens(text, CONTROLS[1], no_second_move="error")):
+        assert refusing.has_errors
+
+
 # Settings -----------------------------------------------------------------------------------------------------------
 
 

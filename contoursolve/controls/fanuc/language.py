@@ -11,6 +11,7 @@ from contoursolve.controls.chain import (
     CLOSING_LINE,
     OPEN_LINE,
     AngleWords,
+    ArcWords,
     BlockMeeting,
     BlockOrder,
     CornerWords,
@@ -78,11 +79,14 @@ def _guard(manual: Book) -> Setting:
 
 
 REDUNDANT_ANGLE = redundant_angle_setting(DRAWING.assumed("not described"), "check")
-ARCS = setting(
-    "arcs",
-    "corners beside arcs",
-    {"off": "corners stand between lines alone", "on": "corners stand beside arcs, too"},
-    HAAS.assumed("some releases have them"),
+GENERATION = setting(
+    "generation",
+    "which generation of the control it is",
+    {
+        "NGC": "Next Generation: corners stand between lines alone",
+        "classic": "classic control: corners stand beside arcs, too",
+    },
+    HAAS.printed("mill NGC (2017) p. 250; classic mill, G02 and G03"),
 )
 
 _SETBACK, _FILLET = CornerShape.CHAMFER_SETBACK, CornerShape.FILLET
@@ -145,7 +149,7 @@ HAAS_LATHE_SETTINGS = (
     *(HAAS_NUMBER, angle_sense_setting(HAAS.assumed("not described")), HAAS_GUARD, _guard_corner(HAAS)),
     _HAAS_ARGUMENTS,
 )
-HAAS_MILL_SETTINGS = (HAAS_NUMBER, HAAS_GUARD, _guard_corner(HAAS), ARCS, _HAAS_ARGUMENTS)
+HAAS_MILL_SETTINGS = (HAAS_NUMBER, HAAS_GUARD, _guard_corner(HAAS), GENERATION, _HAAS_ARGUMENTS)
 
 _CORNERED = some(",C", ",R", "corner-first", "corner-second", "corner-R", "corner-C")
 
@@ -251,6 +255,7 @@ FANUC_MILL_LANGUAGE = Language(
         ),
     ),
     corner=CornerWords(guard=_guard_sine, refuses=_refuses, signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK}),
+    arc=ArcWords(radius_wins=True),
     order=BlockOrder(threads=frozenset({33}), passes=frozenset({4})),
 )
 
@@ -258,7 +263,7 @@ HAAS_LATHE_LANGUAGE = replace_fields(
     FANUC_LATHE_LANGUAGE,
     lexicon=HAAS_LATHE_WORDS,
     angle=replace_fields(FANUC_LATHE_LANGUAGE.angle, address="A"),
-    allowed=FANUC_LATHE_LANGUAGE.allowed - {",A"} | {"A"},
+    allowed=FANUC_LATHE_LANGUAGE.allowed - {",A"} | {"A", "Y", "V"},
     samples={
         (A_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
         (A_LINE, A_LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {A95.7}")),
@@ -270,10 +275,11 @@ HAAS_MILL_LANGUAGE = replace_fields(
     lexicon=HAAS_MILL_WORDS,
     basis=replace_fields(
         FANUC_MILL_LANGUAGE.basis,
-        where_set={STRAIGHT_ONLY: (ARCS, "off")},
+        where_set={STRAIGHT_ONLY: (GENERATION, "NGC")},
         premises=_premises(
-            HAAS_NUMBER, HAAS_GUARD, Premise(ARCS, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)
+            HAAS_NUMBER, HAAS_GUARD, Premise(GENERATION, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)
         ),
     ),
     corner=replace_fields(FANUC_MILL_LANGUAGE.corner, signed={}),
+    arc=ArcWords(),
 )

@@ -287,7 +287,7 @@ def _referred(chain: ChainBlocks, number: int) -> Iterator[tuple[str, int | str]
         refers_to_line = name in REFERRING_TO_LINES and not (name == "RAN" and other == place)
         if other == TWICE:
             yield name, TWO_BLOCKS
-        elif other is None or other > place or (name in REFERRING_TO_LINES and not other):
+        elif other is None or other > place or (name in ("PAR", *REFERRING_TO_LINES) and not other):
             yield name, NO_BLOCK
         elif refers_to_line and chain.members[other - 1].function not in STRAIGHT:
             yield name, NO_LINE

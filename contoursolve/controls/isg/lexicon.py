@@ -31,6 +31,10 @@ from contoursolve.reading import (
 BOOK = Book("ISG kernel, programming manual")
 
 
+UNCORRECTED, CORRECTED = 164, 165
+"""G164 and G165: whether the control moves the centre of an arc that does not agree with its ends."""
+CENTERS = "G164"
+"""The name of what stays in force where it does not."""
 CHAMFER, ROUNDING = 301, 302
 """G301 and G302: corners in blocks of their own."""
 
@@ -130,11 +134,16 @@ def _words() -> Lexicon:
 
 
 def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
-    """The size of the last G301 or G302 stays in force for the next one; and an angle, where that is set."""
+    """The size of the last G301 or G302 stays in force for the next one; an angle, where that is set; and G164."""
     angle, size = block.find("#ANG"), block.find("I")
     is_corner = any(word.address == "G" and word.number in (CHAMFER, ROUNDING) for word in block.words)
     kept = {"I": size} if is_corner and size is not None else {}
     kept |= {"#ANG": angle} if angle is not None else {}
+    for word in block.words:
+        if word.address == "G" and word.number == UNCORRECTED:
+            kept[CENTERS] = word
+        elif word.address == "G" and word.number == CORRECTED:
+            memory = {name: each for name, each in memory.items() if name != CENTERS}
     mark = _LINES_OF_COMMENT.match(block.text)
     if mark is not None and mark["begins"]:
         kept[COMMENTED] = Word(COMMENTED, None, False, mark[0].strip(), block.span)
