@@ -17,6 +17,7 @@ from contoursolve.diagnosis.edits import (
     apply_edits,
     edit_facts,
     edited,
+    read_edited,
 )
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import MOST_OPEN, numbers_for, propose, sampled
@@ -334,7 +335,7 @@ class Trial(Struct, frozen=True, dict=True):
             again
             for text, block, same in zip(texts, claim.blocks, self._blocks, strict=True)
             if text or not block.text
-            for again in ([same] if text == block.text else self._read(text, block.line))
+            for again in ([same] if text == block.text else self._read(block, text))
         ]
         ahead, blocks, behind = _parted(read, edits)
         if not blocks:
@@ -359,11 +360,10 @@ class Trial(Struct, frozen=True, dict=True):
     @cached_property
     def _blocks(self) -> list[Block]:
         """The blocks as they are, each by itself."""
-        return [block for each in self.claim.blocks for block in self._read(each.text, each.line)]
+        return [block for each in self.claim.blocks for block in self._read(each, each.text)]
 
-    def _read(self, text: str, line: int) -> list[Block]:
-        """The blocks that a text in place of a block makes, which may have several lines."""
-        return [parse_block(part, line, self.dialect.modes.syntax) for part in text.split("\n")]
+    def _read(self, block: Block, text: str) -> list[Block]:
+        return read_edited(block, text, self.dialect.modes.syntax)
 
     def _example(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
         """The edits with a number for every placeholder that makes a contour; as they are where further facts determine

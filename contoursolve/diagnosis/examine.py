@@ -255,7 +255,8 @@ def examine(
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
-    explained = spans_of(notebook.findings)
+    left_out = (claim.words.get(offence.ignored) for offence in ignoring)
+    explained = spans_of(notebook.findings) | {word.span for word in left_out if word is not None}
     # What rules refuse of a chain is not solved without a word either.
     is_doubtful = any(claim.open_modes())
     is_refused = bool(claim.unread) or (claim.form.is_general and (is_doubtful or Status.REJECTED in notebook.statuses))
@@ -582,6 +583,13 @@ def _solve(
     placed = _without_cuts(context, profile, claim, settlement.loose or open_, notebook) if is_cut else profile
     if placed is not profile:
         profile, settlement = placed, settle(placed, is_blaming=depth is not Depth.TRIAL)
+    elif is_cut and settlement.singular:
+        from contoursolve.solving import said_twice  # noqa: PLC0415 - few blocks contradict themselves beside a cut
+
+        # Where a circle is cut in two, its point has no place of its own; what contradicts itself beside it is wrong.
+        against = tuple(each for each in said_twice(profile) if isinstance(each, Refusal))
+        if against:
+            return profile, Solution(Status.CONFLICTING, refusals=against), None
     if settlement.singular and Status.REJECTED not in notebook.statuses:
         finding = explain_singular(context, settlement.singular, settlement.loose, profile)
         notebook.add(finding, Status.UNDERDETERMINED)

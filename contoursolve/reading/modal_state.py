@@ -168,6 +168,8 @@ class State(Struct, frozen=True):
     is_incremental: bool
     compensation: int
     """40, 41 or 42."""
+    moved_with: int = 40
+    """The compensation of the last move in the plane: another one than is in force where G40, G41 or G42 came since."""
     diameter: Diameter | None = None
     """The words of X that are diameters; None: as the tables of the control say, and no code switches it."""
     memory: Mapping[str, Word] = {}
@@ -189,6 +191,10 @@ class State(Struct, frozen=True):
         """The state with other positions on some axes."""
         return replace(self, axes={**self.axes, **changes}) if changes else self
 
+    def cut(self) -> "State":
+        """The state behind a move in the plane: the compensation in force has been started, changed or ended."""
+        return self if self.moved_with == self.compensation else replace(self, moved_with=self.compensation)
+
     def settle(self, *modes: "Mode | str") -> "State":
         """The state in which some modes are known, whatever they were."""
         if self.doubts.keys().isdisjoint(modes):
@@ -209,7 +215,7 @@ class State(Struct, frozen=True):
         words = tuple((name, word.text) for name, word in self.memory.items())
         plane, doubts = (self.plane.code, self.plane.axes, self.plane.diameters), tuple(self.doubts.items())
         modes = self.motion, plane, self.unit, self.is_incremental, self.compensation, self.diameter
-        return places, modes, words, doubts, tuple(self.zero.items())
+        return places, modes, self.moved_with, words, doubts, tuple(self.zero.items())
 
     def in_force(self) -> "dict[Mode, object]":
         """The modes in force, without whether they are known."""
@@ -512,7 +518,7 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         is_alone = axes and (effect is not Effect.SINGLE or is_along_axes(state.zero, modes.zero.first))
         return state.lose(axes if is_alone else modes.axes, reason, block.span)
     if words:
-        state = state.move(positions(state, words, modes, block.is_skippable))
+        state = _moved(state, words, block, modes)
     preset = next((code for code in rows_of(block, modes) if code.effect is Effect.PRESET), None)
     if preset is not None and state.is_incremental:
         rows = (modes.lexicon.addresses[word.address] for word in words)
@@ -520,6 +526,13 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         state = state.lose(open_axes, f"what {preset.text} sets where increments are in force is not known", block.span)
     state = _lose_ends(state, block, modes)
     return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
+
+
+def _moved(state: State, words: list[Word], block: Block, modes: Modes) -> State:
+    """The state behind the motion of a block with these axis words."""
+    is_in_plane = any(_axis(word, modes) in state.plane.axes for word in words)
+    state = state.move(positions(state, words, modes, block.is_skippable))
+    return state.cut() if is_in_plane else state
 
 
 def _lose_ends(state: State, block: Block, modes: Modes) -> State:
@@ -677,6 +690,7 @@ def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
     if modes.syntax.plain.parts is not None:
         return _advance_by_parts(state, passage, modes, modes.syntax.plain.parts)
     axes, motion, lines = dict[str, Position](), None, passage.lines
+    state = state.cut()
     text = passage.text.upper()
     programmed = [axis for axis in modes.axes if axis in text]
     # Increments are not in force where lines are plain: no place follows from the one before.

@@ -318,7 +318,7 @@ def leave(
     Where it has no end, for this reason, whose `cause` may lie in a line before it, what its words say of the end is
     still known.
     """
-    state, last, axes = claim.left, claim.blocks[-1], claim.after.plane.axes
+    state, last, axes = claim.left.cut(), claim.blocks[-1], claim.after.plane.axes
     before = claim.before.axes
     is_skippable = any(block.is_skippable for block in claim.blocks) or any(before[axis].is_skippable for axis in axes)
     if end is not None:

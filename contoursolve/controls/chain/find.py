@@ -83,9 +83,10 @@ class ChainFinder:
                 break
             before, here = here, self._apply(here, blocks[following], modes)
             is_over = self._begins_in_intersection(last, blocks[following], here)
-            is_cut = here.motion in self._cutting and self._moves(blocks[following], here)
+            is_cut = self._may_follow_corner(last, here, modes) and self._moves(blocks[following], here)
             is_smooth = here.motion == self.language.arc.tangent and last.here.motion in self._cutting
-            if not is_over and not is_smooth and not (self._makes_corner(last) and is_cut):
+            is_joined = is_smooth or (self._makes_corner(last) and is_cut)
+            if not is_over and (self._ends_behind(last, here, modes) or not is_joined):
                 break
             if is_over:
                 members[-1] = replace(last, element=replace(last.element, is_followed=True))
@@ -151,7 +152,22 @@ class ChainFinder:
         return last, following
 
     def _runs_in_rapid(self, members: Sequence[Member]) -> bool:
-        return self.language.order.runs_in_rapid and members[-1].here.motion == 0
+        may_run = self.language.order.runs_in_rapid or self.language.corner.codes_in_rapid
+        return may_run and members[-1].here.motion == 0
+
+    def _ends_behind(self, last: Member, here: State, modes: Modes) -> bool:
+        """Whether nothing joins a block to the next one: a rapid without a corner, or a corner that is left out, as
+        another plane is selected behind it."""
+        is_rapid = last.here.motion == 0 and not self.language.order.runs_in_rapid
+        is_left = self.language.corner.leaves_out(modes) and here.plane.code != last.here.plane.code
+        return (is_rapid and last.corner is None) or is_left
+
+    def _may_follow_corner(self, last: Member, here: State, modes: Modes) -> bool:
+        """Whether a motion may follow the corner of a block."""
+        corner = self.language.corner
+        may_be_rapid = last.corner is not None and corner.codes_in_rapid
+        may_be_rapid = may_be_rapid or (self._has_corner(last) and corner.words_in_rapid(modes))
+        return here.motion in self._cutting or (here.motion == 0 and may_be_rapid)
 
     def _bend(self, members: Sequence[Member], state: State, modes: Modes) -> Element:
         """The last block's element: an arc that begins in the direction of what is before it turns to the side on which

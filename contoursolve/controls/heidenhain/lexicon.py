@@ -305,7 +305,12 @@ def rows_of(
         ),
         *((free, Unit.MM, f"PD{axis}", f"{axis} of a point beside the element") for axis in words.axes),
         (free, Unit.MM, "D", "distance of that point from the element"),
-        (free, Unit.SIGN, "PAR", "block of the line to which it is parallel"),
+        (
+            free,
+            Unit.SIGN,
+            "PAR",
+            "block of the line, or of the arc where it begins, to which it is parallel",
+        ),
         (free, Unit.MM, "DP", "distance from that line"),
         *((free, Unit.SIGN, f"R{name}", f"block from which I{name} counts") for name in words.referred),
         *((free, Unit.SIGN, name, "begins in the direction of the element before it") for name in TANGENT),
@@ -322,8 +327,8 @@ def rows_of(
     return named
 
 
-REFERRING_TO_LINES = ("PAR", "RAN")
-"""Words that name a line: no page tells which direction of an arc they would mean."""
+REFERRING_TO_LINES = ("RAN",)
+"""The word that names a line: no page tells which direction of an arc it would mean."""
 
 _BESIDE = (
     ("N", "number of a block", Bearing.NONE),

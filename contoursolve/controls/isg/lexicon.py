@@ -33,6 +33,8 @@ from contoursolve.reading import (
 BOOK = Book("ISG kernel, programming manual")
 
 
+CENTERS = "G164"
+"""The name of what is in force where the control does not move the centre of an arc that disagrees with its ends."""
 CHAMFER, ROUNDING = 301, 302
 """G301 and G302: corners in blocks of their own."""
 
@@ -132,7 +134,7 @@ def _words() -> Lexicon:
 
 
 def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
-    """The size of the last G301 or G302 stays in force for the next one; and an angle, where that is set."""
+    """The size of the last G301 or G302 stays in force for the next one; an angle, where that is set; and G164."""
     angle, size = block.find("#ANG"), block.find("I")
     is_corner = any(word.address == "G" and word.number in (CHAMFER, ROUNDING) for word in block.words)
     kept = {"I": size} if is_corner and size is not None else {}
