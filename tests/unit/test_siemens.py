@@ -136,7 +136,7 @@ def test_the_808d_leaves_out_a_corner_without_a_second_move(word, behind):
     result = siemens(text, CONTROLS[1])
     assert [each.code for each in result.diagnostics] == [f"siemens-{word.lower()}-left-out"]
     (answer,) = result.answers
-    assert [(each.kind, each.end) for each in elements_of(answer.contour)] == [("line", 30 + 0j)]
+    assert [(each.kind, each.end) for each in elements_of(answer)] == [("line", 30 + 0j)]
     for refusing in (siemens(text), siemens(text, CONTROLS[1], no_second_move="error")):
         assert refusing.has_errors
 
