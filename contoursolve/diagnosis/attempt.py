@@ -103,13 +103,15 @@ class Repairs(Struct, frozen=True):
 
     `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried, `has_tried_all`
     that so was all that was thought of;
-    `tried` are the words that were tried to be added, by address and line.
+    `tried` are the words that were tried to be added, by address and line; `is_cut` tells that the search ended before
+    all that it thought of was tried.
     """
 
     repairs: tuple[Repair, ...]
     is_complete: bool
     has_tried_all: bool = False
     tried: frozenset[tuple[str, int]] = frozenset()
+    is_cut: bool = False
 
 
 class Trial(Struct, frozen=True, dict=True):

@@ -164,6 +164,8 @@ class Answer(Shown, Struct, frozen=True):
     """The block with them filled in, where it then stands alone."""
     calls: tuple[int, ...] = ()
     """The lines of the blocks that call it, if it belongs to a subprogram."""
+    mended: Answer | None = None
+    """The answer with slips that are certain mended in thought, where something else is wrong as well."""
 
     @property
     def system(self) -> EquationSystem:

@@ -489,16 +489,24 @@ def _respelled(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
         yield from ((edit,) for edit in edits)
         if len(edits) > 1:
             yield edits
-        has_marks = any(address.startswith("#") for address in window.dialect.modes.lexicon.addresses)
-        for pattern, new in _RESPELLED if has_marks else [each for each in _RESPELLED if "#" not in each[1]]:
+        yield from ((edit,) for edit in rewritten(window, [block]))
+
+
+def rewritten(window: Window, blocks: Iterable[Block]) -> Iterator[Edit]:
+    """Text that is almost a word, as the word: with a comma, a point or an equals sign more or less."""
+    addresses = window.dialect.modes.lexicon.addresses
+    has_marks = any(address.startswith("#") for address in addresses)
+    patterns = _RESPELLED if has_marks else [each for each in _RESPELLED if "#" not in each[1]]
+    for block in blocks:
+        for pattern, new in patterns:
             for match in pattern.finditer(block.text):
                 begin = block.text.rfind(" ", 0, match.start()) + 1
                 end = (block.text + " ").find(" ", match.end())
                 old = block.text[begin:end]
                 text = block.text[begin : match.start()] + match.expand(new) + block.text[match.end() : end]
-                is_known = "=" not in new or text.partition("=")[0].upper() in window.dialect.modes.lexicon.addresses
+                is_known = "=" not in new or text.partition("=")[0].upper() in addresses
                 if text != old and is_known:
-                    yield (Edit(EditKind.CHANGE, "", Span(block.line, begin + 1, end + 1), old, text),)
+                    yield Edit(EditKind.CHANGE, "", Span(block.line, begin + 1, end + 1), old, text)
 
 
 _RESPELLED = (

@@ -187,6 +187,8 @@ class Queue:
         ends where the contour says, as far as the state behind it knows that."""
         if answer.contour is not None:
             return answer.contour.end
+        if answer.mended is not None:
+            return self._end_of_fix(answer.mended, state)
         if not answer.start.is_known:
             return None
         errors = (each for each in answer.diagnostics if each.is_error)

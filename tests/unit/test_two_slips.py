@@ -1,0 +1,54 @@
+"""Two slips at once: each has its finding and its fix, and the fixes apply one after the other."""
+
+import pytest
+
+import contoursolve
+from contoursolve.program import changed
+
+TURNED = "G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60."
+PLATE = "N10 G17 G90|N20 G0 X0 Y0|N30 G41 G1 X60 ,R8 F200|N40 Y40 ,C5|N50 X30 ,R8|N60 X0 Y0"
+
+
+def one_after_the_other(control: str, lines: list[str]) -> list[str]:
+    """A program with the first fix of its first error or warning, and so on until nothing is left or has a fix."""
+    for _ in range(4):
+        result = contoursolve.solve("\n".join(lines), control=control)
+        found = [(each, fix) for each in result.diagnostics for fix in each.fixes[:1]]
+        if not found:
+            break
+        finding, fix = found[0]
+        old = dict(enumerate(lines, 1))
+        changes = contoursolve.changes_of(fix, result.lines_of(finding), old)
+        lines = changed("\n".join(lines), changes).split("\n")
+    return lines
+
+
+CASES = {
+    "letter": ("fanuc-lathe", TURNED, {"X50.": "X5O.", ",R3.": ",R30."}),
+    "comma": ("fanuc-lathe", TURNED, {",C1.": "C1.", ",R3.": ",R30."}),
+    "two commas": ("fanuc-lathe", TURNED, {",C1.": ",,C1.", ",R3.": ",R30."}),
+    "comma for point": ("fanuc-lathe", TURNED, {",C1.": ",C1,", ",R3.": ",R30."}),
+    "mill": ("nct-99m", PLATE, {"Y40": "Y4O", "X30 ,R8": "X30 ,R88"}),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_two_slips_have_a_finding_and_a_fix_each(name):
+    control, right, slips = CASES[name]
+    text = right
+    for meant, typed in slips.items():
+        text = text.replace(meant, typed, 1)
+    result = contoursolve.solve(text.replace("|", "\n"), control=control)
+    errors = [each for each in result.diagnostics if each.is_error]
+    assert len(errors) == len(slips)
+    for each in errors:
+        # A finding points at what is typed, and its fix changes that line alone.
+        span = each.labels[0].span
+        assert any(span_text(text, span) in typed for typed in slips.values())
+        new = each.fixes[0].by_line(result.lines_of(each))
+        assert [line for line in new if new[line] != text.split("|")[line - 1]] == [span.line]
+    assert "|".join(one_after_the_other(control, text.split("|"))) == right
+
+
+def span_text(text: str, span: tuple[int, int, int]) -> str:
+    return text.split("|")[span[0] - 1][span[1] - 1 : span[2] - 1]
