@@ -264,7 +264,7 @@ class Trial(Struct, frozen=True, dict=True):
         where one of them is not sound, or more than lines and contours is left."""
         claim, dialect = self.claim, self.dialect
         blocks = [
-            parse_block(text, block.line, block.syntax)
+            parse_block(text, block.line, block.syntax).with_points(block.pointed)
             for text, block in zip(apply_edits(claim.blocks, edits), claim.blocks, strict=True)
         ]
         state, index, elements = claim.before, 0, list[Segment]()
@@ -336,7 +336,7 @@ class Trial(Struct, frozen=True, dict=True):
             again
             for text, block, same in zip(texts, claim.blocks, self._blocks, strict=True)
             if text or not block.text
-            for again in ([same] if text == block.text else self._read(text, block.line))
+            for again in ([same] if text == block.text else self._read(text, block))
         ]
         ahead, blocks, behind = _parted(read, edits)
         if not blocks:
@@ -361,11 +361,12 @@ class Trial(Struct, frozen=True, dict=True):
     @cached_property
     def _blocks(self) -> list[Block]:
         """The blocks as they are, each by itself."""
-        return [block for each in self.claim.blocks for block in self._read(each.text, each.line)]
+        return [block for each in self.claim.blocks for block in self._read(each.text, each)]
 
-    def _read(self, text: str, line: int) -> list[Block]:
+    def _read(self, text: str, block: Block) -> list[Block]:
         """The blocks that a text in place of a block makes, which may have several lines."""
-        return [parse_block(part, line, self.dialect.modes.syntax) for part in text.split("\n")]
+        read = (parse_block(part, block.line, self.dialect.modes.syntax) for part in text.split("\n"))
+        return [each.with_points(block.pointed) for each in read]
 
     def _example(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
         """The edits with a number for every placeholder that makes a contour; as they are where further facts determine

@@ -56,7 +56,8 @@ class MendedText(Struct, frozen=True):
         """The blocks with the changes made."""
         texts = zip(self.blocks, apply_edits(self.blocks, self.edits), strict=True)
         return tuple(
-            block if text == block.text else parse_block(text, block.line, block.syntax) for block, text in texts
+            block if text == block.text else parse_block(text, block.line, block.syntax).with_points(block.pointed)
+            for block, text in texts
         )
 
     def _changes(self, line: int) -> tuple[Substitution, ...]:

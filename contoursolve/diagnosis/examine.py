@@ -628,7 +628,9 @@ def _examine_system(
             yield Status.CONFLICTING, report(context, ReadIssue.CORNER_TWICE, Basis.STRUCTURAL, words, subject=name)
 
 
-def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:
-    """By line, the worst first, and what follows from lines before, or is missing, after what is wrong."""
+def rank(finding: Diagnostic) -> tuple[bool, int, int, bool, Span, str]:
+    """By line, the worst first, and what follows from lines before, or is missing, after what is wrong; first of all
+    points that are lost, on which everything behind rests."""
     follows = finding.about in (ReadIssue.POSITION_UNKNOWN, ReadIssue.UNDERDETERMINED)
-    return finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code
+    is_lost = finding.about is ReadIssue.POINT_LOST
+    return not is_lost, finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code

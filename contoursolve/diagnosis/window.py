@@ -132,7 +132,8 @@ class Window(Struct, frozen=True, dict=True):
             if text == block.text:
                 blocks.append(block)
             elif text.strip():
-                blocks += [parse_block(part, block.line, syntax) for part in text.split("\n")]
+                read = (parse_block(part, block.line, syntax) for part in text.split("\n"))
+                blocks += [each.with_points(block.pointed) for each in read]
                 apart = edit_facts([each for each in block.directives if each.span.line < 0], edits)
                 blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
         own, left = {*self.lines}, len(blocks)

@@ -52,3 +52,40 @@ def test_two_slips_have_a_finding_and_a_fix_each(name):
 
 def span_text(text: str, span: tuple[int, int, int]) -> str:
     return text.split("|")[span[0] - 1][span[1] - 1 : span[2] - 1]
+
+
+LOST = {
+    "before another contour": (
+        "G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X56. Z-80. ,R1.|Z-95.|X62.",
+        ("Z-75.", "Z-75"),
+    ),
+    "outside contours": ("G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60.|Z-105.|X72.", ("Z-105.", "Z-105")),
+    "beside another slip": ("G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60.", ("Z-75.", "Z-75")),
+}
+
+
+@pytest.mark.parametrize("name", LOST)
+def test_a_lost_point_is_the_first_error_and_nothing_else_is_blamed_for_it(name):
+    right, (meant, typed) = LOST[name]
+    text = right.replace(meant, typed)
+    result = contoursolve.solve(text.replace("|", "\n"), control="fanuc-lathe")
+    (finding,) = result.diagnostics
+    assert (finding.code, finding.is_error) == ("point-lost", True)
+    assert "|".join(one_after_the_other("fanuc-lathe", text.split("|"))) == right
+    both = text.replace(",R3.", ",R30.")
+    found = contoursolve.solve(both.replace("|", "\n"), control="fanuc-lathe").diagnostics
+    assert [each.code for each in found] == ["point-lost", "fanuc-corner-too-large"]
+    assert "|".join(one_after_the_other("fanuc-lathe", both.split("|"))) == right
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G00 X40. Z2.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60.|Z5",  # the path goes no farther than with the point
+        "G00 X40000 Z-48000|G01 Z-60000 ,R3000 F0.2|X50000 ,C1000|Z-75000|X60000|Z-750",  # nothing has a point
+        "G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60.|G04 X75",  # a dwell
+    ],
+)
+def test_a_number_without_a_point_that_may_be_meant_is_no_lost_one(text):
+    found = contoursolve.solve(text.replace("|", "\n"), control="fanuc-lathe").diagnostics
+    assert all(each.code != "point-lost" for each in found)
