@@ -89,3 +89,12 @@ def test_a_lost_point_is_the_first_error_and_nothing_else_is_blamed_for_it(name)
 def test_a_number_without_a_point_that_may_be_meant_is_no_lost_one(text):
     found = contoursolve.solve(text.replace("|", "\n"), control="fanuc-lathe").diagnostics
     assert all(each.code != "point-lost" for each in found)
+
+
+def test_a_fix_that_keeps_the_contour_does_not_hide_a_likelier_slip():
+    text = "G17 G90 G21 G00 X0. Y0.\nG01 X0. Y-18. ,C2. F300.\nX-7.5 Y-730.99\nX22.95 Y-760.24\nG00 Z50.\nM30\n"
+    (finding,) = contoursolve.solve(text, control="fanuc-mill").diagnostics
+    assert [each.applicability.value for each in finding.fixes[:2]] == ["changes-contour", "safe"]
+    assert contoursolve.apply_fixes(text, control="fanuc-mill").text == text
+    mended = contoursolve.apply_fixes(text, control="fanuc-mill", unsafe=True).text
+    assert mended == text.replace("Y-730.99", "Y-73.99")
