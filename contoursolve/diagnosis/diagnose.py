@@ -183,8 +183,7 @@ class _Diagnosed(Struct, frozen=True):
         fixing = dict[int, Sequence[Repair]]()
         if main is not None:
             for number in (main, *_both(findings)):
-                ordered = _corners_first(findings[number], repairs.repairs)
-                fixing[number] = _expected_first(findings[number], ordered, answer.claim)
+                fixing[number] = _expected_first(findings[number], repairs.repairs, answer.claim)
                 findings[number] = with_fixes(findings[number], answer, fixing[number])
             if repairs.is_cut and not repairs.repairs:
                 findings[main] = replace(
@@ -208,23 +207,6 @@ def _places_of_blocks(claim: ParsedContour, finding: Diagnostic) -> Iterator[str
         for name in (f"{kind} {number.number:f}" for kind in ("line", "arc")):
             if name in names and re.search(rf"(?<!program ){name}\b", told):
                 yield f"{name} is block {number.number:f}, in program line {block.line}"
-
-
-def _corners_first(finding: Diagnostic, repairs: tuple[Repair, ...]) -> tuple[Repair, ...]:
-    """Repairs; of a corner that does not fit, those first that change the marked corners alone and are nearly as
-    plausible as the best: other words would change the part around it."""
-    if not isinstance(finding.about, RefusalKind) or "fits" not in finding.about.event.needs or not repairs:
-        return repairs
-    marked, most = {finding.span, *(label.span for label in finding.labels)}, repairs[0].cost + _NEARLY
-
-    def is_theirs(repair: Repair) -> bool:
-        return repair.cost < most and all(edit.span in marked for edit in repair.edits)
-
-    return tuple(sorted(repairs, key=lambda each: not is_theirs(each)))
-
-
-_NEARLY = 1.0
-"""By so much less plausible they may be."""
 
 
 def _expected_first(finding: Diagnostic, repairs: tuple[Repair, ...], claim: ParsedContour) -> tuple[Repair, ...]:

@@ -56,8 +56,30 @@ def _side(edit: Edit) -> str:
 def fixes_of(answer: Answer, repairs: Sequence[Repair], typed: MendedText | None = None) -> tuple[Fix, ...]:
     """Repairs in words, each with the place where the contour then ends or turns; where several have the same place,
     with what is different. Those of a text that is mended in thought change the text as it is `typed`."""
+    repairs = _told(answer, repairs)
     outcomes = _outcomes(answer, repairs)
     return tuple(_fix(answer, repair, outcome, typed) for repair, outcome in zip(repairs, outcomes, strict=True))
+
+
+MOST_FIXES = 4
+"""Fixes of one finding that are told, beside the choices among solutions."""
+
+
+def _told(answer: Answer, repairs: Sequence[Repair]) -> list[Repair]:
+    """The repairs that are told: the first few, and all that only choose among the solutions. Of several that leave
+    open numbers which nobody knows, the finding says enough."""
+    unknown = [repair for repair in repairs if repair.numbers and not any(each.example for each in repair.numbers)]
+    if len(unknown) > 1 or any(repair.numbers for repair in repairs if repair not in unknown):
+        repairs = [repair for repair in repairs if repair not in unknown]
+    claim = answer.claim
+    choosing = {claim.vocabulary[name][0] for name in claim.form.choices if name in claim.vocabulary}
+    choosing.add(claim.form.free.picking)
+
+    def chooses(repair: Repair) -> bool:
+        return all(edit.address in choosing and edit.kind is not EditKind.DROP for edit in repair.edits)
+
+    first = [repair for repair in repairs if not chooses(repair)][:MOST_FIXES]
+    return [repair for repair in repairs if chooses(repair) or repair in first]
 
 
 def told(edits: Sequence[Edit], slips: Sequence[SlipKind | None], blocks: Sequence[Block]) -> str:
@@ -123,7 +145,7 @@ def _numbers(numbers: Sequence[OpenNumber]) -> str:
     """The numbers that may be written for open ones, in words."""
     known = [each for each in numbers if each.example]
     if not known:
-        return "no number was tried"
+        return "no number for it was found"
     if len(known) == 1:
         return f"such as {known[0].example}{_ranges(known[0], ', ')}"
     return f"such as {join([each.example + _ranges(each, ' (', ')') for each in known])}"

@@ -24,7 +24,6 @@ from contoursolve.diagnosis.plausibility import (
     ROUNDEST,
     Feature,
     coarseness,
-    cost_of,
     distance,
     familiarity,
     length_of,
@@ -101,7 +100,10 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     farthest = found[0].cost + _FARTHEST if found else 0.0
     found = [each for at, each in enumerate(found) if at < _ENOUGH or each.cost <= farthest or not any(each.slips)]
-    found = [styled(trial.with_numbers(each) if each.example else each, trial) for each in found]
+    found = [
+        styled(trial.with_numbers(each, may_try=at < _MOST_COUNTED) if each.example else each, trial)
+        for at, each in enumerate(found)
+    ]
     added = frozenset((edit.address, edit.line) for edits in tried for edit in edits if edit.kind is EditKind.ADD)
     is_cut = not (is_complete and are_all)
     return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added, is_cut=is_cut)
@@ -215,6 +217,9 @@ _MARGIN = 2.5
 _USUAL = 2.0
 """The cost of a usual path, where those that are known are odd."""
 
+_MOST_COUNTED = 8
+"""The first repairs, for which numbers are tried that cannot be computed."""
+
 _ENOUGH, _BEHIND, _PATH = 3, 1.0, 0.2
 """Repairs that are read, and by how much less plausible than the first one they may be; by so much another path may
 cost less than the least of those that are known."""
@@ -264,7 +269,7 @@ def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Tr
 def _weighed(repair: Repair, trial: Trial) -> Repair:
     """A repair with what is known of it without the blocks around it."""
     edits, marked = repair.edits, trial.marked
-    kinds = [cost_of(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True)]
+    kinds = [trial.price(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True)]
     # Corners that share an element which is too short for them do not fit for one reason.
     is_fitted = all(edit.why is Why.FITS for edit in edits) or all(trial.drops_corner(edit) for edit in edits)
     is_one = bool(edits) and is_fitted and not any(repair.slips)
