@@ -10,7 +10,7 @@ from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, ed
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.slips_around import rewritten, touches
-from contoursolve.diagnosis.spelling import meant_words, respelled
+from contoursolve.diagnosis.spelling import meant_words, respelled, torn_codes
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Diagnostic, Label, LineChange, Span
 from contoursolve.gcode import Block, Substitution, parse_block, typed_span
@@ -20,6 +20,9 @@ def certain_slips(answer: Answer, window: Window) -> tuple[Edit, ...]:
     """The edits that undo the slips of a contour that are certain, by their places; none where facts are stated, or
     where its text is not what the lines say."""
     claim = answer.claim
+    if torn_codes(claim):
+        # Without its letters the code is another one: what its words are is not known.
+        return ()
     if claim.trusted or claim.directives or any(block.callers or block.substituted for block in claim.blocks):
         return ()
     found = [mend(each) for each in meant_words(claim)]

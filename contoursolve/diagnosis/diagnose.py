@@ -88,8 +88,8 @@ def diagnose(
     # With its comma, a corner joins the blocks behind.
     text = MendedText((*answer.claim.blocks, *following[:more]), edits, count)
     mended = examine(joined, dialect.rules, policy, depth=Depth.FINDINGS)
-    unread = spans_of(each for each in mended.diagnostics if each.about in _GRAMMAR)
-    if not problems(mended) or any(text.place(span) == edit.span for span in unread for edit in edits):
+    # Where something still cannot be read, nothing more is known.
+    if not problems(mended) or any(each.about in _GRAMMAR for each in mended.diagnostics):
         return known.answer
     around = replace(window, own=joined.blocks, behind=window.behind[more:])
     beside = _Diagnosed.of(mended, dialect, policy, following[more:], previous, around)
@@ -117,11 +117,7 @@ def _with_both(answer: Answer, text: MendedText, beside: "_Diagnosed") -> Answer
         told = with_fixes(replace(finding, notes=()), answer, [repair])
         note = f"the contour is checked as if {join([edit.text for edit in own])} stood there"
         findings.append(replace(told, notes=(*told.notes, note)))
-    lines = {block.line for block in text.own}
     for number, finding in enumerate(beside.answer.diagnostics):
-        if finding.about in _GRAMMAR and finding.span.line not in lines:
-            # It is told there.
-            continue
         fixes = fixes_of(beside.answer, beside.repairs.get(number, ()), text)
         findings.append(replace(text.told(finding), fixes=fixes))
     is_whole = len(text.own) == len(text.blocks)
