@@ -468,6 +468,9 @@ class Trial(Struct, frozen=True, dict=True):
         )  # fmt: skip
         between = [(one + two) / 2 for one, two in pairwise(known)]
         numbers = _USUAL_ANGLES if row.unit is Unit.DEGREE else [*between, *known]
+        if not row.axis and row.unit is not Unit.DEGREE:
+            # Nothing has a size of 0.
+            numbers = [each for each in numbers if each > 0]
         for number in numbers[:_MOST_NUMBERS]:
             edit = dataclasses.replace(edits[place], text=spell(edits[place].address, f"{number:f}"))
             tried = (*edits[:place], edit, *edits[place + 1 :])
