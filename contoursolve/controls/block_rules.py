@@ -211,6 +211,15 @@ READING_RULES = (
         slip={"size": "{whole}"},
     ),
     Rule(
+        code="point-lost",
+        message="{words} has no decimal point and is read as {actual}, which no other line is near; {meant} would be "
+        "{expected}",
+        help="write {meant} if that is meant; else {same}, which says the same",
+        source=own_source("where numbers have points and a path goes on, one without a point has lost it"),
+        about=ReadIssue.POINT_LOST,
+        slip={"behind": "\nG01 X90.\nX100"},
+    ),
+    Rule(
         code="suspected",
         message="{words} was probably meant to be {meant}: {reason}",
         help="change it if that is meant; --set {control}.suspicions=off switches such warnings off",

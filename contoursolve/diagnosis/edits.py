@@ -250,7 +250,8 @@ def read_edited(block: Block, text: str, syntax: Syntax) -> list[Block]:
         elif block.text[begin:] == first[begin + grown :]:
             substituted.append(replace_fields(each, begin=each.begin + grown, end=each.end + grown))
     own = replace_fields(parse_block(first, block.line, syntax), substituted=tuple(substituted))
-    return [own, *(parse_block(part, block.line, syntax) for part in rest)]
+    parts = (own, *(parse_block(part, block.line, syntax) for part in rest))
+    return [each.with_points(block.pointed) for each in parts]
 
 
 def signed(edits: Iterable[Edit], blocks: Iterable[Block]) -> tuple[Edit, ...]:

@@ -164,6 +164,8 @@ class Answer(Shown, Struct, frozen=True):
     """The block with them filled in, where it then stands alone."""
     calls: tuple[int, ...] = ()
     """The lines of the blocks that call it, if it belongs to a subprogram."""
+    mended: Answer | None = None
+    """The answer with slips that are certain mended in thought, where something else is wrong as well."""
 
     @property
     def system(self) -> EquationSystem:
@@ -634,7 +636,9 @@ def _examine_system(
             yield Status.CONFLICTING, report(context, ReadIssue.CORNER_TWICE, Basis.STRUCTURAL, words, subject=name)
 
 
-def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:
-    """By line, the worst first, and what follows from lines before, or is missing, after what is wrong."""
+def rank(finding: Diagnostic) -> tuple[bool, int, int, bool, Span, str]:
+    """By line, the worst first, and what follows from lines before, or is missing, after what is wrong; first of all
+    points that are lost, on which everything behind rests."""
     follows = finding.about in (ReadIssue.POSITION_UNKNOWN, ReadIssue.UNDERDETERMINED)
-    return finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code
+    is_lost = finding.about is ReadIssue.POINT_LOST
+    return not is_lost, finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code

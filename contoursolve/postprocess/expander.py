@@ -116,6 +116,9 @@ class Expander:
                 self.summary.line_end = self.lines.end_of(step.blocks[0].line)
                 yield OPENING
             self.summary.warn([each for each in step.findings if each.about in _TOLD])
+            if lost := [each for each in step.findings if each.about is ReadIssue.POINT_LOST]:
+                line, sources = lost[0].span.line, {block.line: block.text for block in step.blocks}
+                self.summary.left.append(Left((line,), f"{lost[0].code}: {lost[0].message}", tuple(lost), sources))
             self.summary.elsewhere += [each for each in step.findings if each.about in ELSEWHERE]
             if step.passage is not None:
                 yield from self._pass(step.passage, step.before)

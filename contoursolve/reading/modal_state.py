@@ -33,7 +33,7 @@ from contoursolve.gcode import (
 from contoursolve.geometry import Length, Plane, Start
 from contoursolve.reading.arc_table import ArcTable
 from contoursolve.reading.contour_form import Convention, Setting
-from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon
+from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon, WithoutPoint
 from contoursolve.reading.moved_zero import (
     NOTHING_MOVES,
     UNKNOWN_ZERO,
@@ -651,11 +651,14 @@ def _lost_by_faults(block: Block, modes: Modes) -> dict[str, Span]:
 class PlainLines:
     """The plain lines of programs that a control reads as what they look like: they move its own axes, and a comment is
     one. Such a line is no contour, and belongs to one only beside a line that is not plain, as long as `is_plain`;
-    there is nothing to say of it. With `has_points`, they are those in which each coordinate has its point."""
+    there is nothing to say of it. A coordinate that counts so few least increments that it may have lost its point is
+    in none of them; with `has_points`, each has its point."""
 
     def __init__(self, modes: Modes, *, has_points: bool = False) -> None:
         others = "".join(axis for axis in AXES if axis not in modes.axes)
-        ways = [rf"[{others}]"] * bool(others) + [rf"[{AXES}][+-]?+[0-9]++(?!\.)"] * has_points
+        is_counted = modes.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+        digits = "[0-9]++" if has_points else "0*+[1-9][0-9]{0,2}+"
+        ways = [rf"[{others}]"] * bool(others) + [rf"[{AXES}][+-]?+{digits}(?![0-9.])"] * is_counted
         self._others, self._syntax = re.compile("|".join(ways) or "(?!)", re.IGNORECASE), modes.syntax
 
     def has(self, line: str) -> bool:

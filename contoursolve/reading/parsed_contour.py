@@ -40,6 +40,7 @@ class ReadIssue(Enum):
     VARIABLE = "variable"
     WORD_IGNORED = "word-ignored"
     POINT_MISSING = "point-missing"
+    POINT_LOST = "point-lost"
     SUSPECTED = "suspected"
     START_IN_INCREMENTS = "start-in-increments"
     MOVE_IN_INCREMENTS = "move-in-increments"

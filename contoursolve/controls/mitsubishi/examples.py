@@ -50,7 +50,7 @@ _GAPS = {
 }
 _INCREMENTS = {"options": "--set CONTROL.number=increment"}
 _SLIPS: dict[str, dict[str, str]] = {
-    **dict.fromkeys(("point-missing", "start-in-increments", "move-in-increments"), _INCREMENTS),
+    **dict.fromkeys(("point-missing", "point-lost", "start-in-increments", "move-in-increments"), _INCREMENTS),
     "mitsubishi-two-corners": {
         "contour": "{line} {before} ,C5. {corner}{size}\n{turn}",
         "options": "--set CONTROL.two-corner-words=error",
