@@ -107,7 +107,8 @@ def alone(monkeypatch):
     def switch():
         walk = pipeline.walk
         monkeypatch.setattr(
-            "contoursolve.postprocess.expansion.walk", lambda *given: walk(*given[:2], None, *given[3:])
+            "contoursolve.postprocess.expansion.walk",
+            lambda *given, **options: walk(*given[:2], None, *given[3:], **options),
         )
         monkeypatch.setattr("contoursolve.api._MANY", 10**9)
 
