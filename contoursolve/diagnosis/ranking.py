@@ -44,7 +44,7 @@ from contoursolve.diagnosis.slips_around import (
 )
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.window import Seen, moves_of
-from contoursolve.diagnostics import Applicability, NumberRange, Span
+from contoursolve.diagnostics import Applicability, NumberRange
 from contoursolve.solving import Contour
 from contoursolve.tolerance import AGREEMENT
 
@@ -387,7 +387,8 @@ def _order(repair: Repair) -> tuple[object, ...]:
         round(repair.deviation, 6),
         len(repair.edits),
         round(size, 6),
-        [(edit.span or Span(edit.line, 0, 0), edit.text) for edit in repair.edits],
+        # Wherever in its block a word stands.
+        sorted((edit.place, edit.old.strip(), edit.text.strip()) for edit in repair.edits),
     )
 
 

@@ -169,8 +169,7 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
     text = ISO.comment.sub(" ", block.text)
     shown |= {mark for mark, pattern in _KINDS.items() if pattern.search(text)}
     shown |= {mark for mark, pattern in _OTHER_WORDS.items() if pattern.search(block.text)}
-    # Beside words of a lathe's contour, Y is a slip.
-    if "Y" in stated and not stated & _OF_CONTOURS:
+    if "Y" in stated:
         shown.add(Y_AXIS)
     if stated & {"Z", "W"} and stated & _SHARED:
         shown.add(_CORNER_ON_Z)
@@ -181,6 +180,8 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
         addresses = {word.address for word in words} - _SHARED
         if addresses:
             shown.add(f"{'own' if addresses - _OF_ARCS else 'arc'} {dialect.name}")
+        if addresses and stated & _OF_CONTOURS and POLAR_WORDS not in shown:
+            shown.add(f"sure {dialect.name}")
     return frozenset(shown)
 
 
@@ -253,8 +254,11 @@ class Recogniser:
     @property
     def _certain(self) -> set[str]:
         """The controls that words showed which no other one has, or not together."""
-        own = self._own or self._arcs
-        return {name for name in own if not DIALECTS[name].excluded_by & self._shown}
+        return {name for name in self._own or self._arcs if not self._is_excluded(name)}
+
+    def _is_excluded(self, name: str) -> bool:
+        """Whether the program is for another control, unless words that only this one has beside its sign say more."""
+        return f"sure {name}" not in self._shown and bool(DIALECTS[name].excluded_by & self._shown)
 
     @property
     def _kind(self) -> str:
@@ -267,7 +271,7 @@ class Recogniser:
         if self.begun is not None:
             return self.begun
         certain = self._certain
-        signs = {name: each for name, each in self.signs.items() if not DIALECTS[name].excluded_by & self._shown}
+        signs = {name: each for name, each in self.signs.items() if not self._is_excluded(name)}
         fitting = [name for name in DIALECTS if name in (certain or signs) and self._fits(DIALECTS[name])]
         if len(fitting) == 1 and (fitting == [*certain] or not certain):
             return DIALECTS[fitting[0]]
@@ -313,7 +317,8 @@ _KINDS = {
 """Words that speak for a kind of machine, on Fanuc and its kin: tools with their offset in one number, limits of the
 spindle, constant cutting speed, increments by U and W, cycles that turn, feeds per turn; and of a mill Y, tool lengths,
 tool changes, drilling. A plane, G90 or G95 speaks for neither (assumed, from real programs)."""
-_OF_CONTOURS = frozenset("ABCDIKPQ")
+_OF_CONTOURS = frozenset("ABCDIKPQRUW")
+"""Words of a contour, which no pole has."""
 _OTHER_WORDS = {
     POLAR_WORDS: late_pattern(r"(?<![A-Z_])[AR]P\s*=", re.IGNORECASE),
     SEMICOLON_COMMENT: late_pattern(r"^[^(]*;[ \t]*\w"),

@@ -300,7 +300,7 @@ def test_each_product_is_that_of_the_command_of_its_name():
         assert (made["name"], made["message"]) == (f"part.{'html' if kind == 'report' else kind}", message)
         assert b64decode(made["base64"]).startswith(beginning)
     # A file without a name or an ending gets one.
-    for name, wanted in (("part", "part-plain.nc"), (".h", ".h-plain.nc"), ("a.b.eia", "a.b-plain.eia")):
+    for name, wanted in (("part", "part-plain.nc"), (".h", ".h-plain.nc"), ("a.b.mpf", "a.b-plain.mpf")):
         assert opened(text, name=name).ask("expand")["name"] == wanted
 
 
