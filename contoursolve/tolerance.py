@@ -24,8 +24,11 @@ ERROR_BOUND_WARNING = 1e-6
 controls' least increment."""
 
 RADIUS_DIFFERENCE = 0.01
-"""mm. Allowed difference of the radii at two points of one circle. NCT alarm 3011 compares it with
-a machine parameter whose factory value we have not seen; 0.01 mm is our assumption, and a setting of NCT."""
+"""mm. Allowed difference of the radii at two points of one circle. Controls compare it with a machine parameter whose
+factory value we have not seen; 0.01 mm is our assumption, and a setting of each control."""
+
+CIRCLE_DEVIATION = 0.016
+"""mm. The same on HEIDENHAIN controls: the most that they allow (printed, TNC 320 p. 155)."""
 
 ARC_START = 0.5
 """1 (share of the allowed difference of the radii). How far off an arc that stays as it is may begin behind an expanded

@@ -211,6 +211,15 @@ READING_RULES = (
         slip={"size": "{whole}"},
     ),
     Rule(
+        code="point-lost",
+        message="{words} has no decimal point and is read as {actual}, which no other line is near; {meant} would be "
+        "{expected}",
+        help="write {meant} if that is meant; else {same}, which says the same",
+        source=own_source("where numbers have points and a path goes on, one without a point has lost it"),
+        about=ReadIssue.POINT_LOST,
+        slip={"behind": "\nG01 X90.\nX100"},
+    ),
+    Rule(
         code="suspected",
         message="{words} was probably meant to be {meant}: {reason}",
         help="change it if that is meant; --set {control}.suspicions=off switches such warnings off",
@@ -376,7 +385,7 @@ READING_RULES = (
     ),
     Rule(
         code="control-alike",
-        message="{controls} read this program alike: its findings are those of {control}; "
+        message="{controls} {how}: its findings are those of {control}; "
         "name yours by --control, or in the workbench's list",
         help=f"name your control {_WAYS}: rules, alarms and fixes are then its own",
         source=_READING,
@@ -397,7 +406,7 @@ READING_RULES = (
     ),
     Rule(
         code="machine-taken",
-        message="X and Z move alone and no plane is selected: the program is read as one for a lathe, in G18; "
+        message="X and Z move, and Y never: the program is read as one for a lathe, in G18; "
         "for a mill, --set {setting}=mill",
         help="write G18 into the program, or state {setting} in contoursolve.toml",
         source=_READING,

@@ -71,7 +71,9 @@ G_CODES: Mapping[str, str] = {
 
 NO_CONTROL = {"no control is named": "control-unknown control-alike control-called"}
 UNKNOWN = {"no block is known to cause it": "count-open only-unproven search-unfinished not-verified"}
-AS_WRITTEN = {"a number without a point is as large as it says": "point-missing start-in-increments move-in-increments"}
+AS_WRITTEN = {
+    "a number without a point is as large as it says": "point-missing point-lost start-in-increments move-in-increments"
+}
 NO_ARGUMENTS = {"its calls hand over no numbers by letters": "argument-in-increments"}
 NO_CODES = {"a contour needs no code of its own": "letter-for-digit code-mistyped"}
 NO_PAIRS = {

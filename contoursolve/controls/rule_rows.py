@@ -1,6 +1,9 @@
 """Rows of rules with their examples: the one way in which controls write a rule on words in a line or two."""
 
-from contoursolve.diagnostics import Alarm, Severity, Source
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from contoursolve.diagnostics import Alarm, Book, Severity, Source
 from contoursolve.reading import Condition, Rule
 
 
@@ -38,4 +41,13 @@ def rule_row(  # noqa: PLR0913 - a row has these columns
         note=note,
         is_about_geometry=is_about_geometry,
         is_about_choice=is_about_choice,
+    )
+
+
+def with_pages(rules: Iterable[Rule], book: Book, pages: Mapping[str, str]) -> tuple[Rule, ...]:
+    """The rules, of which a page prints those of these codes, each with its place. Raises KeyError for a code that none
+    of them has."""
+    rows = {rule.code: rule for rule in rules}
+    return (
+        *(rows | {code: replace(rows[code], source=book.printed(place)) for code, place in pages.items()}).values(),
     )

@@ -51,6 +51,7 @@ from .explain import (
     report as report,
     spans_of as spans_of,
 )
+from .explain_arcs import explain_arc as explain_arc
 from .fact_words import (
     condition_text as condition_text,
     fact_text as fact_text,
@@ -97,11 +98,13 @@ from .spelling import (
     counts_few as counts_few,
     explain_asked_outside as explain_asked_outside,
     explain_faults as explain_faults,
+    explain_lost as explain_lost,
     explain_start_diameter as explain_start_diameter,
     explain_start_units as explain_start_units,
     explain_unmarked as explain_unmarked,
     explain_words as explain_words,
     is_counted_start as is_counted_start,
+    lost_points as lost_points,
     move_without_point as move_without_point,
     readings as readings,
     without_point as without_point,

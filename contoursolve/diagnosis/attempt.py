@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from functools import cached_property, lru_cache
+from itertools import pairwise
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -17,6 +18,7 @@ from contoursolve.diagnosis.edits import (
     apply_edits,
     edit_facts,
     edited,
+    read_edited,
 )
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import MOST_OPEN, numbers_for, propose, sampled
@@ -24,6 +26,7 @@ from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
     Feature,
     NumbersAround,
+    cost_of,
     numbers_of,
     total,
 )
@@ -32,11 +35,12 @@ from contoursolve.diagnosis.reach import Reach, is_of_codes
 from contoursolve.diagnosis.slip_kinds import ROUND, SlipKind, partners, recognise
 from contoursolve.diagnosis.slips_around import (
     Marked,
+    Prices,
 )
 from contoursolve.diagnosis.window import Window, agrees
 from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Severity, Span
 from contoursolve.gcode import Block, parse_block, spell
-from contoursolve.geometry import Profile, assemble
+from contoursolve.geometry import Profile, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
 from contoursolve.solving import (
     Contour,
@@ -103,13 +107,15 @@ class Repairs(Struct, frozen=True):
 
     `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried, `has_tried_all`
     that so was all that was thought of;
-    `tried` are the words that were tried to be added, by address and line.
+    `tried` are the words that were tried to be added, by address and line; `is_cut` tells that the search ended before
+    all that it thought of was tried.
     """
 
     repairs: tuple[Repair, ...]
     is_complete: bool
     has_tried_all: bool = False
     tried: frozenset[tuple[str, int]] = frozenset()
+    is_cut: bool = False
 
 
 class Trial(Struct, frozen=True, dict=True):
@@ -214,6 +220,16 @@ class Trial(Struct, frozen=True, dict=True):
         return Marked(self.blamed | spans, lines | {block.line for block in own}, self.told)
 
     @cached_property
+    def _prices(self) -> Prices | None:
+        return Prices.of(self.window, self.marked, self.claim) if self.window is not None else None
+
+    def price(self, edit: Edit, slip: SlipKind | None) -> float:
+        """The cost of an edit for what it undoes; of a slip, the same whichever way it is found."""
+        if slip is None or self._prices is None:
+            return cost_of(edit, slip)
+        return self._prices.price(edit, slip)
+
+    @cached_property
     def numbers(self) -> NumbersAround:
         """The numbers of the blocks around."""
         return numbers_of(self.window.blocks if self.window else self.claim.blocks)
@@ -262,7 +278,7 @@ class Trial(Struct, frozen=True, dict=True):
         where one of them is not sound, or more than lines and contours is left."""
         claim, dialect = self.claim, self.dialect
         blocks = [
-            parse_block(text, block.line, block.syntax)
+            parse_block(text, block.line, block.syntax).with_points(block.pointed)
             for text, block in zip(apply_edits(claim.blocks, edits), claim.blocks, strict=True)
         ]
         state, index, elements = claim.before, 0, list[Segment]()
@@ -334,7 +350,7 @@ class Trial(Struct, frozen=True, dict=True):
             again
             for text, block, same in zip(texts, claim.blocks, self._blocks, strict=True)
             if text or not block.text
-            for again in ([same] if text == block.text else self._read(text, block.line))
+            for again in ([same] if text == block.text else self._read(block, text))
         ]
         ahead, blocks, behind = _parted(read, edits)
         if not blocks:
@@ -359,11 +375,10 @@ class Trial(Struct, frozen=True, dict=True):
     @cached_property
     def _blocks(self) -> list[Block]:
         """The blocks as they are, each by itself."""
-        return [block for each in self.claim.blocks for block in self._read(each.text, each.line)]
+        return [block for each in self.claim.blocks for block in self._read(each, each.text)]
 
-    def _read(self, text: str, line: int) -> list[Block]:
-        """The blocks that a text in place of a block makes, which may have several lines."""
-        return [parse_block(part, line, self.dialect.modes.syntax) for part in text.split("\n")]
+    def _read(self, block: Block, text: str) -> list[Block]:
+        return read_edited(block, text, self.dialect.modes.syntax)
 
     def _example(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
         """The edits with a number for every placeholder that makes a contour; as they are where further facts determine
@@ -400,8 +415,9 @@ class Trial(Struct, frozen=True, dict=True):
         seen = window.after(example)
         return example if seen is not None and seen.answers and window.mends(seen) else None
 
-    def with_numbers(self, repair: Repair) -> Repair:
-        """A repair with placeholders, with the numbers that they may be; where hardly one is left, with that."""
+    def with_numbers(self, repair: Repair, *, may_try: bool) -> Repair:
+        """A repair with placeholders, with the numbers that they may be; where hardly one is left, with that. Where
+        none is computed, some are tried if they may be."""
         open_ = tuple(OpenNumber(edit.text, edit.line) for edit in repair.edits if edit.is_placeholder)
         found = self.find(repair.example) if repair.example != repair.edits else None
         profile = self._stated(found) if found is not None else None
@@ -413,7 +429,11 @@ class Trial(Struct, frozen=True, dict=True):
             tried = (replace(each, example=text) for each, text in zip(open_, found_texts, strict=True))
             return replace(repair, numbers=tuple(tried))
         if found is None or profile is None:
-            return replace(repair, numbers=open_)
+            example = self._tried_number(repair.edits) if may_try and len(open_) == 1 else None
+            if example is None:
+                return replace(repair, numbers=open_)
+            text = next(new.text for new, old in zip(example, repair.edits, strict=True) if old.is_placeholder)
+            return replace(repair, example=example, numbers=(replace(open_[0], example=text),))
 
         def is_accepted(edits: tuple[Edit, ...]) -> bool:
             return self.repair(edits) is not None
@@ -427,6 +447,36 @@ class Trial(Struct, frozen=True, dict=True):
         example = tuple(dataclasses.replace(e, text=next(texts)) if e.is_placeholder else e for e in repair.edits)
         return replace(repair, example=example, numbers=tuple(each for each, _ in numbers))
 
+    def _tried_number(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
+        """The edits with a number for their only placeholder that makes a contour, of those that drawings have and the
+        words around suggest; None if none does."""
+        (place,) = (at for at, edit in enumerate(edits) if edit.is_placeholder)
+        row = self.claim.lexicon.addresses.get(edits[place].address)
+        if row is None:
+            return None
+        blocks = self.window.blocks if self.window else self.claim.blocks
+        rows = self.claim.lexicon.addresses
+        known = sorted(
+            {
+                word.number
+                for block in blocks
+                for word in block.words
+                if word.number is not None and word.address in rows and rows[word.address].axis == row.axis
+                and rows[word.address].unit is row.unit
+            }
+        )  # fmt: skip
+        between = [(one + two) / 2 for one, two in pairwise(known)]
+        numbers = _USUAL_ANGLES if row.unit is Unit.DEGREE else [*between, *known]
+        if not row.axis and row.unit is not Unit.DEGREE:
+            # Nothing has a size of 0.
+            numbers = [each for each in numbers if each > 0]
+        for number in numbers[:_MOST_NUMBERS]:
+            edit = dataclasses.replace(edits[place], text=spell(edits[place].address, f"{number:f}"))
+            tried = (*edits[:place], edit, *edits[place + 1 :])
+            if self._solve(tried) is not None:
+                return tried
+        return None
+
     def _stated(self, claim: ParsedContour) -> Profile | None:
         """The profile of a contour with its further facts; None if one of them cannot be used."""
         profile = read(claim, frozenset())
@@ -437,6 +487,12 @@ class Trial(Struct, frozen=True, dict=True):
         profile, faults = apply_statements(profile, claim.directives, lambda: self.next_place)
         return None if faults else profile
 
+
+_USUAL_ANGLES = [Decimal(each) for each in (45, 135, 90, 30, 60, 120, 150, 0)]
+"""Degrees."""
+
+_MOST_NUMBERS = 8
+"""Numbers that are tried for one placeholder, where none can be computed."""
 
 _HALF = 2.4
 """By so much more plausible a word is that a point lacks, of which the other one is there."""

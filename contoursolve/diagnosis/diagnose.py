@@ -1,13 +1,15 @@
 """Adds to findings why they are so and what to write instead, and which checks a contour went through."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair, Repairs
-from contoursolve.diagnosis.edits import EditKind, write_word
-from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Policy, problems
+from contoursolve.diagnosis.certain_slips import MendedText, about, certain_slips
+from contoursolve.diagnosis.edits import EditKind, edited, write_word
+from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Depth, Policy, examine, problems, rank
 from contoursolve.diagnosis.explain import (
     AGAINST,
     LEAVING_FREE,
@@ -18,12 +20,23 @@ from contoursolve.diagnosis.explain import (
     explain_missing,
     spans_of,
 )
-from contoursolve.diagnosis.fix_text import with_fixes
+from contoursolve.diagnosis.fix_text import fixes_of, with_fixes
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.window import Window
-from contoursolve.diagnosis.wording import SHOWN, count, length_text
-from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Span, Tie, Verdict
+from contoursolve.diagnosis.wording import SHOWN, count, join, length_text
+from contoursolve.diagnostics import (
+    Applicability,
+    Basis,
+    Diagnosis,
+    Diagnostic,
+    Label,
+    Layer,
+    Severity,
+    Span,
+    Tie,
+    Verdict,
+)
 from contoursolve.gcode import FACT, Block, FaultKind
 from contoursolve.geometry import Profile, System, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, read
@@ -57,46 +70,124 @@ def diagnose(
     previous: tuple[Sequence[Block], State] | None = None,
     window: Window | None = None,
 ) -> Answer:
-    """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. `following` are
-    the next blocks, `previous` those before it, of which it may be the end, with the state before them."""
-    profile = answer.profile
-    is_readable = not any(block.faults for block in answer.claim.blocks)
-    affine = affine_facts(profile, (*profile.facts, *profile.ignored))
-    found = None
-    if answer.start.is_known and (is_readable or affine is None):
-        is_told = any(each.about in SAID_AGAIN | _ABOUT_RADII for each in answer.diagnostics)
-        found = find_ties(profile, is_told=is_told)
-    freedoms = affine.freedoms() if affine and is_readable else ()
-    # What a contour needs and nobody reads here is no slip.
-    repairs = Repairs((), is_complete=False)
-    if not answer.claim.unread and all(each.about is not ReadIssue.NOT_READ for each in answer.diagnostics):
-        repairs = find_repairs(answer, dialect, tuple(following), previous, window)
-    diagnosis = Diagnosis(
-        layers=list_layers(answer, policy),
-        freedoms=freedoms,
-        ties=tuple(_tie(answer, found, each) for each in found.circuits.found) if found else (),
-        ties_complete=is_readable and found is not None and found.circuits.is_complete,
-        repairs_complete=repairs.is_complete,
+    """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. Slips that are
+    certain are mended in thought, so that what else is wrong is told as well. `following` are the next blocks,
+    `previous` those before it, of which it may be the end, with the state before them."""
+    following = tuple(following)
+    known = _Diagnosed.of(answer, dialect, policy, following, previous, window)
+    edits = certain_slips(answer, window) if window is not None else ()
+    if not edits or window is None:
+        return known.answer
+    joined = dialect.find(
+        [*MendedText(answer.claim.blocks, edits).read(), *following], 0, answer.claim.before, dialect.modes
     )
-    findings = []
+    count = len(answer.claim.blocks)
+    more = len(joined.blocks) - count if isinstance(joined, ParsedContour) else -1
+    if not isinstance(joined, ParsedContour) or more < 0:
+        return known.answer
+    # With its comma, a corner joins the blocks behind.
+    text = MendedText((*answer.claim.blocks, *following[:more]), edits, count)
+    mended = examine(joined, dialect.rules, policy, depth=Depth.FINDINGS)
+    # Where something still cannot be read, nothing more is known.
+    if not problems(mended) or any(each.about in _GRAMMAR for each in mended.diagnostics):
+        return known.answer
+    around = replace(window, own=joined.blocks, behind=window.behind[more:])
+    beside = _Diagnosed.of(mended, dialect, policy, following[more:], previous, around)
+    if known.cost < float("inf") and known.cost <= beside.cost + _CERTAIN * len(edits):
+        return known.answer
+    return _with_both(known.answer, text, beside)
+
+
+_CUT = "no change that was tried mends it alone; the search ended early, so that others may"
+"""The note where a search for fixes ended before all that it thought of was tried."""
+
+_CERTAIN = 1.5
+"""The cost of a slip that is certain beside another one: two are less likely than one."""
+
+
+def _with_both(answer: Answer, text: MendedText, beside: "_Diagnosed") -> Answer:
+    """An answer with what is certain, each with its fix, and with what is wrong beside it."""
+    findings, left = list[Diagnostic](), [*text.edits]
     for finding in answer.diagnostics:
-        reasons = tuple(_reasons(answer, affine, found, diagnosis, finding))
-        labels = _start_labels(answer) if reasons and finding.about in _FROM_START else ()
-        findings.append(replace(finding, notes=finding.notes + reasons, labels=finding.labels + labels))
-    if repairs.repairs and any(edit.address == "G" for edit in repairs.repairs[0].edits):
-        # What is unknown to this contour may be known to that one.
-        first = "; ".join(map(str, repairs.repairs[0].edits))
-        findings = [replace(each, help=first) if each.about is ReadIssue.UNKNOWN_ADDRESS else each for each in findings]
-    findings = _with_able(findings, answer, dialect, repairs)
-    # The rules of a control whose words are facts of all kinds are meant as they are.
-    main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
-    if main is not None:
-        for number in (main, *_both(findings)):
-            ordered = _corners_first(findings[number], repairs.repairs)
-            ordered = _expected_first(findings[number], ordered, answer.claim)
-            findings[number] = with_fixes(findings[number], answer, ordered)
-    findings = [replace(each, notes=(*each.notes, *_places_of_blocks(answer.claim, each))) for each in findings]
-    return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
+        own = tuple(edit for edit in about(finding, text.edits) if edit in left)
+        if not own:
+            continue
+        left = [edit for edit in left if edit not in own]
+        repair = Repair(own, edited(text.own, own), Applicability.CHANGES_CONTOUR, None, 0.0, slips=(None,) * len(own))
+        told = with_fixes(replace(finding, notes=()), answer, [repair])
+        note = f"the contour is checked as if {join([edit.text for edit in own])} stood there"
+        findings.append(replace(told, notes=(*told.notes, note)))
+    for number, finding in enumerate(beside.answer.diagnostics):
+        fixes = fixes_of(beside.answer, beside.repairs.get(number, ()), text)
+        findings.append(replace(text.told(finding), fixes=fixes))
+    is_whole = len(text.own) == len(text.blocks)
+    return replace(answer, diagnostics=tuple(sorted(findings, key=rank)), mended=beside.answer if is_whole else None)
+
+
+class _Diagnosed(Struct, frozen=True):
+    """An answer with a diagnosis, and the repairs that its findings have, by their number; `cost` is that of the
+    edits of the best one."""
+
+    answer: Answer
+    repairs: Mapping[int, Sequence[Repair]]
+    cost: float
+
+    @classmethod
+    def of(
+        cls,
+        answer: Answer,
+        dialect: Dialect,
+        policy: Policy,
+        following: tuple[Block, ...],
+        previous: tuple[Sequence[Block], State] | None,
+        window: Window | None,
+    ) -> "_Diagnosed":
+        """The diagnosis of an answer as it is."""
+        profile = answer.profile
+        is_readable = not any(block.faults for block in answer.claim.blocks)
+        affine = affine_facts(profile, (*profile.facts, *profile.ignored))
+        found = None
+        if answer.start.is_known and (is_readable or affine is None):
+            is_told = any(each.about in SAID_AGAIN | _ABOUT_RADII for each in answer.diagnostics)
+            found = find_ties(profile, is_told=is_told)
+        freedoms = affine.freedoms() if affine and is_readable else ()
+        # What a contour needs and nobody reads here is no slip.
+        repairs = Repairs((), is_complete=False)
+        if not answer.claim.unread and all(each.about is not ReadIssue.NOT_READ for each in answer.diagnostics):
+            repairs = find_repairs(answer, dialect, following, previous, window)
+        diagnosis = Diagnosis(
+            layers=list_layers(answer, policy),
+            freedoms=freedoms,
+            ties=tuple(_tie(answer, found, each) for each in found.circuits.found) if found else (),
+            ties_complete=is_readable and found is not None and found.circuits.is_complete,
+            repairs_complete=repairs.is_complete,
+        )
+        findings = []
+        for finding in answer.diagnostics:
+            reasons = tuple(_reasons(answer, affine, found, diagnosis, finding))
+            labels = _start_labels(answer) if reasons and finding.about in _FROM_START else ()
+            findings.append(replace(finding, notes=finding.notes + reasons, labels=finding.labels + labels))
+        if repairs.repairs and any(edit.address == "G" for edit in repairs.repairs[0].edits):
+            # What is unknown to this contour may be known to that one.
+            first = "; ".join(map(str, repairs.repairs[0].edits))
+            findings = [
+                replace(each, help=first) if each.about is ReadIssue.UNKNOWN_ADDRESS else each for each in findings
+            ]
+        findings = _with_able(findings, answer, dialect, repairs)
+        # The rules of a control whose words are facts of all kinds are meant as they are.
+        main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
+        fixing = dict[int, Sequence[Repair]]()
+        if main is not None:
+            for number in (main, *_both(findings)):
+                fixing[number] = _expected_first(findings[number], repairs.repairs, answer.claim)
+                findings[number] = with_fixes(findings[number], answer, fixing[number])
+            if repairs.is_cut and not repairs.repairs:
+                findings[main] = replace(
+                    findings[main], notes=(*findings[main].notes[:1], _CUT, *findings[main].notes[1:])
+                )
+        findings = [replace(each, notes=(*each.notes, *_places_of_blocks(answer.claim, each))) for each in findings]
+        cost = min((each.cost_of_edits for each in repairs.repairs), default=float("inf"))
+        return cls(replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis), fixing, cost)
 
 
 def _places_of_blocks(claim: ParsedContour, finding: Diagnostic) -> Iterator[str]:
@@ -112,23 +203,6 @@ def _places_of_blocks(claim: ParsedContour, finding: Diagnostic) -> Iterator[str
         for name in (f"{kind} {number.number:f}" for kind in ("line", "arc")):
             if name in names and re.search(rf"(?<!program ){name}\b", told):
                 yield f"{name} is block {number.number:f}, in program line {block.line}"
-
-
-def _corners_first(finding: Diagnostic, repairs: tuple[Repair, ...]) -> tuple[Repair, ...]:
-    """Repairs; of a corner that does not fit, those first that change the marked corners alone and are nearly as
-    plausible as the best: other words would change the part around it."""
-    if not isinstance(finding.about, RefusalKind) or "fits" not in finding.about.event.needs or not repairs:
-        return repairs
-    marked, most = {finding.span, *(label.span for label in finding.labels)}, repairs[0].cost + _NEARLY
-
-    def is_theirs(repair: Repair) -> bool:
-        return repair.cost < most and all(edit.span in marked for edit in repair.edits)
-
-    return tuple(sorted(repairs, key=lambda each: not is_theirs(each)))
-
-
-_NEARLY = 1.0
-"""By so much less plausible they may be."""
 
 
 def _expected_first(finding: Diagnostic, repairs: tuple[Repair, ...], claim: ParsedContour) -> tuple[Repair, ...]:

@@ -40,6 +40,9 @@ from contoursolve.solving import (
 MOST_ADDED = 2
 """Words that a repair adds to such a block."""
 
+MOST_CUTS = 3
+"""Points that only cut a line or a circle in two, beside these words."""
+
 MOST_HELPING, MOST_SHOWN = 20, 12
 """Of a chain in which any word may stand: the words that are combined, and the sets of them that are tried."""
 
@@ -181,8 +184,8 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
         system = assemble(read(found, frozenset())) if found else None
         return len(system.unknowns) - analyse(system).rank if system else len(claim.vocabulary)
 
-    open_ = freedom(())
-    if open_ > MOST_ADDED:
+    all_open = freedom(())
+    if all_open > MOST_ADDED + MOST_CUTS:
         return
     halves = (
         name
@@ -194,16 +197,20 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     here = trial.find(())
     absent = _about_open(absent, claim, read(here, frozenset())) if here else absent
     drawing = sample_drawing(claim, answer.profile, absent)
-    if drawing is not None and not drawing.open_after(()):
+    if drawing is not None and not drawing.missing():
         # It is of another contour, in which nothing is open.
         drawing = None
+    cuts = len(drawing.cuts()) if drawing is not None else 0
+    open_ = drawing.missing() if drawing is not None and cuts else all_open
+    if open_ > MOST_ADDED:
+        return
     names = {add(claim, name): name for name in (absent if drawing is None else drawing.helping(absent))}
-    helping = list(islice((edit for edit in names if freedom((edit,)) < open_), MOST_HELPING))
+    helping = list(islice((edit for edit in names if freedom((edit,)) < all_open), MOST_HELPING))
 
     def is_enough(edits: tuple[Edit, ...]) -> bool:
         told = [names[edit] for edit in edits]
-        there = drawing is None or not drawing.further.keys() >= {*told} or not drawing.open_after(told)
-        return there and not freedom(edits)
+        there = drawing is None or not drawing.further.keys() >= {*told} or not drawing.missing(told)
+        return there and freedom(edits) <= cuts
 
     for size in range(1, MOST_ADDED + 1):
         sets = (each for each in combinations(helping, size) if open_ <= size and is_enough(each))

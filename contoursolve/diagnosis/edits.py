@@ -7,6 +7,7 @@ from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
 from enum import Enum, IntEnum
 
 from msgspec import Struct
+from msgspec.structs import replace as replace_fields
 
 from contoursolve.diagnosis.wording import shorten
 from contoursolve.diagnostics import Evidence, Source, Span
@@ -15,6 +16,7 @@ from contoursolve.gcode import (
     Block,
     Directive,
     Lookalike,
+    Substitution,
     Syntax,
     Word,
     number_of,
@@ -230,6 +232,26 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
         is_fact_dropped = any(edit.address == FACT and not edit.text for edit in own)
         texts.append(_with_moved(_tidy(text) if is_fact_dropped else text, own))
     return tuple(texts)
+
+
+def read_edited(block: Block, text: str, syntax: Syntax) -> list[Block]:
+    """The blocks that a text in place of a block makes, which may have several lines. Where numbers stand for variables
+    is known of the parts of the first one that stay."""
+    first, *rest = text.split("\n")
+    kept = next((at for at, pair in enumerate(zip(block.text, first, strict=False)) if pair[0] != pair[1]), len(first))
+    grown = len(first) - len(block.text)
+    substituted, shift = list[Substitution](), 0
+    for each in block.substituted:
+        begin = each.begin + shift
+        end = begin + len(each.number or each.typed)
+        shift += end - begin - (each.end - each.begin)
+        if end <= kept:
+            substituted.append(each)
+        elif block.text[begin:] == first[begin + grown :]:
+            substituted.append(replace_fields(each, begin=each.begin + grown, end=each.end + grown))
+    own = replace_fields(parse_block(first, block.line, syntax), substituted=tuple(substituted))
+    parts = (own, *(parse_block(part, block.line, syntax) for part in rest))
+    return [each.with_points(block.pointed) for each in parts]
 
 
 def signed(edits: Iterable[Edit], blocks: Iterable[Block]) -> tuple[Edit, ...]:

@@ -164,6 +164,8 @@ class Answer(Shown, Struct, frozen=True):
     """The block with them filled in, where it then stands alone."""
     calls: tuple[int, ...] = ()
     """The lines of the blocks that call it, if it belongs to a subprogram."""
+    mended: Answer | None = None
+    """The answer with slips that are certain mended in thought, where something else is wrong as well."""
 
     @property
     def system(self) -> EquationSystem:
@@ -255,7 +257,8 @@ def examine(
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
-    explained = spans_of(notebook.findings)
+    left_out = (claim.words.get(offence.ignored) for offence in ignoring)
+    explained = spans_of(notebook.findings) | {word.span for word in left_out if word is not None}
     # What rules refuse of a chain is not solved without a word either.
     is_doubtful = any(claim.open_modes())
     is_refused = bool(claim.unread) or (claim.form.is_general and (is_doubtful or Status.REJECTED in notebook.statuses))
@@ -582,6 +585,13 @@ def _solve(
     placed = _without_cuts(context, profile, claim, settlement.loose or open_, notebook) if is_cut else profile
     if placed is not profile:
         profile, settlement = placed, settle(placed, is_blaming=depth is not Depth.TRIAL)
+    elif is_cut and settlement.singular:
+        from contoursolve.solving import said_twice  # noqa: PLC0415 - few blocks contradict themselves beside a cut
+
+        # Where a circle is cut in two, its point has no place of its own; what contradicts itself beside it is wrong.
+        against = tuple(each for each in said_twice(profile) if isinstance(each, Refusal))
+        if against:
+            return profile, Solution(Status.CONFLICTING, refusals=against), None
     if settlement.singular and Status.REJECTED not in notebook.statuses:
         finding = explain_singular(context, settlement.singular, settlement.loose, profile)
         notebook.add(finding, Status.UNDERDETERMINED)
@@ -626,7 +636,9 @@ def _examine_system(
             yield Status.CONFLICTING, report(context, ReadIssue.CORNER_TWICE, Basis.STRUCTURAL, words, subject=name)
 
 
-def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:
-    """By line, the worst first, and what follows from lines before, or is missing, after what is wrong."""
+def rank(finding: Diagnostic) -> tuple[bool, int, int, bool, Span, str]:
+    """By line, the worst first, and what follows from lines before, or is missing, after what is wrong; first of all
+    points that are lost, on which everything behind rests."""
     follows = finding.about in (ReadIssue.POSITION_UNKNOWN, ReadIssue.UNDERDETERMINED)
-    return finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code
+    is_lost = finding.about is ReadIssue.POINT_LOST
+    return not is_lost, finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code

@@ -13,6 +13,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import (
+    LEAST_SHOWN,
     NUMBERS,
     angle_text,
     by_line,
@@ -263,7 +264,14 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
     expected = values.get("expected")
     comparison = "; they leave it no value to have"
     label = ""
-    if expected is not None:
+    given = profile.givens.get(offence.ignored)
+    if expected is not None and given is not None and given.unit is Unit.MM:
+        text = length_text(expected if abs(expected) > LEAST_SHOWN else 0.0, context.unit)
+        is_same = values["off_by_mm"] <= fact.allowance(at, increments_of(profile))
+        away = f"; they make it {text}, {length_text(values['off_by_mm'], context.unit)} away"
+        comparison = "; it agrees with them" if is_same else away
+        label = f"ignored; the path has {text}"
+    elif expected is not None:
         comparison = _compared(values, fact.allowance(at, increments_of(profile)), context.unit)
         label = f"ignored; the line runs at {angle_text(expected)}"
     return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)
@@ -305,12 +313,17 @@ def explain_missing(
     told = open_text(shown, profile)
     if claim.form.is_general:
         from contoursolve.diagnosis.missing_words import partners_of  # noqa: PLC0415 - few blocks lack words
-        from contoursolve.diagnosis.sample_drawing import helping_words  # noqa: PLC0415 - nor such
+        from contoursolve.diagnosis.sample_drawing import sample_drawing  # noqa: PLC0415 - nor such
 
+        drawing = None if is_brief else sample_drawing(claim, profile, absent)
+        cuts = drawing.cuts() if drawing is not None else []
+        if drawing is not None and cuts and drawing.missing():
+            # Where a line or a circle is cut in two is no word that is missing.
+            free, open_count = {name for name in free if name.rpartition(".")[0] not in cuts}, drawing.missing()
         told, first = _open_elements(free, open_count, profile)
         blocks = zip(claim.blocks, claim.makes, strict=True)
         context = replace(context, place=next((block.span for block, names in blocks if first in names), context.place))
-        helping = absent if is_brief else helping_words(claim, profile, absent)
+        helping = absent if drawing is None else drawing.helping(absent)
         usual_words = [claim.vocabulary[name] for name in helping[:_MOST_NAMED]]
         ways = [_adding_by_line(usual_words, open_count, claim)] if usual_words else valued
         partners, halves = partners_of(claim)

@@ -1,10 +1,12 @@
 """Repairs as fixes: what is written, and what the contour is then, so that no two that differ look the same."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair
+from contoursolve.diagnosis.certain_slips import MendedText
 from contoursolve.diagnosis.edits import Edit, EditKind, edited
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.slip_kinds import SlipKind
@@ -18,7 +20,7 @@ from contoursolve.solving import ArcSegment, Contour, Point, scalars_of
 
 def with_fixes(finding: Diagnostic, answer: Answer, repairs: Sequence[Repair]) -> Diagnostic:
     """A finding with repairs as its fixes; it points at the words that the first one changes, too."""
-    return _pointing(replace(finding, fixes=_fixes_of(answer, repairs)), repairs)
+    return _pointing(replace(finding, fixes=fixes_of(answer, repairs)), repairs)
 
 
 def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
@@ -51,11 +53,33 @@ def _side(edit: Edit) -> str:
     return "after" if edit.is_behind else "in"
 
 
-def _fixes_of(answer: Answer, repairs: Sequence[Repair]) -> tuple[Fix, ...]:
+def fixes_of(answer: Answer, repairs: Sequence[Repair], typed: MendedText | None = None) -> tuple[Fix, ...]:
     """Repairs in words, each with the place where the contour then ends or turns; where several have the same place,
-    with what is different."""
+    with what is different. Those of a text that is mended in thought change the text as it is `typed`."""
+    repairs = _told(answer, repairs)
     outcomes = _outcomes(answer, repairs)
-    return tuple(_fix(answer, repair, outcome) for repair, outcome in zip(repairs, outcomes, strict=True))
+    return tuple(_fix(answer, repair, outcome, typed) for repair, outcome in zip(repairs, outcomes, strict=True))
+
+
+MOST_FIXES = 4
+"""Fixes of one finding that are told, beside the choices among solutions."""
+
+
+def _told(answer: Answer, repairs: Sequence[Repair]) -> list[Repair]:
+    """The repairs that are told: the first few, and all that only choose among the solutions. Of several that leave
+    open numbers which nobody knows, the finding says enough."""
+    unknown = [repair for repair in repairs if repair.numbers and not any(each.example for each in repair.numbers)]
+    if len(unknown) > 1 or any(repair.numbers for repair in repairs if repair not in unknown):
+        repairs = [repair for repair in repairs if repair not in unknown]
+    claim = answer.claim
+    choosing = {claim.vocabulary[name][0] for name in claim.form.choices if name in claim.vocabulary}
+    choosing.add(claim.form.free.picking)
+
+    def chooses(repair: Repair) -> bool:
+        return all(edit.address in choosing and edit.kind is not EditKind.DROP for edit in repair.edits)
+
+    first = [repair for repair in repairs if not chooses(repair)][:MOST_FIXES]
+    return [repair for repair in repairs if chooses(repair) or repair in first]
 
 
 def told(edits: Sequence[Edit], slips: Sequence[SlipKind | None], blocks: Sequence[Block]) -> str:
@@ -88,9 +112,14 @@ def _together(edits: Sequence[Edit]) -> list[str]:
 _PAIR = 2
 
 
-def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
-    blocks = answer.claim.blocks
-    description = told(repair.edits, repair.slips, blocks)
+def _fix(answer: Answer, repair: Repair, outcome: str, typed: MendedText | None) -> Fix:
+    blocks, edits = answer.claim.blocks, repair.edits
+    write: Callable[[Iterable[Edit]], str] = partial(edited, blocks)
+    replacement, beside = repair.replacement, repair.beside
+    if typed is not None:
+        blocks, edits, write = typed.own, tuple(map(typed.typed, edits)), typed.edited
+        replacement, beside = write(repair.edits), (*beside, *typed.beside(repair.edits))
+    description = told(edits, repair.slips, blocks)
     if repair.numbers:
         description += f" ({_numbers(repair.numbers)})"
     if outcome:
@@ -98,16 +127,16 @@ def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
     dropped = [edit.old for edit in repair.edits if edit.kind is EditKind.DROP and edit.errand]
     is_beside = len(dropped) == len(repair.edits)
     effect = f"drops {join(dropped)}" if is_beside else ""
-    example = edited(blocks, repair.example) if any(each.example for each in repair.numbers) else ""
+    example = write(repair.example) if any(each.example for each in repair.numbers) else ""
     replaced = "\n".join(block.text for block in blocks)
     return Fix(
         description,
-        repair.replacement,
+        replacement,
         repair.applicability,
         effect,
         example,
         replaced,
-        repair.beside,
+        beside,
         repair.numbers,
     )
 
@@ -116,7 +145,7 @@ def _numbers(numbers: Sequence[OpenNumber]) -> str:
     """The numbers that may be written for open ones, in words."""
     known = [each for each in numbers if each.example]
     if not known:
-        return "no number was tried"
+        return "no number for it was found"
     if len(known) == 1:
         return f"such as {known[0].example}{_ranges(known[0], ', ')}"
     return f"such as {join([each.example + _ranges(each, ' (', ')') for each in known])}"

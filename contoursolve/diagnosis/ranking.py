@@ -2,7 +2,7 @@
 
 import re
 from bisect import insort
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from itertools import chain
 from math import log2
 
@@ -24,7 +24,6 @@ from contoursolve.diagnosis.plausibility import (
     ROUNDEST,
     Feature,
     coarseness,
-    cost_of,
     distance,
     familiarity,
     length_of,
@@ -45,7 +44,7 @@ from contoursolve.diagnosis.slips_around import (
 )
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.window import Seen, moves_of
-from contoursolve.diagnostics import Applicability, NumberRange, Span
+from contoursolve.diagnostics import Applicability, NumberRange
 from contoursolve.solving import Contour
 from contoursolve.tolerance import AGREEMENT
 
@@ -84,7 +83,8 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     # With the blocks around them, as slips are.
     found = [_seen(each, trial) if at < _ENOUGH else each for at, each in enumerate(sorted(found, key=_order))]
     known = {each.edits: each for each in found}
-    for each in _slips_around(trial, known.copy(), tried - known.keys()):
+    around, are_all = _slips_around(trial, known.copy(), tried - known.keys())
+    for each in around:
         other = known.get(each.edits)
         if other is None or each.cost_of_edits < other.cost_of_edits:
             known[each.edits] = each
@@ -100,20 +100,25 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     farthest = found[0].cost + _FARTHEST if found else 0.0
     found = [each for at, each in enumerate(found) if at < _ENOUGH or each.cost <= farthest or not any(each.slips)]
-    found = [styled(trial.with_numbers(each) if each.example else each, trial) for each in found]
+    found = [
+        styled(trial.with_numbers(each, may_try=at < _MOST_COUNTED) if each.example else each, trial)
+        for at, each in enumerate(found)
+    ]
     added = frozenset((edit.address, edit.line) for edits in tried for edit in edits if edit.kind is EditKind.ADD)
-    return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added)
+    is_cut = not (is_complete and are_all)
+    return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added, is_cut=is_cut)
 
 
 def _slips_around(
     trial: Trial, known: Mapping[tuple[Edit, ...], Repair], refused: Set[tuple[Edit, ...]]
-) -> Iterator[Repair]:
-    """The slips of a contour and of the blocks around it that explain what is wrong: those of digits where no other
-    one does."""
+) -> tuple[list[Repair], bool]:
+    """The slips of a contour and of the blocks around it that explain what is wrong, those of digits where no other
+    one does; and whether all that may were tried."""
     window, claim = trial.window, trial.claim
     # Where each trial takes a search, no slip is tried.
+    found, are_all = list[Repair](), True
     if window is None or not trial.marked.lines or trial.is_searched:
-        return
+        return found, not trial.is_searched
     ranked = sorted(each.cost for each in known.values())
     paths = [_USUAL, *(_cost_of_path(each, trial) for each in known.values())]
     best = min(map(_doubt, known.values()), default=None)
@@ -127,7 +132,7 @@ def _slips_around(
     for kinds in (FEW, OF_DIGITS)[: 1 if trial.is_frequent else 2]:
         is_likely = best is not None and best < _LIKELY
         if kinds is OF_DIGITS and is_likely and not trial.is_crossing_curves:
-            return
+            break
         is_in_vain = trial.prospects.is_in_vain if trial.prospects is not None else lambda _: False
         drafts = drafts_around(window, trial.marked, claim, kinds, may_mend, is_in_vain)
         most = MOST_AROUND if kinds is FEW else MOST_OF_DIGITS
@@ -149,6 +154,7 @@ def _slips_around(
             if draft.edits in refused and all(map(keeps_address, draft.edits)):
                 continue
             if tried >= most or draft.cost + min(paths) - _PATH > _bound(ranked):
+                are_all = are_all and tried < most
                 break
             tried += 1
             seen = window.after(draft.edits)
@@ -164,7 +170,8 @@ def _slips_around(
             best = _doubt(repair) if best is None else min(best, _doubt(repair))
             insort(ranked, repair.cost)
             paths.append(_cost_of_path(repair, trial))
-            yield repair
+            found.append(repair)
+    return found, are_all
 
 
 def _tries(most: int, trial: Trial) -> int:
@@ -209,6 +216,9 @@ _MARGIN = 2.5
 
 _USUAL = 2.0
 """The cost of a usual path, where those that are known are odd."""
+
+_MOST_COUNTED = 8
+"""The first repairs, for which numbers are tried that cannot be computed."""
 
 _ENOUGH, _BEHIND, _PATH = 3, 1.0, 0.2
 """Repairs that are read, and by how much less plausible than the first one they may be; by so much another path may
@@ -259,7 +269,7 @@ def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Tr
 def _weighed(repair: Repair, trial: Trial) -> Repair:
     """A repair with what is known of it without the blocks around it."""
     edits, marked = repair.edits, trial.marked
-    kinds = [cost_of(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True)]
+    kinds = [trial.price(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True)]
     # Corners that share an element which is too short for them do not fit for one reason.
     is_fitted = all(edit.why is Why.FITS for edit in edits) or all(trial.drops_corner(edit) for edit in edits)
     is_one = bool(edits) and is_fitted and not any(repair.slips)
@@ -377,7 +387,8 @@ def _order(repair: Repair) -> tuple[object, ...]:
         round(repair.deviation, 6),
         len(repair.edits),
         round(size, 6),
-        [(edit.span or Span(edit.line, 0, 0), edit.text) for edit in repair.edits],
+        # Wherever in its block a word stands.
+        sorted((edit.place, edit.old.strip(), edit.text.strip()) for edit in repair.edits),
     )
 
 

@@ -4,7 +4,7 @@ contour. Each one is applied to the text, read, checked and solved again before 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from decimal import ROUND_HALF_EVEN, Decimal
-from itertools import chain, combinations, product
+from itertools import chain, combinations, pairwise, product
 from math import copysign, sqrt
 
 from msgspec import Struct
@@ -21,9 +21,8 @@ from contoursolve.diagnosis.drafts import (
     missing_points,
     moving,
     unreadable,
-    variants,
 )
-from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, change, drop, write_word
+from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, Why, add, change, drop, write_word
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine, problems
 from contoursolve.diagnosis.explain import SINGULAR, spans_of
 from contoursolve.diagnosis.prospects import Prospects
@@ -43,7 +42,7 @@ from contoursolve.diagnosis.subsets import (
 from contoursolve.diagnosis.typo_fixes import other_codes, point_slips
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import Block, FaultKind, number_of
+from contoursolve.gcode import Block, FaultKind, number_of, spell
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, check, read
 from contoursolve.solving import (
@@ -123,7 +122,6 @@ def find_repairs(
     changes = (
         _values(answer, whole),
         *((first, then) if answer.status is Status.REJECTED else (then, first)),
-        _slips(answer, whole),
         _dropping(answer, drop_sets.found),
     )
     spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
@@ -139,7 +137,8 @@ def find_repairs(
     trial = replace(trial, is_missed=is_missed, is_round=is_round, is_spare=is_spare)
     conflicts = [each.facts for each in whole.conflicts]
     trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, conflicts, reach, around))
-    repairs = choose_repairs(trial, (*_valued(answer, whole, trial), *spelled, *moved, _lawful_alone(answer, trial)))
+    drafts = (*_valued(answer, whole, trial), *spelled, _lost_ends(answer), *moved, _lawful_alone(answer, trial))
+    repairs = choose_repairs(trial, drafts)
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
     return replace(repairs, is_complete=is_complete)
 
@@ -177,6 +176,22 @@ def _lawful_alone(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
         from contoursolve.diagnosis.drafts_beside_facts import lawful  # noqa: PLC0415
 
         yield from (edits for edits in lawful(answer, trial) if edits[0].kind is EditKind.ADD)
+
+
+def _lost_ends(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """A coordinate added to a line by its angle alone, of an axis that the line behind it does not state: without it,
+    the control asks that line for the end of both."""
+    claim = answer.claim
+    if answer.status is not Status.REJECTED or has_faults(claim):
+        return
+    rows = claim.lexicon.addresses
+    for block, behind in pairwise(claim.blocks):
+        stated = [rows[word.address] for word in block.words if word.address in rows]
+        if [row.unit for row in stated] != [Unit.DEGREE]:
+            continue
+        for axis in claim.before.plane.axes:
+            if behind.find(axis) is None and any(map(behind.find, claim.before.plane.axes)):
+                yield (Edit(EditKind.ADD, axis, text=spell(axis, PLACEHOLDER), line=block.line),)
 
 
 def _valued(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
@@ -461,18 +476,6 @@ def _zeros(gaps: list[float]) -> Iterator[float]:
     elif slope * slope >= 4 * bend * at:
         root = sqrt(slope * slope - 4 * bend * at)
         yield from sorted(((-slope + sign * root) / (2 * bend) * _STEP for sign in (1, -1)), key=abs)
-
-
-def _slips(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
-    """One word as it may have been meant, where the words are legal and determine a path that cannot be."""
-    claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
-    is_about_values = answer.status is Status.NO_SOLUTION and not whole.is_singular
-    if is_about_values and any(not finding.values.get("limit") for finding in answer.diagnostics):
-        for name, word in claim.words.items():
-            given = claim.givens.get(name)
-            if given is not None and given.unit is not Unit.SIGN and name not in claim.form.outline.shapes:
-                texts = variants(word, given, lexicon, unit)
-                yield from ((change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
 
 
 def _asked(findings: Iterable[Diagnostic], given: Given) -> Iterator[tuple[str, float]]:

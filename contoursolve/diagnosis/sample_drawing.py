@@ -4,7 +4,8 @@ At most values a word may determine what it does not at those that the others le
 known points is one that it has already.
 """
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import pairwise, product
 from math import cos, hypot, radians, sin
 
 import numpy
@@ -12,9 +13,27 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.geometry import FIRST, SECOND, Fact, Line, Profile, System, Unit, Values, assemble, scalar
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    Fact,
+    Heading,
+    Line,
+    Profile,
+    System,
+    Unit,
+    Values,
+    assemble,
+    both,
+    cross,
+    dot,
+    scalar,
+    step,
+)
 from contoursolve.numeric import Created, pinv, svd
 from contoursolve.reading import ParsedContour, read, stating
+from contoursolve.solving import basis_of
 
 Array = NDArray[numpy.float64]
 
@@ -41,12 +60,32 @@ class SampleDrawing(Struct, frozen=True, eq=False):
     stated: Array
     further: Mapping[str, Array]
     own: tuple[int, ...]
+    joints: Mapping[str, tuple[int, ...]]
+    """The columns of points between two parts of one straight line, or of one circle."""
+
+    def _rows(self, names: Collection[str]) -> Array:
+        """The rows of what is stated and of these words, each of length 1."""
+        rows = numpy.concatenate([self.stated, *(self.further[name] for name in names if name in self.further)])
+        sizes = numpy.linalg.norm(rows, axis=1)
+        found: Array = rows[sizes > 0] / sizes[sizes > 0, None]
+        return found
+
+    def cuts(self, names: Collection[str] = ()) -> list[str]:
+        """The points that slide along a line or a circle, which they cut in two, while nothing else moves."""
+        rows = self._rows(names)
+        return [
+            point
+            for point, columns in self.joints.items()
+            if rows.size and int((svd(rows[:, list(columns)])[1] > RANK).sum()) < len(columns)
+        ]
+
+    def missing(self, names: Collection[str] = ()) -> int:
+        """How many words a path still lacks beside these: where a cut lies makes no difference to it."""
+        return self.open_after(names) - len(self.cuts(names))
 
     def open_after(self, names: Collection[str] = ()) -> int:
         """In how many ways the contour still moves beside these words."""
-        rows = numpy.concatenate([self.stated, *(self.further[name] for name in names if name in self.further)])
-        sizes = numpy.linalg.norm(rows, axis=1)
-        rows = rows[sizes > 0] / sizes[sizes > 0, None]
+        rows = self._rows(names)
         if not rows.size:
             return len(self.own)
         _, values, right = svd(rows)
@@ -55,8 +94,8 @@ class SampleDrawing(Struct, frozen=True, eq=False):
 
     def helping(self, names: Sequence[str]) -> list[str]:
         """Those of some words that determine anything that is open."""
-        open_ = self.open_after()
-        return [name for name in names if name not in self.further or self.open_after((name,)) < open_]
+        open_ = self.missing()
+        return [name for name in names if name not in self.further or self.missing((name,)) < open_]
 
 
 def sample_drawing(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> SampleDrawing | None:
@@ -71,16 +110,24 @@ def sample_drawing(claim: ParsedContour, profile: Profile, names: Sequence[str])
         return None  # with those words some corner is none
     stated = [fact for fact in system.facts if fact in profiled or not fact.given]
     equations = Equations(whole, system)
-    for number in range(TRIES):
+    consistent = {*basis_of(assemble(profile))}
+    # Where what is stated contradicts itself, a drawing has as much of it as can be true.
+    sets = [stated, [fact for fact in stated if fact in consistent]]
+    for true, number in product(sets if len(sets[1]) < len(stated) else sets[:1], range(TRIES)):
         try:
-            place = equations.solve(stated, equations.random_place(number))
+            place = equations.solve(true, equations.random_place(number))
             if place is None or not equations.has_lengths(place):
                 continue
             told = {name: [fact for fact in system.facts if fact.given == name] for name in names}
             rows = {name: equations.rows_at(facts, place) for name, facts in told.items() if facts}
             further = {name: each for name, each in rows.items() if each is not None}
             columns = tuple(equations.number[name] for name in own)
-            return SampleDrawing(equations.slopes(stated, place), further, columns)
+            joints = {
+                point: tuple(equations.number[name] for name in both(point) if name in equations.number)
+                for point in equations.joints_at(place, true)
+            }
+            slopes = equations.slopes(true, place)
+            return SampleDrawing(slopes, further, columns, {point: each for point, each in joints.items() if each})
         except (ArithmeticError, ValueError, numpy.linalg.LinAlgError):
             continue  # at a random place something may be nothing that others are divided by
     return None
@@ -141,6 +188,34 @@ class Equations:
         lines = [each for each in self.system.figure.path if isinstance(each, Line) and each.tail and each.head]
         steps = [[at.coordinate(each.head, axis) - at.coordinate(each.tail, axis) for axis in (0, 1)] for each in lines]
         return all(hypot(*step) > least for step in steps)
+
+    def joints_at(self, place: Array, facts: Sequence[Fact]) -> Iterator[str]:
+        """The points without a corner between two parts of one straight line or of one circle, at a place, where
+        these facts hold."""
+        at, figure = self.at(place), self.system.figure
+        sharp = {corner.at for corner in figure.corners}
+        for first, second in pairwise(figure.path):
+            if first.head in sharp:
+                continue
+            if isinstance(first, Line) and isinstance(second, Line):
+                ways = [step(at, each.tail, each.head) for each in (first, second)]
+                sizes = hypot(*ways[0]) * hypot(*ways[1])
+                if abs(cross(*ways)) < RANK * sizes and not self._turns_back(first, second, facts):
+                    yield first.head
+            elif isinstance(first, Arc) and isinstance(second, Arc) and first.turn is second.turn:
+                apart = (
+                    hypot(*step(at, first.center, second.center)),
+                    at.radius(first.radius) - at.radius(second.radius),
+                )
+                if max(map(abs, apart)) < RANK * self.size:
+                    yield first.head
+
+    def _turns_back(self, first: Line, second: Line, facts: Sequence[Fact]) -> bool:
+        """Whether stated directions of two lines are opposite."""
+        stated = (fact for fact in facts if isinstance(fact, Heading) and fact.given in self.directions)
+        ways = {fact.heading: self.directions[fact.given] for fact in stated}
+        own = [ways.get((each.tail, each.head)) for each in (first, second)]
+        return own[0] is not None and own[1] is not None and dot(own[0], own[1]) < 0
 
     def random_place(self, seed: int) -> Array:
         """A place at random, with positive radii."""

@@ -203,8 +203,11 @@ def _zero_added(typed: Typed) -> Iterator[str]:
 
 def _zero_lost(typed: Typed) -> Iterator[str]:
     whole, point, rest = typed.number.partition(".")
+    # Nobody turns so far to the right.
+    is_angle = typed.unit is Unit.DEGREE
+    is_turned_far = is_angle and typed.value * 10 < -_HALF
     # Lengths of three digits are rare, and so are angles of four.
-    if whole.strip("0") and not rest and len(whole) <= (1 if typed.unit is not Unit.DEGREE else 2):
+    if whole.strip("0") and not is_turned_far and not rest and len(whole) <= (2 if is_angle else 1):
         yield typed.with_number(f"{whole}0{point}")
 
 
@@ -369,6 +372,9 @@ def _letter_alike(typed: Typed) -> Iterator[str]:
         if bare in _AXES if typed.address.startswith(",") else (letter in _AXES and bare not in _AXES):
             # The comma is no axis's; and what moves an axis was meant to move one.
             continue
+        if bare in _STEPS and not float(typed.number):
+            # Nobody writes an increment of 0.
+            continue
         if (bare in alike or is_angle) and address not in typed.stated and address != typed.word.address:
             yield spell(address, typed.sign + typed.number)
 
@@ -380,7 +386,7 @@ def _increment(typed: Typed) -> Iterator[str]:
         yield spell(f"{axis}=IC", typed.sign + typed.number)
 
 
-_AXES = "XYZUVW"
+_AXES, _STEPS = "XYZUVW", "UVW"
 _BESIDE = "MSTFHD"
 """Letters of what has nothing to do with a path: their numbers have no point."""
 

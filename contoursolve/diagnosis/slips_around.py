@@ -28,6 +28,7 @@ from contoursolve.diagnosis.slip_kinds import (
     POINT_LOST,
     POINT_LOST_IN_FEW,
     SIGN_LOST,
+    ZERO_LOST,
     SlipKind,
     Speech,
     number_in,
@@ -113,8 +114,6 @@ def drafts_around(
     for edits, slips, cost in chain(_of_words(window, marked, claim, kinds, is_in_vain), several):
         if any(edit.span in trusted for edit in edits) or not may_mend(edits):
             continue
-        # Where few numbers are round, one without a point has lost it.
-        cost -= _POINTED * (coarse <= _FEW_ROUND and not {POINT_LOST, POINT_LOST_IN_FEW}.isdisjoint(slips))  # noqa: PLW2901
         draft = _draft(numbers, coarse, marked, edits, slips, cost)
         known = found.get(draft.edits)
         if known is None or draft.cost < known.cost:
@@ -184,39 +183,79 @@ def _of_words(
     kinds: Iterable[SlipKind],
     is_in_vain: Callable[[Span], bool],
 ) -> Iterator[tuple[Edits, Slips, float]]:
-    turned = turned_axis(window.state.plane) or (turned_axis(claim.before.plane) if claim is not None else "")
-    outside = Speech.of_control(window.dialect, turned)
-    within = Speech.of(claim) if claim else outside
-    lines = {block.line for block in claim.blocks} if claim else set[int]()
-    kinds = tuple(kinds)
-    read = {word.span for word in claim.words.values()} if claim else set[Span]()
+    prices, kinds = Prices.of(window, marked, claim), tuple(kinds)
     for block in near_blocks(window, marked):
         stated = frozenset(word.address for word in block.words)
-        last = {word.address: at for at, word in enumerate(block.words)}
-        pointless = sum(map(_is_pointless, block.words))
-        for at, word in enumerate(block.words):
+        for word in block.words:
             if word.address in "GNOMF" or word.is_asked or is_in_vain(word.span):
                 continue
-            typed = {id(each): typed_as(word, each, stated) for each in (within, outside)}
+            typed = {id(each): typed_as(word, each, stated) for each in (prices.within, prices.outside)}
             for kind in kinds if all(typed.values()) else ():
-                speech = within if block.line in lines and kind.is_of_numbers else outside
-                if kind.name in _OF_CLAIM:
-                    speech = within
-                read_as = typed[id(speech)]
+                read_as = typed[id(prices.speech(block, kind))]
                 for text in texts_for(kind, read_as) if read_as else ():
                     edit = change(word, text)
-                    cost = cost_of(edit, kind)
-                    if kind is LETTER_ALIKE:
-                        is_read = word.span in read or (block.line not in lines and outside.is_axis(word))
-                        cost += _letter_cost(word, text, speech, marked, is_read=is_read)
-                    # One point is seldom lost alone beside others.
-                    cost += _OTHER_POINTS * (kind is POINT_LOST and pointless > _is_pointless(word))
-                    # Of two words for one corner, the later one is that of the corner behind.
-                    cost += _EARLIER * (kind is NEIGHBOUR and last[word.address] > at)
-                    cost += _NEGATIVE * (kind is SIGN_LOST and speech.is_angle(word))
-                    cost += _ACROSS * (kind is SIGN_LOST and speech.is_diameter(word))
-                    cost += _SIZE * (kind is SIGN_LOST and word.address.strip(",") in _SIZES)
-                    yield (edit,), (kind,), cost
+                    yield (edit,), (kind,), prices.price(edit, kind)
+
+
+class Prices(Struct, frozen=True, dict=True):
+    """The cost of slips of one word around what a finding marks, whichever way they are found."""
+
+    window: Window
+    marked: Marked
+    within: Speech
+    outside: Speech
+    lines: frozenset[int]
+    """Those of the contour."""
+    read: frozenset[Span]
+    """The words of the contour."""
+
+    @classmethod
+    def of(cls, window: Window, marked: Marked, claim: ParsedContour | None) -> "Prices":
+        """The prices around a contour, or around other blocks."""
+        turned = turned_axis(window.state.plane) or (turned_axis(claim.before.plane) if claim is not None else "")
+        outside = Speech.of_control(window.dialect, turned)
+        lines = frozenset(block.line for block in claim.blocks) if claim else frozenset[int]()
+        read = frozenset(word.span for word in claim.words.values()) if claim else frozenset[Span]()
+        return cls(window, marked, Speech.of(claim) if claim else outside, outside, lines, read)
+
+    def speech(self, block: Block, kind: SlipKind) -> Speech:
+        """The words that may stand in a block."""
+        is_within = block.line in self.lines and kind.is_of_numbers
+        return self.within if is_within or kind.name in _OF_CLAIM else self.outside
+
+    @cached_property
+    def _places(self) -> dict[Span, tuple[Block, int]]:
+        """The block of each word, and its place there."""
+        blocks = self.window.blocks
+        return {word.span: (block, at) for block in blocks for at, word in enumerate(block.words)}
+
+    @cached_property
+    def _is_coarse(self) -> bool:
+        """Whether few numbers are round, so that one without a point has lost it."""
+        return coarseness(numbers_of(self.window.blocks)) <= _FEW_ROUND
+
+    def price(self, edit: Edit, kind: SlipKind) -> float:
+        """The cost of a slip of a word, with what the words around say of it."""
+        cost = cost_of(edit, kind)
+        if edit.span not in self._places:
+            return cost
+        block, at = self._places[edit.span]
+        word, speech = block.words[at], self.speech(block, kind)
+        if kind is LETTER_ALIKE:
+            is_read = word.span in self.read or self.outside.is_axis(word)
+            cost += _letter_cost(word, edit.text, speech, self.marked, is_read=is_read)
+            cost += _BESIDE_PLANE * _is_beside_plane(edit, self.window)
+        # One point is seldom lost alone beside others.
+        pointless = sum(map(_is_pointless, block.words)) - _is_pointless(word)
+        cost += _OTHER_POINTS * (kind is POINT_LOST and pointless > 0)
+        cost -= _POINTED * (self._is_coarse and kind in (POINT_LOST, POINT_LOST_IN_FEW))
+        # Of two words for one corner, the later one is that of the corner behind.
+        is_earlier = any(each.address == word.address for each in block.words[at + 1 :])
+        cost += _EARLIER * (kind is NEIGHBOUR and is_earlier)
+        cost += _NEGATIVE * (kind is SIGN_LOST and speech.is_angle(word))
+        cost -= _USUAL_ANGLE * (kind is ZERO_LOST and speech.is_angle(word) and _is_usual(edit.text))
+        cost += _ACROSS * (kind is SIGN_LOST and speech.is_diameter(word))
+        return cost + _SIZE * (kind is SIGN_LOST and word.address.strip(",") in _SIZES)
 
 
 def _letter_cost(word: Word, text: str, speech: Speech, marked: Marked, *, is_read: bool) -> float:
@@ -229,6 +268,28 @@ def _letter_cost(word: Word, text: str, speech: Speech, marked: Marked, *, is_re
         return -_ODD
     return _READ * is_read
 
+
+def _is_beside_plane(edit: Edit, window: Window) -> bool:
+    """Whether a word moves an axis outside the plane, or would, as another block around does: a tool is lowered and
+    lifted in blocks of its own."""
+    rows, axes = window.dialect.modes.lexicon.addresses, window.state.plane.axes
+    for address in (edit.address, edit.text[:1].upper()):
+        row = rows.get(address)
+        if row is not None and row.axis and row.axis not in axes:
+            words = (each for block in window.blocks for each in block.words if each.address == address)
+            return any(edit.span is None or each.span.line != edit.span.line for each in words)
+    return False
+
+
+def _is_usual(text: str) -> bool:
+    """Whether an angle is one that most drawings have."""
+    number = number_in(text)
+    return bool(number) and float(number) % _USUAL_STEP == 0 and float(number) <= _HALF_TURN
+
+
+_BESIDE_PLANE, _USUAL_ANGLE, _USUAL_STEP, _HALF_TURN = 1.5, 0.4, 30, 180
+"""The cost of a wrong letter of an axis that lifts the tool, and by so much more plausible a lost zero is with which an
+angle is a multiple of some degrees."""
 
 _NAMED, _ODD = 0.8, 0.6
 """By so much more plausible a letter is that a message names, and another one than that of a negative diameter."""
@@ -343,6 +404,19 @@ def _of_codes(
     *pairs: tuple[str, str], everywhere: bool = False
 ) -> Callable[[Window, Sequence[Block]], Iterator[Edits]]:
     return lambda window, blocks: _codes(window, window.blocks if everywhere else blocks, pairs)
+
+
+def _compensated(window: Window, _: Sequence[Block]) -> Iterator[Edits]:
+    """The code for no compensation as one for a side, where none stands behind it: that of a head is meant."""
+    codes = [plain_code(word.text) for block in window.blocks for word in block.words]
+    sides = sum(code in _SIDES for code in codes)
+    for block in window.blocks:
+        sides -= sum(plain_code(word.text) in _SIDES for word in block.words)
+        if not sides:
+            yield from _codes(window, [block], [("G40", side) for side in _SIDES])
+
+
+_SIDES = ("G41", "G42")
 
 
 def _both(*names: str) -> tuple[tuple[str, str], ...]:
@@ -489,16 +563,24 @@ def _respelled(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
         yield from ((edit,) for edit in edits)
         if len(edits) > 1:
             yield edits
-        has_marks = any(address.startswith("#") for address in window.dialect.modes.lexicon.addresses)
-        for pattern, new in _RESPELLED if has_marks else [each for each in _RESPELLED if "#" not in each[1]]:
+        yield from ((edit,) for edit in rewritten(window, [block]))
+
+
+def rewritten(window: Window, blocks: Iterable[Block]) -> Iterator[Edit]:
+    """Text that is almost a word, as the word: with a comma, a point or an equals sign more or less."""
+    addresses = window.dialect.modes.lexicon.addresses
+    has_marks = any(address.startswith("#") for address in addresses)
+    patterns = _RESPELLED if has_marks else [each for each in _RESPELLED if "#" not in each[1]]
+    for block in blocks:
+        for pattern, new in patterns:
             for match in pattern.finditer(block.text):
                 begin = block.text.rfind(" ", 0, match.start()) + 1
                 end = (block.text + " ").find(" ", match.end())
                 old = block.text[begin:end]
                 text = block.text[begin : match.start()] + match.expand(new) + block.text[match.end() : end]
-                is_known = "=" not in new or text.partition("=")[0].upper() in window.dialect.modes.lexicon.addresses
+                is_known = "=" not in new or text.partition("=")[0].upper() in addresses
                 if text != old and is_known:
-                    yield (Edit(EditKind.CHANGE, "", Span(block.line, begin + 1, end + 1), old, text),)
+                    yield Edit(EditKind.CHANGE, "", Span(block.line, begin + 1, end + 1), old, text)
 
 
 _RESPELLED = (
@@ -606,9 +688,7 @@ SEVERAL = (
     ),
     SeveralKind(SlipKind("increments", "", 2.6, _MEANING), _of_codes(*_both("G90", "G91"), everywhere=True)),
     SeveralKind(SlipKind("increments-again", "", 1.2, _MEANING), _said_again),
-    SeveralKind(
-        SlipKind("compensation", "", 2.2, _MEANING), _of_codes(("G40", "G41"), ("G40", "G42"), everywhere=True)
-    ),
+    SeveralKind(SlipKind("compensation", "", 2.2, _MEANING), _compensated),
     SeveralKind(SlipKind("code", "", 2.4, _MEANING), lambda window, _: _code_digits(window, draws=False)),
     SeveralKind(SlipKind("other-code", "", 4.8, _MEANING), lambda window, _: _code_digits(window, draws=True)),
     SeveralKind(SlipKind("rapid", "", 2.8, _MEANING), _of_codes(("G0", "G1"))),

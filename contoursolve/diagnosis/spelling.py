@@ -8,11 +8,13 @@ from decimal import Decimal
 
 from msgspec.structs import replace
 
+from contoursolve.diagnosis.edits import change, edited
 from contoursolve.diagnosis.explain import Context, report, spans_of
 from contoursolve.diagnosis.vocabulary import UNITS, corner_at, meant_by, not_read_yet
 from contoursolve.diagnosis.wording import angle_text, either, join, length_text
-from contoursolve.diagnostics import Basis, Diagnostic, Label, Severity, Span
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.gcode import (
+    AXES,
     Block,
     Fault,
     FaultKind,
@@ -26,7 +28,17 @@ from contoursolve.gcode import (
     spell,
 )
 from contoursolve.geometry import Arc, CornerShape, Given, Length, Unit
-from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue, State, WithoutPoint
+from contoursolve.reading import (
+    Effect,
+    Lexicon,
+    Modes,
+    ParsedContour,
+    Position,
+    ReadIssue,
+    State,
+    WithoutPoint,
+    rows_of,
+)
 from contoursolve.tolerance import LARGEST
 
 
@@ -411,6 +423,70 @@ def move_without_point(context: Context, words: Sequence[Word], lexicon: Lexicon
     counted = [word for word in words if counts_few(word, lexicon)]
     if counted:
         yield _counted_in_increments(context, ReadIssue.MOVE_IN_INCREMENTS, counted, lexicon, unit)
+
+
+def lost_points(blocks: Sequence[Block], around: Sequence[Block], modes: Modes) -> list[Word]:
+    """The coordinates of some blocks that have lost their points: of all lengths in the blocks around, each alone has
+    none, and with it lies much nearer to the lines before and behind."""
+    lexicon, rows = modes.lexicon, modes.lexicon.addresses
+    few = [word for block in blocks for word in block.words if word.address in AXES and counts_few(word, lexicon)]
+    if not few or any(code.effect is Effect.INCREMENTAL for block in around for code in rows_of(block, modes)):
+        return []
+    lengths = [
+        word
+        for block in around
+        for word in block.words
+        if word.number and word.address in rows and rows[word.address].unit is Unit.MM
+    ]
+    with_point = [word for word in lengths if word.has_point]
+    if len(few) > 1 or len(with_point) < max(_POINTED, len(lengths) - 1):
+        return []
+    before, behind = _beside(few[0], around, modes)
+    beside = [each for each in (before, behind) if each is not None]
+    number, step = few[0].number or Decimal(0), lexicon.numbers.step(Unit.MM, Length.MM)
+    read, meant = (sum(abs(value - each) for each in beside) for value in (number * step, number))
+    return few if beside and _FARTHER * meant < read else []
+
+
+_POINTED, _FARTHER = 3, 2
+"""Lengths with a point beside one without, and how much farther the path is without it, that show that it is lost."""
+
+
+def _beside(word: Word, around: Sequence[Block], modes: Modes) -> tuple[Decimal | None, Decimal | None]:
+    """The numbers that an address has before and behind a word, as far as the tool cuts from the one to the other; None
+    where there is none, or where the word is no place."""
+    before, is_behind = None, False
+    for block in around:
+        effects = {code.effect for code in rows_of(block, modes)}
+        codes = {word.number for word in block.words if word.address == "G"}
+        is_place = effects <= _OF_PLACES
+        if word in block.words:
+            if not is_place:
+                return None, None
+            is_behind = True
+            continue
+        if is_behind and (0 in codes or not is_place):
+            break
+        own = block.find(word.address)
+        if own is not None and own.number is not None and is_place:
+            if is_behind:
+                return before, own.number
+            before = own.number
+    return (before, None) if is_behind else (None, None)
+
+
+_OF_PLACES = {Effect.NONE, Effect.MOTION, Effect.PLANE, Effect.UNITS, Effect.ABSOLUTE, Effect.COMPENSATION}
+"""Effects of the codes beside which words of axes are places."""
+
+
+def explain_lost(context: Context, word: Word, blocks: Sequence[Block], modes: Modes, unit: Length) -> Diagnostic:
+    """A coordinate in some blocks that has lost its point, with it as the fix."""
+    typed = replace(word, has_point=False)
+    finding = _counted_in_increments(context, ReadIssue.POINT_LOST, [typed], modes.lexicon, unit)
+    edit = change(word, f"{word.text.strip()}.")
+    replaced = "\n".join(block.text for block in blocks)
+    fix = Fix(str(edit), edited(blocks, [edit]), Applicability.CHANGES_CONTOUR, replaced=replaced)
+    return replace(finding, fixes=(fix,))
 
 
 def _counted_in_increments(

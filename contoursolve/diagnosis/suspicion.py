@@ -38,7 +38,7 @@ from contoursolve.gcode import Word
 from contoursolve.reading import ParsedContour, ReadIssue
 
 MOST_FIXES = 3
-_TURNING = (SIGN_LOST, SIGN_ADDED, SUPPLEMENT, OPPOSITE, OTHER_AXIS)
+_TURNING = (SIGN_LOST, SIGN_ADDED, SUPPLEMENT, OPPOSITE, OTHER_AXIS, ZERO_LOST)
 """Slips after which a turned path runs back."""
 
 _TENFOLD = (ZERO_LOST, POINT_MOVED)

@@ -8,11 +8,11 @@ from math import atan2, degrees
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit, apply_edits, edit_facts
+from contoursolve.diagnosis.edits import Edit, apply_edits, edit_facts, read_edited
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
-from contoursolve.gcode import Block, parse_block
+from contoursolve.gcode import Block
 from contoursolve.geometry import Unit
 from contoursolve.reading import Dialect, Effect, ReadIssue, State
 from contoursolve.solving import ArcSegment, Contour, Point, opposes
@@ -132,7 +132,7 @@ class Window(Struct, frozen=True, dict=True):
             if text == block.text:
                 blocks.append(block)
             elif text.strip():
-                blocks += [parse_block(part, block.line, syntax) for part in text.split("\n")]
+                blocks += read_edited(block, text, syntax)
                 apart = edit_facts([each for each in block.directives if each.span.line < 0], edits)
                 blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
         own, left = {*self.lines}, len(blocks)

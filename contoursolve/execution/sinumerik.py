@@ -262,7 +262,7 @@ def _equals(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     is_parameter = own[0] == "R" and (own[1:].isdigit() or (own == "R" and found["index"] is not None))
     is_address = len(name) == 1 or name[1:].isdigit()
     if not is_parameter and (name.startswith("$") or name in line.names or is_address):
-        line.take(r"(?:AC|IC|DC|ACP|ACN|CAC|CIC|CDC)[ \t]*+\(")
+        line.take(r"(?:[DR]?[AI]C|DC|ACP|ACN|CAC|CIC|CDC)[ \t]*+\(")
         line.word(is_value=False)
         return
     line.at = found.start() + (len(name) - len(own) if is_parameter else 0)
@@ -355,7 +355,26 @@ _TABLE = (
     Spelling(rf"(?<![^ \t])(?P<name>[A-Z])(?=[ \t]*+{IN_PARENTHESES}[ \t]*+$)", _call_letter),
     Spelling(r"(?P<name>[A-Z_]{2}\w*+)(?![\[=])", _call),
 )
-_RESERVED = ("TO", "OF", "DEFAULT", "SAVE", "ENDLABEL", "AC", "IC", "DC", "ACP", "ACN", "REAL", "INT", "BOOL", "CHAR")
+_RESERVED = (
+    "TO",
+    "OF",
+    "DEFAULT",
+    "SAVE",
+    "ENDLABEL",
+    "AC",
+    "IC",
+    "DAC",
+    "DIC",
+    "RAC",
+    "RIC",
+    "DC",
+    "ACP",
+    "ACN",
+    "REAL",
+    "INT",
+    "BOOL",
+    "CHAR",
+)
 _FRAMES = ("CTRANS", "CFINE", "CROT", "CROTS", "CSCALE", "CMIRROR")
 """Functions that make a frame."""
 _KINDS = ("STRING", "AXIS", "FRAME", "PROC", "BLOCK", "PRIO", "ASUP")

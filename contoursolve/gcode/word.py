@@ -7,6 +7,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnostics import Shown, Span
 from contoursolve.gcode.syntax import ISO, Syntax
@@ -228,6 +229,19 @@ class Block(Shown, Struct, frozen=True):
             if word.address == address:
                 return word
         return None
+
+    def with_points(self, words: Iterable[Word]) -> "Block":
+        """The block, in which some of its words are read as if they had their decimal points."""
+        texts = {word.text for word in words}
+        if not texts:
+            return self
+        own = (replace(each, has_point=True) if each.text in texts else each for each in self.words)
+        return replace(self, words=tuple(own))
+
+    @property
+    def pointed(self) -> list[Word]:
+        """The words that are read so."""
+        return [word for word in self.words if word.has_point and "." not in word.text]
 
     def typed_span(self, span: Span) -> Span:
         """The place of a stretch of its text in the line as it was typed."""

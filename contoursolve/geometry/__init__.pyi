@@ -126,6 +126,7 @@ from .touching import (
     EqualRadii as EqualRadii,
     Foot as Foot,
     Leaving as Leaving,
+    ParallelTangent as ParallelTangent,
     PointBeside as PointBeside,
     RadiusStep as RadiusStep,
     Setback as Setback,

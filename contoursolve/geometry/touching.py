@@ -191,6 +191,18 @@ class Leaving(Fact, Struct, frozen=True):
         return (self.turn.sign * cross(step(at, self.center, self.point), at.bearing(self.line)),)
 
 
+class ParallelTangent(Fact, Struct, frozen=True):
+    """The line is parallel to the tangent of a circle about `center` at `point`, whichever way it runs."""
+
+    line: str
+    point: str
+    center: str
+    given: str = ""
+
+    def residual(self, at: Lookup) -> Any:
+        return dot(at.bearing(self.line), step(at, self.center, self.point))
+
+
 class TangentCircles(Fact, Struct, frozen=True):
     """Two circles touch: from outside (`side` +1) or one inside the other (-1).
 

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from contoursolve.gcode import spell
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.postprocess.post_processors import Arcs
+from contoursolve.reading import State
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 
 LONGEST_BY_CENTER = 300.0
@@ -80,6 +81,13 @@ class MotionBlock(NamedTuple):
     words: tuple[str, ...]
     end: Point
     deviation: float
+
+
+def plane_of(contour: Plane, state: State) -> Plane:
+    """The plane of a contour as one of its blocks counts in it: one command may make X a diameter in absolute
+    coordinates and a radius in increments."""
+    own = state.plane
+    return replace(contour, diameters=own.diameters) if contour.axes == own.axes else contour
 
 
 def longest(form: Format) -> float:

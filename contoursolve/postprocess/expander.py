@@ -27,7 +27,7 @@ from contoursolve.gcode import (
     words_of,
 )
 from contoursolve.geometry import Length
-from contoursolve.postprocess.emit import Format, MotionBlock, emit
+from contoursolve.postprocess.emit import Format, MotionBlock, emit, plane_of
 from contoursolve.postprocess.expansion_report import ExpansionOptions, FixedWords, Left, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
 from contoursolve.postprocess.post_processors import SAME, MachineKind, machine_of
@@ -116,6 +116,9 @@ class Expander:
                 self.summary.line_end = self.lines.end_of(step.blocks[0].line)
                 yield OPENING
             self.summary.warn([each for each in step.findings if each.about in _TOLD])
+            if lost := [each for each in step.findings if each.about is ReadIssue.POINT_LOST]:
+                line, sources = lost[0].span.line, {block.line: block.text for block in step.blocks}
+                self.summary.left.append(Left((line,), f"{lost[0].code}: {lost[0].message}", tuple(lost), sources))
             self.summary.elsewhere += [each for each in step.findings if each.about in ELSEWHERE]
             if step.passage is not None:
                 yield from self._pass(step.passage, step.before)
@@ -285,13 +288,16 @@ class Expander:
 
     def _miscounted(self, answer: Answer) -> str:
         """The reason why the target would mistake X for a diameter or for a radius; empty if it reads X alike."""
-        modes, diameter, counts = self.options.post.modes, answer.claim.before.diameter, any(answer.plane.diameters)
+        claim, modes, counts = answer.claim, self.options.post.modes, any(answer.plane.diameters)
+        diameter = claim.before.diameter
         if modes is None or diameter is None:
             if counts and modes is not None:
                 self.watch.note_diameter(answer.lines[0])
             return ""
         what = "a diameter" if counts else "a radius"
-        if not any(code.diameter for code in modes.codes.values()):
+        parts = blocks_of(claim, claim.before, self.modes) if diameter is Diameter.ABSOLUTE else ()
+        is_mixed = counts and any(part.state.is_incremental for part in parts)
+        if not any(code.diameter for code in modes.codes.values()) and not is_mixed:
             is_lathe = machine_of(self.dialect) is MachineKind.LATHE
             settings = {setting.name for setting in self.dialect.settings}
             advice = f"; for a lathe, set {self.dialect.name}.machine=lathe" if "machine" in settings else ""
@@ -334,7 +340,8 @@ class Expander:
                 continue
             part = found
             state = part.state
-            form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
+            plane = state.plane if answer.plane is state.plane else plane_of(answer.plane, state)
+            form = self._format(replace(state, plane=plane))
             moves: list[MotionBlock] = []
             if translated is not None:
                 moves = [move for name, each in translated.items() if part.makes(name) for move in each]

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import Block, Passage, Word, comment_out, parse_block, remark
-from contoursolve.postprocess.emit import MotionBlock, emit
+from contoursolve.postprocess.emit import MotionBlock, emit, plane_of
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion_report import Left
 from contoursolve.postprocess.restating import InOwnWords
@@ -111,7 +111,7 @@ class MovedExpander(Expander):
                 yield from self._keep(block, state)
             else:
                 moves = self.moved.moves.get(block.line, elements)
-                yield from self._move(block, replace(state, plane=answer.plane), moves)
+                yield from self._move(block, replace(state, plane=plane_of(answer.plane, state)), moves)
         self.summary.warn(answer.diagnostics)
 
     def _move(self, block: Block, state: State, moves: tuple[Move, ...]) -> Iterator[str]:

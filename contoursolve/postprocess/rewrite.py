@@ -85,7 +85,7 @@ def rewrite(
     held in memory, to see which contour they are about.
     """
     unread: list[Left] = []
-    recogniser = Recogniser()
+    recogniser = Recogniser(source.name)
     named, dialect = named_control(control, settings), None
     with suppress(SeveralControlsError):
         dialect = named or _recognise(recogniser, _blocks(source, unread))

@@ -1,6 +1,6 @@
 """For which control a program is where its words are those of several: whether all that read them read them alike."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import zip_longest
 
@@ -9,6 +9,7 @@ from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Depth, coordinates, join, status_text
+from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import Block, Program, telling
 from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.program.pipeline import Run
@@ -23,6 +24,7 @@ from contoursolve.program.recognise import (
 )
 from contoursolve.program.request import Request
 from contoursolve.reading import Dialect, ReadIssue, Taken
+from contoursolve.solving import LineSegment, Segment
 from contoursolve.tolerance import ERROR_BOUND_WARNING
 
 
@@ -34,8 +36,8 @@ class _Outcome(Struct, frozen=True):
     status: str
     path: tuple[float, ...]
     told: str
-    points: tuple[str, ...] = ()
-    """The points of its path as a reader sees them, which may count diameters."""
+    elements: tuple[str, ...] = ()
+    """Its lines and arcs as a reader sees them, who may count diameters."""
 
     def agrees(self, other: "_Outcome | None") -> bool:
         """Whether another control makes the same of it."""
@@ -50,6 +52,9 @@ class _Reading(Struct, frozen=True):
 
     outcomes: tuple[_Outcome, ...]
     corners: frozenset[tuple[int, int]]
+    findings: frozenset[Hashable]
+    """The place, the kind and the severity of each finding, and the first fix of an error, if that was looked for."""
+    has_errors: bool
 
 
 def choose_alike(
@@ -91,7 +96,12 @@ def choose_alike(
     own_dialect = configure(DIALECTS[first], own)
     if not others:
         return own_dialect
-    alike = Taken(ReadIssue.CONTROL_ALIKE, {"controls": join(readers), "control": first})
+    is_told_alike = len({readings[name].findings for name in readers}) == 1
+    if is_told_alike and any(each.has_errors for each in readings.values()):
+        full = (_read(program, configure(DIALECTS[name], own), asked, Depth.FULL) for name in readers)
+        is_told_alike = len({each.findings for each in full}) == 1
+    how = "read this program alike" if is_told_alike else "cut the same path, but tell other findings"
+    alike = Taken(ReadIssue.CONTROL_ALIKE, {"controls": join(readers), "control": first, "how": how})
     return replace(own_dialect, taken=(*own_dialect.taken, alike))
 
 
@@ -110,14 +120,23 @@ def _choose(
     return found, turned_with_corners(program.blocks) if found is None else (), None
 
 
-def _read(program: Program, dialect: Dialect, asked: Request) -> _Reading:
-    """Read a program as a control does."""
+def _read(program: Program, dialect: Dialect, asked: Request, depth: Depth = Depth.VERDICT) -> _Reading:
+    """Read a program as a control does; with a depth other than VERDICT, its fixes are looked for, too."""
     own = asked.of(dialect, lambda: (block.text for block in program.blocks))
-    running = Run(program, replace_fields(own, depth=Depth.VERDICT))
-    found = (*running.collect().answers, *running.called)
+    running = Run(program, replace_fields(own, depth=depth))
+    result = running.collect()
+    found = (*result.answers, *running.called)
     words = (word for answer in found for word in answer.claim.words.values())
     corners = ((word.span.line, word.span.column) for word in words if word.address in CORNERS_WITHOUT_COMMA)
-    return _Reading(tuple(map(_outcome, found)), frozenset(corners))
+    findings = frozenset(map(_told_of, result.diagnostics))
+    return _Reading(tuple(map(_outcome, found)), frozenset(corners), findings, result.has_errors)
+
+
+def _told_of(finding: Diagnostic) -> Hashable:
+    """A finding without its control: its place, kind and severity, and the first fix where it is an error."""
+    fix = finding.fixes[0].description.partition(" -> ")[0] if finding.fixes and finding.is_error else ""
+    # A code of a rule begins with the control's family.
+    return finding.span, finding.about or finding.code.partition("-")[2], finding.severity, fix
 
 
 def _outcome(answer: Answer) -> _Outcome:
@@ -129,8 +148,15 @@ def _outcome(answer: Answer) -> _Outcome:
     places = [at for each in contour.elements for at in (each.start, each.end, getattr(each, "center", each.end))]
     told = f"ends at {coordinates(contour.end, answer.plane, answer.unit)}"
     path = tuple(value for place in (*places, contour.end) for value in place)
-    points = tuple(coordinates(place, answer.plane, answer.unit) for place in places)
-    return _Outcome(lines, answer.status.value, path, told, points)
+    elements = tuple(_element_text(each, answer) for each in contour.elements)
+    return _Outcome(lines, answer.status.value, path, told, elements)
+
+
+def _element_text(element: Segment, answer: Answer) -> str:
+    end = coordinates(element.end, answer.plane, answer.unit)
+    if isinstance(element, LineSegment):
+        return f"a line to {end}"
+    return f"an arc to {end} about {coordinates(element.center, answer.plane, answer.unit)}"
 
 
 def _taking_corners(readings: Mapping[str, _Reading]) -> list[str]:
@@ -163,10 +189,13 @@ def _differences(contour: Mapping[str, _Outcome | None]) -> tuple[str, list[str]
 
 
 def _told_apart(made: Sequence[_Outcome | None]) -> list[str]:
-    """Descriptions of a contour as each control reads it, made different by the first point that differs."""
+    """Descriptions of a contour as each control reads it, made different by the first line or arc that differs."""
     told = ["no contour there" if each is None else each.told for each in made]
-    points = [each.points for each in made if each is not None]
-    if len({*told}) == len(told) or len(points) < len(made) or len({len(each) for each in points}) > 1:
+    paths = [each.elements for each in made if each is not None]
+    if len({*told}) == len(told) or len(paths) < len(made):
         return told
-    apart = next((at for at, each in enumerate(zip(*points, strict=True)) if len({*each}) > 1), None)
-    return told if apart is None else [f"passes {each[apart]}" for each in points]
+    apart = next((at for at, each in enumerate(zip_longest(*paths)) if len({*each}) > 1), None)
+    if apart is None:
+        return told
+    begin = f"after {paths[0][apart - 1]}, " if apart else "at first "
+    return [f"{begin}{path[apart] if apart < len(path) else 'nothing more'}" for path in paths]

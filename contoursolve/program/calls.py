@@ -3,16 +3,16 @@
 import re
 from collections.abc import Iterable, Iterator, Sequence, Set
 from decimal import Decimal
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report, status_text
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.execution import ARGUMENT, MACHINES, Call, Limit, Machine, ModalCall, Surroundings, When, counts_in
-from contoursolve.gcode import Block, Caller, Program, Substitution, late_pattern, parse_block, spell, typed_span
+from contoursolve.gcode import Block, Caller, Program, Substitution, parse_block, spell, typed_span
 from contoursolve.geometry import Length
-from contoursolve.program.cycle_profiles import CycleProfile, profiles_of, turns_back
+from contoursolve.program.cycle_profiles import CycleProfile, begins_wrongly, profiles_of, turns_back
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import Dialect, ReadIssue, Rule, State, machine_in
@@ -61,22 +61,23 @@ def arguments_without_point(machine: Machine, asked: Request) -> Iterator[Diagno
         )
 
 
-_CONDITION = late_pattern(r"\A.*\]THEN", re.IGNORECASE)
+_CONDITION = re.compile(r"\A.*\]THEN", re.IGNORECASE)
 
 
 def in_text_order(
     blocks: Sequence[Block],
     steps: Iterable[Step],
     passed_over: Set[int],
-    rules: tuple[Rule, ...],
+    asked: Request,
     told: Sequence[Diagnostic],
     profiles: list[CycleProfile],
-    state: State,
+    dialect: Dialect,
     called: list[Answer],
 ) -> Iterator[Step]:
     """The steps of a program as it runs, each contour once, in the order in which the program is written. What is
     wrong in lines that the program passes over, stops nothing. `told` are findings about the whole text; the profiles
-    of cycles are added to `profiles`, contours of other files to `called`; it begins in a state."""
+    of cycles are added to `profiles`, contours of other files to `called`; it is for a control."""
+    rules, state = asked.rules, dialect.initial_state(asked.unit)
     ran: dict[int, list[Step]] = {}
     before: dict[int, State] = {}
     findings, here = list(told), _Substituted()
@@ -100,8 +101,9 @@ def in_text_order(
     if not ran:
         # No contour minds where it is not followed.
         findings = [each for each in findings if each.about is not ReadIssue.NOT_FOLLOWED]
-    profiles.extend(profiles_of(in_cycle))
-    findings += (_as_typed(each, blocks, here) for profile in profiles for each in turns_back(profile, rules))
+    profiles.extend(profiles_of(in_cycle, dialect.modes))
+    told_of = chain.from_iterable((*turns_back(each, rules), *begins_wrongly(each, rules)) for each in profiles)
+    findings += (_as_typed(each, blocks, here) for each in told_of)
     by_line: dict[int, list[Diagnostic]] = {}
     for finding in {_key(each): each for each in findings}.values():
         by_line.setdefault(finding.span.line, []).append(finding)

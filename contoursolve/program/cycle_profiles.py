@@ -8,15 +8,18 @@ from msgspec import Struct
 
 from contoursolve.diagnosis import Context, measured, report
 from contoursolve.diagnostics import Basis, Diagnostic, Span
-from contoursolve.gcode import Caller
+from contoursolve.gcode import Block, Caller
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import ReadIssue, Rule, State
+from contoursolve.reading import TURNS, ArcIssue, Modes, ReadIssue, Rule, State, apply_modes
 from contoursolve.solving import ArcSegment, Point, Segment
 
 ONE_WAY: Mapping[str, tuple[int, ...]] = {"G71": (0, 1), "G72": (1, 0)}
 """Along which axes of the plane (0: Z, 1: X) the profile of a cycle goes one way: always along the first, and along
 the second where its first block does not program both axes (Fanuc's type I)."""
+
+ROUGHING = (*ONE_WAY, "G73")
+"""The cycles that cut a profile in several passes."""
 
 _SLACK = 1e-3
 """mm that a profile may go back: what rounding does."""
@@ -38,9 +41,13 @@ class CycleProfile(Struct, frozen=True):
     """Whether its first block programs both axes."""
     has_contour: bool
     """Whether a contour belongs to it."""
+    first: Block
+    """Its first block."""
+    motion: int | None
+    """The motion in force in it."""
 
 
-def profiles_of(steps: Sequence[Step]) -> Iterator[CycleProfile]:
+def profiles_of(steps: Sequence[Step], modes: Modes) -> Iterator[CycleProfile]:
     """The profiles that ran, in order."""
     numbered = list(enumerate(steps))
     for caller, group in groupby(numbered, lambda each: _cycle_of(each[1])):
@@ -64,6 +71,8 @@ def profiles_of(steps: Sequence[Step]) -> Iterator[CycleProfile]:
             behind.unit,
             is_free,
             any(step.answer is not None for _, step in inside),
+            block,
+            apply_modes(begin, block, modes).motion,
         )
 
 
@@ -126,6 +135,24 @@ def turns_back(profile: CycleProfile, rules: tuple[Rule, ...]) -> Iterator[Diagn
                 )
                 break
             farthest = max(farthest * sense, at[axis] * sense) * sense
+
+
+_LINES = (0, 1)
+"""The motions that the first block of a profile may state."""
+
+
+def begins_wrongly(profile: CycleProfile, rules: tuple[Rule, ...]) -> Iterator[Diagnostic]:
+    """The finding where the first block of a profile states no line: an arc is in force in it, or no code is there."""
+    block = profile.first
+    codes = [word for word in block.words if word.address == "G"]
+    if profile.caller.cycle not in ROUGHING or any(word.number in _LINES for word in codes) or block.file:
+        return
+    issue = ArcIssue.PROFILE_ARC if profile.motion in TURNS else ArcIssue.PROFILE_CODE
+    row = next((rule for rule in rules if rule.about is issue), None)
+    if row is not None:
+        context = Context(rules, profile.unit, place=block.span)
+        words = [word for word in codes if word.number in TURNS]
+        yield report(context, row, Basis.RULE, words, cycle=profile.caller.cycle)
 
 
 def is_reached(profile: CycleProfile) -> bool:

@@ -9,33 +9,43 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Context, Depth, explain_call, explain_codes_by_name, report
+from contoursolve.diagnosis import (
+    Answer,
+    Context,
+    Depth,
+    counts_few,
+    explain_call,
+    explain_codes_by_name,
+    explain_lost,
+    lost_points,
+    report,
+)
 from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.execution import EventKind, ProgramEvent
-from contoursolve.gcode import Block, Blocks, Passage, in_passages, words_of
+from contoursolve.gcode import AXES, Block, Blocks, Passage, Word, in_passages, words_of
 from contoursolve.program.contour_answers import BEHIND, Answers, AnswersAhead, AnswersInPasses
 from contoursolve.program.lookahead import Line, Lookahead, View
 from contoursolve.program.named_words import untouched
 from contoursolve.program.outside_contours import (
     NEAR,
-    findings_of_arc,
-    findings_of_arc_before,
     findings_of_block,
+    findings_of_values,
+    with_arcs,
     with_slips,
 )
 from contoursolve.program.request import Request
-from contoursolve.program.solve_queue import Ahead, Pending, Queue, Step, Together
+from contoursolve.program.solve_queue import WAITS, Ahead, Pending, Queue, Step, Together
 from contoursolve.program.start_point import StartCount, compare_count, start_count, state_before
 from contoursolve.program.tape_markers import Marks
 from contoursolve.program.told_outside import Outside
-from contoursolve.program.windows import further
+from contoursolve.program.windows import further, near
 from contoursolve.reading import (
     Dialect,
     ParsedContour,
     PlainLines,
+    Position,
     ReadIssue,
     State,
-    WithoutPoint,
     advance,
     advance_plainly,
     apply_modes,
@@ -110,8 +120,7 @@ class Examination:
         self.answers = answers(asked, dialect, self._parts)
         self.queue = Queue(dialect, together, self.answers, goes_on=goes_on)
         self._context = Context(asked.rules, asked.unit)
-        is_counted = dialect.modes.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
-        self._plain = PlainLines(dialect.modes, has_points=asked.is_strict and is_counted)
+        self._plain = PlainLines(dialect.modes, has_points=asked.is_strict)
         """The lines of which nothing is told: of a number without a point, it may be."""
         state, found = state_before(asked, dialect)
         state = replace(state, zero={}) if is_called else state
@@ -142,21 +151,44 @@ class Examination:
 
     def take(self, view: View, found: Beginning, cursor: Cursor) -> WalkStep:
         """The step that takes what was found at the first of some blocks."""
+        lost = self._lost_point(view, found, cursor)
+        if lost is not None:
+            at, word = lost
+            view.blocks[at] = view[at].with_points([word])
+            found = self.find(view, cursor.state)
         blocks = (view[0],) if found.lines == 1 else tuple(view[: found.lines])
         marks, outside = cursor.marks.look(blocks, self._context)
         count, differences = compare_count(cursor.count, found.contour, self.asked)
         found_before = (*cursor.findings, *outside, *differences)
         here = Cursor(cursor.state, marks, count, cursor.ahead, cursor.told, found_before)
         if found.contour is not None and found.contour.form.is_contour:
-            return self._take_contour(view, blocks, found.contour, here)
-        return self._take_block(view, blocks, found.contour, here)
+            return self._take_contour(view, blocks, found.contour, here, lost[1] if lost else None)
+        return self._take_block(view, blocks, found.contour, here, lost[1] if lost else None)
 
-    def _take_contour(self, view: View, blocks: tuple[Block, ...], contour: ParsedContour, here: Cursor) -> WalkStep:
-        """The step that takes a contour, which is solved now or later."""
-        arc = findings_of_arc_before(self.asked, self.dialect, view, here.ahead, self.answers.examine)
+    def _lost_point(self, view: View, found: Beginning, cursor: Cursor) -> tuple[int, Word] | None:
+        """The word of what was found that has lost its point, with the place of its block; None for none."""
+        modes, blocks = self.dialect.modes, view[: found.lines]
+        if not any(counts_few(word, modes.lexicon) for block in blocks for word in block.words if word.address in AXES):
+            return None
+        ahead = [block for each in reversed([*near(cursor.ahead)]) for block in each]
+        around = [*ahead, *view[: found.lines + NEAR]]
+        lost = lost_points(blocks, around, modes) if not cursor.state.is_incremental else []
+        return next(((at, word) for at, block in enumerate(blocks) for word in lost if word in block.words), None)
+
+    def _explain_lost(self, word: Word, blocks: Sequence[Block], state: State) -> Diagnostic:
+        """That a word of some blocks has lost its point."""
+        context = Context(self.asked.rules, self.asked.unit, place=blocks[0].span)
+        return explain_lost(context, word, blocks, self.dialect.modes, state.unit)
+
+    def _take_contour(
+        self, view: View, blocks: tuple[Block, ...], contour: ParsedContour, here: Cursor, lost: Word | None
+    ) -> WalkStep:
+        """The step that takes a contour, which is solved now or later; it is read with the point of a word that has
+        `lost` it."""
         strange = [each for block in blocks for each in self._codes_beside(block, contour)]
-        step = Step(blocks, here.state, findings=(*here.findings, *arc, *strange))
-        pending = self.queue.add(contour, step, view, len(blocks), here.ahead)
+        step = Step(blocks, here.state, findings=(*here.findings, *strange))
+        told = self._explain_lost(lost, contour.blocks, here.state) if lost is not None else None
+        pending = self.queue.add(contour, step, view, len(blocks), here.ahead, told)
 
         def behind() -> Cursor:
             told = tuple(word.span for word in contour.unread if word.span.line > blocks[-1].line)
@@ -176,14 +208,16 @@ class Examination:
             if each.span not in told and each.about is ReadIssue.CODE_UNKNOWN:
                 yield each
 
-    def _take_block(self, view: View, blocks: tuple[Block, ...], arc: ParsedContour | None, here: Cursor) -> WalkStep:
-        """The step that takes a block that is no contour, or an arc that is read as a contour is."""
+    def _take_block(
+        self, view: View, blocks: tuple[Block, ...], read: ParsedContour | None, here: Cursor, lost: Word | None
+    ) -> WalkStep:
+        """The step that takes a block that is no contour, though it may be `read` as one is; where it leads is not
+        known if a word has `lost` its point."""
         block, asked, modes = blocks[0], self.asked, self.dialect.modes
         states = here.state, advance(here.state, block, modes)
-        if arc is not None:
-            pending = Pending(arc, Step((), here.state), view, len(blocks))
-            found = findings_of_arc(asked, self.dialect, pending, states[1], self.answers.examine)
-            findings = (*here.findings, *found)
+        if read is not None:
+            pending = Pending(read, Step((), here.state), view, len(blocks))
+            findings = (*here.findings, *findings_of_values(pending, self.answers.examine))
         else:
             found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.ahead)
             told_of = [*here.findings, *(each for each in found if each.span not in here.told)]
@@ -191,6 +225,9 @@ class Examination:
         ahead = further(here.ahead, blocks, here.state) if block.words else here.ahead
         told = tuple(span for span in here.told if span.line > block.line)
         behind = Cursor(states[1], here.marks, here.count, ahead, told)
+        if lost is not None:
+            findings = (self._explain_lost(lost, blocks[:1], here.state), *findings)
+            behind = replace(behind, state=_lost_at(states[1], lost))
         return WalkStep(Step(blocks, here.state, findings=findings), len(blocks), lambda: behind)
 
     def pass_block(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> WalkStep | None:
@@ -287,9 +324,14 @@ class Examination:
             size, most = 1, 1
         while window := [*islice(steps, size)]:
             self.queue.settle()
-            yield from tell(window, outside)
+            yield from tell(map(self.with_arcs, window), outside)
             size = min(2 * size, most)
         yield from tell_rest(outside)
+
+    def with_arcs(self, step: Step | Pending) -> Step:
+        """A step that is solved, with the findings about its arcs."""
+        own = step.step if isinstance(step, Pending) else step
+        return own if self.asked.depth is Depth.TRIAL else with_arcs(self.asked, self.dialect, own)
 
     def _passages(self, lines: Blocks) -> Iterator[Block | Passage]:
         return self._plain.among(in_passages(lines))
@@ -302,7 +344,14 @@ class Examination:
             view = View(blocks, index)
             taken = self.take(view, self.find(view, cursor.state), cursor)
             cursor, index = taken.behind(), index + taken.lines
-            yield taken.step.step if isinstance(taken.step, Pending) else taken.step, view.reach, cursor
+            yield self.with_arcs(taken.step), view.reach, cursor
+
+
+def _lost_at(state: State, word: Word) -> State:
+    """A state whose place along an axis follows from a word that has lost its point."""
+    place = state.axes[word.address]
+    reason = f"{WAITS} program line {word.span.line}, where {word.text.strip()} has no decimal point"
+    return state.move({word.address: Position(None, reason, word.span, place.is_skippable, None, place.value)})
 
 
 class _OneByOne:

@@ -120,7 +120,10 @@ Wanted = Callable[[Diagnostic], Sequence[Fix]]
 
 
 def safe_fixes(finding: Diagnostic) -> list[Fix]:
-    """The fixes of a finding that keep the contour."""
+    """The fixes of a finding that keep the contour; none behind a likelier one that changes it, whose slip they would
+    hide."""
+    if finding.fixes and finding.fixes[0].applicability is not Applicability.SAFE:
+        return []
     return [fix for fix in finding.fixes if fix.applicability is Applicability.SAFE]
 
 

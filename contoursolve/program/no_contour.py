@@ -139,7 +139,9 @@ def _slips_as(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> Iterat
         before, state = state, advance(state, block, dialect.modes)
         # What moves in rapid traverse, or alone, is an axis that turns.
         stated = {word.address for word in block.words if word.address in _MOVING}
-        lacking -= stated if len(stated) == 1 or state.motion == 0 else set()
+        # Beside both ends of a line, an angle has nothing to say: it is an axis, too.
+        is_axis = len(stated) == 1 or state.motion == 0 or (block.find("A") and stated >= {*state.plane.axes})
+        lacking -= stated if is_axis else set()
         if not tries or not lacking:
             return
         if lacking & stated:

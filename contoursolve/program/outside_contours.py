@@ -1,5 +1,5 @@
 """Findings about blocks outside contours: their characters, their words, the slips that keep them from being contours,
-and arcs that are read as contours are. `told_outside` chooses those that are told."""
+and arcs. `told_outside` chooses those that are told."""
 
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from functools import cached_property
@@ -12,7 +12,9 @@ from contoursolve.diagnosis import (
     Answer,
     Context,
     Depth,
+    Policy,
     corner_words,
+    explain_arc,
     explain_asked_outside,
     explain_codes_by_name,
     explain_corners,
@@ -30,9 +32,8 @@ from contoursolve.diagnosis import (
     not_read_yet,
     report,
 )
-from contoursolve.diagnostics import Basis, Diagnostic, Severity
-from contoursolve.gcode import Block, FaultKind, Passage, Word, has_lookalike_code
-from contoursolve.program.lookahead import View
+from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span
+from contoursolve.gcode import Block, FaultKind, Word, has_lookalike_code, parse_block
 from contoursolve.program.named_words import named_outside
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Ahead, Pending, Previous, Step
@@ -46,10 +47,12 @@ from contoursolve.reading import (
     ParsedContour,
     ReadIssue,
     State,
-    apply_modes,
+    advance_plainly,
     codes_of,
     doubtful_words,
+    suspected,
 )
+from contoursolve.solving import RefusalKind
 
 NEAR = 8
 """Blocks at a place that are looked at together for what may have been meant there."""
@@ -309,34 +312,44 @@ def with_letters(
 # Arcs ------------------------------------------------------------------------------------------------------------
 
 
-def findings_of_arc(
-    asked: Request, dialect: Dialect, pending: Pending, behind: State, examine: Examine
-) -> Sequence[Diagnostic]:
-    """Findings about an arc that is read as a contour is, but is none; `behind` is the state behind it."""
-    block = pending.view[0]
-    ends = behind.motion in _ARCS and any(map(block.find, (*behind.plane.axes, *behind.plane.centers)))
-    return _of_values(pending, examine) if asked.is_strict or not ends or dialect.signs(block) else ()
+def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
+    """A step with the findings about its arcs, if it is no contour: about those in plain lines as well."""
+    if step.answer is not None or asked.policy is Policy.OFF or (not step.blocks and step.passage is None):
+        return step
+    modes, context, found = dialect.modes, Context(asked.rules, asked.unit), list[Diagnostic]()
+    for block in () if any(map(_is_of_shape, step.findings)) else step.blocks:
+        found += _elsewhere(context, block, explain_arc(context, block, step.before, modes))
+    if step.passage is not None:
+        passage = step.passage
+        for index in suspected(passage, step.before, modes):
+            before = advance_plainly(step.before, passage.part(0, index), modes) if index else step.before
+            line = passage.lines[index].rstrip("\r\n")
+            found += explain_arc(context, parse_block(line, passage.line + index, passage.syntax), before, modes)
+    if asked.policy is Policy.WARN:
+        found = [replace(each, severity=Severity.WARNING) if each.is_error else each for each in found]
+    return replace(step, findings=(*step.findings, *found)) if found else step
 
 
-def findings_of_arc_before(
-    asked: Request, dialect: Dialect, view: View, ahead: Ahead, examine: Examine
-) -> Sequence[Diagnostic]:
-    """Findings about the arc that leads to a contour; others are looked at only where every line is."""
-    blocks, state = ahead[-1] if ahead else ((), None)
-    if isinstance(blocks, Passage) or state is None or len(blocks) != 1 or asked.is_strict:
-        return ()
-    block = blocks[0]
-    if apply_modes(state, block, dialect.modes).motion not in _ARCS:
-        return ()
-    both = [block, *view[:NEAR]]
-    found = dialect.find(both, 0, state, dialect.modes)
-    if not isinstance(found, ParsedContour) or found.form.is_contour:
-        return ()
-    return _of_values(Pending(found, Step((), state), View(both, 0), 1), examine)
+def _is_of_shape(finding: Diagnostic) -> bool:
+    """Whether a finding is an error in the shape of what is read as a contour is: it says what is wrong."""
+    return finding.is_error and (finding.about is None or isinstance(finding.about, RefusalKind))
 
 
-def _of_values(pending: Pending, examine: Examine) -> Sequence[Diagnostic]:
-    """Findings about the values of an arc."""
+def _elsewhere(context: Context, block: Block, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """Findings about a block; errors in another file are told at the block that calls it."""
+    if not block.file:
+        yield from found
+        return
+    caller = block.callers[0]
+    place = Context(context.rules, context.unit, place=Span(caller.line, 1, len(caller.text) + 1))
+    for each in found:
+        if each.is_error:
+            row = place.row(ReadIssue.SUBPROGRAM_REFUSED)
+            yield report(place, row, Basis.RULE, [], file=block.file, line=each.span.line, finding=each.message)
+
+
+def findings_of_values(pending: Pending, examine: Examine) -> Sequence[Diagnostic]:
+    """Findings about what is read as a contour is, and is none."""
     answer = examine(pending.contour, pending)
     if not pending.contour.form.needs_values:
         return [each for each in answer.diagnostics if each.about not in _ABOUT_VALUES]

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 
 from contoursolve.controls import DIALECTS
@@ -23,7 +24,15 @@ from contoursolve.gcode import (
     words_of,
 )
 from contoursolve.program.project_file import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
-from contoursolve.reading import Dialect, ReadIssue, Taken
+from contoursolve.reading import (
+    POLAR_WORDS,
+    SEMICOLON_COMMENT,
+    SINUMERIK_FILE,
+    Y_AXIS,
+    Dialect,
+    ReadIssue,
+    Taken,
+)
 
 
 class UnknownControlError(ProgramError, ValueError):
@@ -61,7 +70,7 @@ def choose(
     # Tables that are given say all of a control: what the program states of it is in them already.
     stated = {} if isinstance(control, Dialect) else stated_settings(block.text for block in program.blocks)
     own = stated | dict(settings or {})
-    found = named_control(control, own) or (recognise_by or recognise)(program.blocks)
+    found = named_control(control, own) or (recognise_by or partial(recognise, name=program.name))(program.blocks)
     if found is None:
         check_settings(own)
         return None
@@ -77,8 +86,12 @@ def for_machine(dialect: Dialect, settings: Mapping[str, str], lines: Iterable[s
     """A control that is on mills and on lathes, for the kind of machine that a program is for, if nothing states it: a
     lathe where X and Z move alone and no plane is selected."""
     turned = for_kind(dialect, settings, "lathe")
-    if turned is dialect or not _is_turned(lines, dialect.modes.syntax):
+    shown = frozenset[str]() if turned is dialect else _shown_of_turning(lines, dialect.modes.syntax)
+    if not shown:
         return dialect
+    # A program that selects the plane and diameters says all that is taken of it.
+    if "G18" in shown and shown & _DIAMETERS:
+        return turned
     told = Taken(ReadIssue.MACHINE_TAKEN, {"setting": f"{dialect.name}.{_MACHINE}"})
     return replace(turned, taken=(*turned.taken, told))
 
@@ -90,32 +103,38 @@ def for_kind(dialect: Dialect, settings: Mapping[str, str], kind: str) -> Dialec
     return configure(dialect, {name: kind}) if is_open else dialect
 
 
-def _is_turned(lines: Iterable[str], syntax: Syntax) -> bool:
-    """Whether X and Z move, no line has Y, and none selects a plane."""
-    axes = set[str]()
+def _shown_of_turning(lines: Iterable[str], syntax: Syntax) -> frozenset[str]:
+    """The marks of a lathe in lines: X and Z move and no line has Y, in a program that selects no plane or speaks of a
+    lathe. Nothing for what may be another one."""
+    shown = set[str]()
     for line in lines:
-        if axes == TURNED_AXES and not _MAY_BE_MILL.search(line):
+        if shown >= TURNED_AXES and not _MAY_TELL_MORE.search(line):
             continue
-        shown = shown_of_machine(line, syntax)
-        if shown & _OF_NO_LATHE:
-            return False
-        axes |= shown
-    return axes == TURNED_AXES
+        shown |= shown_of_machine(line, syntax)
+        if "Y" in shown:
+            return frozenset()
+    is_turned = shown >= TURNED_AXES and (bool(shown & _OF_A_LATHE) or not shown & _PLANE_CODES)
+    return frozenset(shown if is_turned else ())
 
 
 def shown_of_machine(line: str, syntax: Syntax) -> frozenset[str]:
-    """The axes of a line, and the codes of planes, as far as it may show for which kind of machine a program is."""
+    """The axes of a line, the codes of planes and the words of a lathe, as far as it may show for which kind of machine
+    a program is."""
     found = _OF_MACHINE.findall(syntax.comment.sub(" ", line)) if _OF_MACHINE.search(line) else ()
     return frozenset(each.upper().replace("G0", "G") for each in found)
 
 
 _MACHINE = "machine"
-_OF_MACHINE = late_pattern(r"(?<![A-Z_$\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?1[789](?!\d))", re.IGNORECASE)
+_OF_MACHINE = late_pattern(
+    r"(?<![A-Z_$\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?(?:1[789]|96[12]?)(?!\d)|DIAM(?:ON|90)\b|LIMS\b)", re.IGNORECASE
+)
 TURNED_AXES = frozenset({"X", "Z"})
 """The axes of a lathe."""
 
-_MAY_BE_MILL = re.compile(r"Y|G0?1[789]", re.IGNORECASE)
-_OF_NO_LATHE = frozenset({"Y", "G17", "G18", "G19"})
+_MAY_TELL_MORE = re.compile(r"Y|G0?1[789]|96|DIAM|LIMS", re.IGNORECASE)
+_PLANE_CODES = frozenset({"G17", "G18", "G19"})
+_DIAMETERS = frozenset({"DIAMON", "DIAM90"})
+_OF_A_LATHE = frozenset({"G96", "G961", "G962", "LIMS", *_DIAMETERS})
 
 
 def named_control(control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:
@@ -147,21 +166,33 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
     is_absolute = _ABSOLUTE in codes and bool(codes & _BESIDE_ABSOLUTE)
     if is_absolute or codes & _OF_A_MILL or "Y" in stated:
         shown.add(_MILLED)
+    text = ISO.comment.sub(" ", block.text)
+    shown |= {mark for mark, pattern in _KINDS.items() if pattern.search(text)}
+    shown |= {mark for mark, pattern in _OTHER_WORDS.items() if pattern.search(block.text)}
+    if "Y" in stated:
+        shown.add(Y_AXIS)
     if stated & {"Z", "W"} and stated & _SHARED:
         shown.add(_CORNER_ON_Z)
     for dialect in DIALECTS.showing(block.text):
         words = () if f"own {dialect.name}" in known else _signs(dialect, block)
         if words:
             shown.add(f"sign {dialect.name}")
-        if any(word.address not in _SHARED for word in words):
-            shown.add(f"own {dialect.name}")
+        addresses = {word.address for word in words} - _SHARED
+        if addresses:
+            shown.add(f"{'own' if addresses - _OF_ARCS else 'arc'} {dialect.name}")
+        if addresses and stated & _OF_CONTOURS and POLAR_WORDS not in shown:
+            shown.add(f"sure {dialect.name}")
     return frozenset(shown)
 
 
 def _shown_plainly(words: str) -> frozenset[str]:
     """The same of the words of plain lines: what they show is which axes there are."""
-    axes = [axis for address, axis in _TURNED.items() if address in words]
-    return frozenset([*axes, _MILLED] if "Y" in words else axes)
+    shown = [axis for address, axis in _TURNED.items() if address in words]
+    if "Y" in words:
+        shown += [_MILLED, _MILL, Y_AXIS]
+    elif "U" in words or "W" in words:
+        shown.append(_LATHE)
+    return frozenset(shown)
 
 
 def _signs(dialect: Dialect, block: Block) -> list[Word]:
@@ -170,16 +201,18 @@ def _signs(dialect: Dialect, block: Block) -> list[Word]:
 
 
 class Recogniser:
-    """For which control the blocks of a program are, as far as they show."""
+    """For which control the blocks of a program of this name are, as far as they show."""
 
-    def __init__(self) -> None:
+    def __init__(self, name: str = "") -> None:
         self.signs: dict[str, str] = {}
         """What first showed each control, by its name."""
         self.begun: Dialect | None = None
         """The control whose programs alone begin as this one does."""
         self._own: set[str] = set()
         """The controls that words of their own showed."""
-        self._shown: set[str] = set()
+        self._arcs: set[str] = set()
+        """The controls that words of an arc showed, which others have too, though not together."""
+        self._shown: set[str] = {SINUMERIK_FILE} if _OF_SINUMERIK.search(name) else set()
         self._is_turned = False
 
     def look(self, line: Block | Passage) -> None:
@@ -203,28 +236,47 @@ class Recogniser:
                 self.signs[name] = _sign(_signs(DIALECTS[name], block), block)
             if f"own {name}" in shown:
                 self._own.add(name)
+            if f"arc {name}" in shown:
+                self._arcs.add(name)
         self._shown |= shown
         self._is_turned |= _CORNER_ON_Z in shown and PLANE not in self._shown
 
     @property
     def may_turn(self) -> bool:
         """Whether it may be the program of a lathe, though no word shows a control."""
-        return self._shown >= {*_TURNED.values()} and _MILLED not in self._shown
+        return self._shown >= {*_TURNED.values()} and (self._kind == _LATHE or _MILLED not in self._shown)
 
     @property
     def is_sure(self) -> bool:
-        """Whether a word that only one control has showed it."""
-        return bool(self._own)
+        """Whether words that only one control has showed it, and no other line can exclude it."""
+        return any(not DIALECTS[name].excluded_by for name in self._certain)
+
+    @property
+    def _certain(self) -> set[str]:
+        """The controls that words showed which no other one has, or not together."""
+        return {name for name in self._own or self._arcs if not self._is_excluded(name)}
+
+    def _is_excluded(self, name: str) -> bool:
+        """Whether the program is for another control, unless words that only this one has beside its sign say more."""
+        return f"sure {name}" not in self._shown and bool(DIALECTS[name].excluded_by & self._shown)
+
+    @property
+    def _kind(self) -> str:
+        """The kind of machine that words speak for; empty where none does, or both are spoken for."""
+        kinds = self._shown & {_LATHE, _MILL}
+        return next(iter(kinds)) if len(kinds) == 1 else ""
 
     def find(self) -> Dialect | None:
         """The control; None if no block shows it. Raises UnknownControlError if they show more than one."""
         if self.begun is not None:
             return self.begun
-        fitting = [name for name in DIALECTS if name in (self._own or self.signs) and self._fits(DIALECTS[name])]
-        if len(fitting) == 1 and (fitting == [*self._own] or not self._own):
+        certain = self._certain
+        signs = {name: each for name, each in self.signs.items() if not self._is_excluded(name)}
+        fitting = [name for name in DIALECTS if name in (certain or signs) and self._fits(DIALECTS[name])]
+        if len(fitting) == 1 and (fitting == [*certain] or not certain):
             return DIALECTS[fitting[0]]
-        if self.signs:
-            shown = {name: self.signs[name] for name in (not self._own and fitting) or self.signs}
+        if signs:
+            shown = {name: signs[name] for name in (not certain and fitting) or signs}
             raise several_controls(shown, SeveralControlsError if shown.keys() <= {*fitting} else UnknownControlError)
         return None
 
@@ -234,9 +286,11 @@ class Recogniser:
         shared = self._shown & _SHARED
         if not shared <= dialect.modes.lexicon.addresses.keys() - dialect.rare:
             return False
-        if dialect.name in self._own:
+        if dialect.name in self._certain:
             return True
         is_lathe = any(dialect.plane.diameters)
+        if self._kind:
+            return is_lathe == (self._kind == _LATHE)
         # A program that moves X and Z alone is that of a lathe.
         is_turned = self._is_turned or (PLANE not in self._shown and self._shown >= {*_TURNED.values()})
         is_milled = _MILLED in self._shown
@@ -247,16 +301,39 @@ _SHARED = frozenset({",A", ",C", ",R"})
 _MILLED, PLANE, _CORNER_ON_Z = "milled", "plane", "corner on Z"
 _TURNED = {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
 _PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})
+_OF_ARCS = frozenset("IJKR")
+"""Words of arcs, which all controls have."""
+_LATHE, _MILL = "lathe", "mill"
+_KINDS = {
+    _LATHE: late_pattern(
+        r"(?<![A-Z_$\[,])(?:T\d{4}(?![\d.])|G0*50(?!\d).*S\s*\d|G0*96(?!\d)|[UW]\s*[-+.\d]|G0*71(?!\d).*P\s*\d.*Q\s*\d"
+        r"|G0*76(?!\d).*P\s*\d{6}|G0*99(?!\d)(?!.*G0*(?:7[346]|8[1-9])(?!\d)))",
+        re.IGNORECASE,
+    ),
+    _MILL: late_pattern(
+        r"(?<![A-Z_$\[,])(?:Y\s*[-+.\d]|G0*43(?!\d).*H\s*\d|M0*6(?!\d)|G0*8[123](?!\d))", re.IGNORECASE
+    ),
+}
+"""Words that speak for a kind of machine, on Fanuc and its kin: tools with their offset in one number, limits of the
+spindle, constant cutting speed, increments by U and W, cycles that turn, feeds per turn; and of a mill Y, tool lengths,
+tool changes, drilling. A plane, G90 or G95 speaks for neither (assumed, from real programs)."""
+_OF_CONTOURS = frozenset("ABCDIKPQRUW")
+"""Words of a contour, which no pole has."""
+_OTHER_WORDS = {
+    POLAR_WORDS: late_pattern(r"(?<![A-Z_])[AR]P\s*=", re.IGNORECASE),
+    SEMICOLON_COMMENT: late_pattern(r"^[^(]*;[ \t]*\w"),
+}
+_OF_SINUMERIK = late_pattern(r"\.[ms]pf$", re.IGNORECASE)
 _BEGIN = "PGM"
 _ABSOLUTE, _BESIDE_ABSOLUTE = 90, frozenset({0, 1, 18})
 
 
-def recognise(blocks: Iterable[Block]) -> Dialect | None:
-    """The control that a program is written for; None if no block shows it.
+def recognise(blocks: Iterable[Block], name: str = "") -> Dialect | None:
+    """The control that a program, of this name, is written for; None if no block shows it.
 
     Raises UnknownControlError if its blocks show more than one.
     """
-    recogniser = Recogniser()
+    recogniser = Recogniser(name)
     for line in in_passages(blocks):
         recogniser.look(line)
         if recogniser.begun is not None:

@@ -47,12 +47,12 @@ def steps_as_run(
     examination.queue.settle()
     yield from in_text_order(
         blocks,
-        chain(tell(machine.found, outside), tell_rest(outside)),
+        chain(tell(map(examination.with_arcs, machine.found), outside), tell_rest(outside)),
         machine.passed_over,
-        asked.rules,
+        asked,
         told,
         profiles if profiles is not None else [],
-        examination.dialect.initial_state(asked.unit),
+        examination.dialect,
         called if called is not None else [],
     )
 

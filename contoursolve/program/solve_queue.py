@@ -35,7 +35,7 @@ from contoursolve.reading import (
     contours_of,
     leave,
 )
-from contoursolve.solving import Contour
+from contoursolve.solving import Contour, Status
 from contoursolve.tolerance import AGREEMENT
 
 
@@ -76,8 +76,18 @@ Ahead = tuple[tuple[Sequence[Block] | Passage, State], ...]
 class Pending:
     """A contour that is found and not solved yet, in a state, and what follows it."""
 
-    def __init__(self, contour: ParsedContour, step: Step, view: View, after: int, ahead: Ahead = ()) -> None:
+    def __init__(
+        self,
+        contour: ParsedContour,
+        step: Step,
+        view: View,
+        after: int,
+        ahead: Ahead = (),
+        lost: Diagnostic | None = None,
+    ) -> None:
         self.contour, self.step, self.view, self.after, self.ahead = contour, step, view, after, ahead
+        self.lost = lost
+        """The finding that one of its words has lost its point, with which it is read."""
         self.wave = max([each.wave for each in step.before.axes.values() if isinstance(each, Awaited)], default=0)
         """How many contours in a row have to be solved before."""
         self.left: Callable[[], State] | None = None
@@ -112,9 +122,17 @@ class Queue:
         self.dialect, self.together, self.answers, self.goes_on = dialect, together, answers, goes_on
         self.pending: list[Pending] = []
 
-    def add(self, contour: ParsedContour, step: Step, view: View, after: int, ahead: Ahead = ()) -> Pending:
+    def add(
+        self,
+        contour: ParsedContour,
+        step: Step,
+        view: View,
+        after: int,
+        ahead: Ahead = (),
+        lost: Diagnostic | None = None,
+    ) -> Pending:
         """A contour that begins a view and ends before its block `after`; without company, it is solved at once."""
-        pending = Pending(contour, step, view, after, ahead)
+        pending = Pending(contour, step, view, after, ahead, lost)
         self.pending.append(pending)
         if self.together is None:
             self.settle()
@@ -148,6 +166,8 @@ class Queue:
             behind = self._behind(each, claim.form.name, answer.contour, each.left)
             if behind:
                 told = replace(told, diagnostics=(*told.diagnostics, *self.answers.mend_behind(told, behind, each)))
+            if each.lost is not None:
+                told = _refused(told, each.lost)
             each.step = Step(step.blocks, step.before, told, step.findings)
             # Who waits for its end would keep all that was before it.
             each.ahead = ()
@@ -161,7 +181,7 @@ class Queue:
         before = each.contour.before
         lost = {axis: before.axes[axis] for axis in before.plane.axes if before.axes[axis].value is None}
         lines = join([str(line) for line in dict.fromkeys(place.span.line for place in lost.values() if place.span)])
-        if not all(place.reason.startswith(_WAITS) for place in lost.values()):
+        if not all(place.reason.startswith(WAITS) for place in lost.values()):
             return answer, answer
         state = before.move({axis: Position(place.assumed, place.reason, place.span) for axis, place in lost.items()})
         found = self.dialect.find(each.view, 0, state, self.dialect.modes) if state.start().is_known else None
@@ -187,6 +207,8 @@ class Queue:
         ends where the contour says, as far as the state behind it knows that."""
         if answer.contour is not None:
             return answer.contour.end
+        if answer.mended is not None:
+            return self._end_of_fix(answer.mended, state)
         if not answer.start.is_known:
             return None
         errors = (each for each in answer.diagnostics if each.is_error)
@@ -204,7 +226,8 @@ class Queue:
         """The end of a contour with a fix, mm."""
         ends = list[End]()
         texts = enumerate(fix.replacement.split("\n"), claim.blocks[0].line)
-        blocks = [parse_block(text, line, self.dialect.modes.syntax) for line, text in texts]
+        pointed = [word for block in claim.blocks for word in block.pointed]
+        blocks = [parse_block(text, line, self.dialect.modes.syntax).with_points(pointed) for line, text in texts]
 
         def end_of(found: ParsedContour) -> End:
             contour = examine(found, self.dialect.rules, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour
@@ -245,7 +268,14 @@ class Queue:
         return state.move({axis: Awaited(partial(find, axis), pending.wave + 1) for axis in axes})
 
 
-_WAITS = "this contour waits for"
+def _refused(answer: Answer, lost: Diagnostic) -> Answer:
+    """The answer to a contour that was read as it is meant, and is not what the control makes of its words."""
+    found = (lost, *answer.diagnostics)
+    return replace(answer, status=Status.REJECTED, contour=None, certificate=None, sides={}, diagnostics=found)
+
+
+WAITS = "this contour waits for"
+"""The begin of the reason why the place behind a contour that is not solved is not known."""
 
 
 _MOST_FIXES = 3
@@ -287,7 +317,7 @@ def _lost(claim: ParsedContour, modes: Modes, answer: Answer, origin: Position |
         if len(answer.lines) == 1
         else f"program lines {join(list(map(str, answer.lines)))}, which are"
     )
-    return leave(claim, None, modes, f"{_WAITS} {lines} not solved")
+    return leave(claim, None, modes, f"{WAITS} {lines} not solved")
 
 
 def _awaited(claim: ParsedContour, answer: Answer) -> Position | None:

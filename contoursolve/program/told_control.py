@@ -63,7 +63,7 @@ class ToldControl:
 
     def _recognise(self, blocks: Iterable[Block]) -> Dialect | None:
         """The control that blocks show, as `recognise` does; it is kept what they show."""
-        recogniser, self._shown = Recogniser(), Counter()
+        recogniser, self._shown = Recogniser(self._name), Counter()
         for block in blocks:
             shown = shown_by(block)
             self._shown.update(shown)

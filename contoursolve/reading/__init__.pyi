@@ -1,3 +1,9 @@
+from .arc_table import (
+    ArcIssue as ArcIssue,
+    ArcTable as ArcTable,
+    Beyond as Beyond,
+    BothStated as BothStated,
+)
 from .call_arguments import (
     ARGUMENTS as ARGUMENTS,
     machine_in as machine_in,
@@ -29,6 +35,10 @@ from .control_flow import (
     Ways as Ways,
 )
 from .dialect import (
+    POLAR_WORDS as POLAR_WORDS,
+    SEMICOLON_COMMENT as SEMICOLON_COMMENT,
+    SINUMERIK_FILE as SINUMERIK_FILE,
+    Y_AXIS as Y_AXIS,
     Behind as Behind,
     Dialect as Dialect,
     Taken as Taken,
@@ -109,6 +119,16 @@ from .parsed_contour import (
     read as read,
     stating as stating,
     unused_words as unused_words,
+)
+from .plain_arcs import (
+    TURNS as TURNS,
+    ArcFault as ArcFault,
+    ArcWord as ArcWord,
+    PlainArc as PlainArc,
+    arc_of as arc_of,
+    faults_of as faults_of,
+    suspected as suspected,
+    table_in as table_in,
 )
 from .rules import (
     THIS_CONTROL as THIS_CONTROL,

@@ -20,7 +20,8 @@ def bring_back(before: State, now: State, reason: str, span: Span) -> State:
     that are no G codes."""
     doubts = [each for each in before.doubts.items() if isinstance(each[0], Mode)]
     words = [each for each in now.doubts.items() if isinstance(each[0], str)]
-    state = replace(before, axes=now.axes, memory=now.memory, doubts=dict([*doubts, *words]))
+    doubts_of_both = dict([*doubts, *words])
+    state = replace(before, axes=now.axes, moved_with=now.moved_with, memory=now.memory, doubts=doubts_of_both)
     return state_moved(state, zero_brought_back(before.zero, now.zero, tuple(now.axes), reason), span)
 
 

@@ -234,6 +234,7 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
         ours,
         axes=axes,
         motion=ours.motion if ours.motion == theirs.motion else motion,
+        moved_with=ours.moved_with if ours.moved_with == theirs.moved_with else ours.compensation,
         memory=memory if _memories(ours) != _memories(theirs) else ours.memory,
         zero={name: value for name, value in ours.zero.items() if theirs.zero.get(name) == value},
         doubts=doubts,
@@ -291,4 +292,12 @@ def _known(way: ControlFlowPath) -> object:
     """The knowledge on a way."""
     state = way.state
     places = {axis: None if at.value is None else round(at.value, 9) for axis, at in state.axes.items()}
-    return tuple(map(_key, way.unread)), places, state.in_force(), _memories(state), {*state.doubts}, state.zero
+    return (
+        tuple(map(_key, way.unread)),
+        places,
+        state.in_force(),
+        state.moved_with,
+        _memories(state),
+        {*state.doubts},
+        state.zero,
+    )

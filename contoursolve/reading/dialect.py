@@ -50,6 +50,10 @@ class Taken(Struct, frozen=True):
     fields: Mapping[str, str]
 
 
+Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, SINUMERIK_FILE = "Y", "polar words", "comment behind ;", "file of SINUMERIK"
+"""Marks of a program, by which `Dialect.excluded_by` says that it is for another control."""
+
+
 @dataclass(frozen=True, slots=True)
 class Dialect:
     """One control, as tables. It need not be built in: every function takes one as `control`.
@@ -85,6 +89,8 @@ class Dialect:
     """The words of a block that make a contour for this control."""
     rare: frozenset[str] = frozenset()
     """Words that it has, too, but by which another control is known."""
+    excluded_by: frozenset[str] = frozenset()
+    """Marks of a program that is for another control, whatever words of this one it has: `Y_AXIS` and its kin."""
     contours: str = ""
     """The signs of a contour block, for a reader."""
     settings: tuple[Setting, ...] = ()

@@ -93,6 +93,8 @@ class Address:
     is_diameter: bool = False
     is_absolute: bool = False
     """Always a coordinate, whatever G90 and G91 say."""
+    keeps_diameter: bool = False
+    """Whether it is a diameter, or none, whatever codes say of X."""
     clockwise_from: Decimal | None = None
     """Of an angle that counts clockwise: the direction from which, degrees from the plane's first axis."""
 
@@ -196,7 +198,7 @@ class Lexicon:
             rows = {
                 name: replace(row, is_diameter=increment if row.is_increment else absolute if row.is_absolute else word)
                 for name, row in self.addresses.items()
-                if row.axis == TURNED
+                if row.axis == TURNED and not row.keeps_diameter
             }
             self.others[key] = replace(self, addresses={**self.addresses, **rows})
         return self.others[key]

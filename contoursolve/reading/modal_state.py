@@ -31,8 +31,9 @@ from contoursolve.gcode import (
     words_of,
 )
 from contoursolve.geometry import Length, Plane, Start
+from contoursolve.reading.arc_table import ArcTable
 from contoursolve.reading.contour_form import Convention, Setting
-from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon
+from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon, WithoutPoint
 from contoursolve.reading.moved_zero import (
     NOTHING_MOVES,
     UNKNOWN_ZERO,
@@ -46,7 +47,7 @@ from contoursolve.reading.moved_zero import (
     is_along_axes,
     move_zero,
 )
-from contoursolve.tolerance import RADIUS_DIFFERENCE, TRAVEL
+from contoursolve.tolerance import TRAVEL
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,6 +168,8 @@ class State(Struct, frozen=True):
     is_incremental: bool
     compensation: int
     """40, 41 or 42."""
+    moved_with: int = 40
+    """The compensation of the last move in the plane: another one than is in force where G40, G41 or G42 came since."""
     diameter: Diameter | None = None
     """The words of X that are diameters; None: as the tables of the control say, and no code switches it."""
     memory: Mapping[str, Word] = {}
@@ -188,6 +191,10 @@ class State(Struct, frozen=True):
         """The state with other positions on some axes."""
         return replace(self, axes={**self.axes, **changes}) if changes else self
 
+    def cut(self) -> "State":
+        """The state behind a move in the plane: the compensation in force has been started, changed or ended."""
+        return self if self.moved_with == self.compensation else replace(self, moved_with=self.compensation)
+
     def settle(self, *modes: "Mode | str") -> "State":
         """The state in which some modes are known, whatever they were."""
         if self.doubts.keys().isdisjoint(modes):
@@ -208,7 +215,7 @@ class State(Struct, frozen=True):
         words = tuple((name, word.text) for name, word in self.memory.items())
         plane, doubts = (self.plane.code, self.plane.axes, self.plane.diameters), tuple(self.doubts.items())
         modes = self.motion, plane, self.unit, self.is_incremental, self.compensation, self.diameter
-        return places, modes, words, doubts, tuple(self.zero.items())
+        return places, modes, self.moved_with, words, doubts, tuple(self.zero.items())
 
     def in_force(self) -> "dict[Mode, object]":
         """The modes in force, without whether they are known."""
@@ -280,6 +287,8 @@ class Modes:
     follow: Callable[[State, Block, "Modes"], State] | None = field(default=None, kw_only=True)
     """From the state before a block that is no contour to the one behind it, where the control is not programmed in G
     codes."""
+    arcs: ArcTable | None = field(default=None, kw_only=True)
+    """The reading of arcs outside contours; None where each arc is a contour."""
 
     def code_of(self, unit: Length) -> str:
         """The first code that sets a unit; empty where none does."""
@@ -329,9 +338,8 @@ class Modes:
 
     @property
     def radius_difference(self) -> float:
-        """The allowed difference of the radii at two points of an arc, mm: a setting where a machine parameter
-        tells."""
-        return float(self.settings.get("radius-difference", RADIUS_DIFFERENCE))
+        """The allowed difference of the radii at two points of an arc, mm: a machine parameter, and so a setting."""
+        return (self.arcs or ArcTable()).with_numbers(self.settings).difference
 
     @property
     def travel(self) -> float:
@@ -510,7 +518,7 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         is_alone = axes and (effect is not Effect.SINGLE or is_along_axes(state.zero, modes.zero.first))
         return state.lose(axes if is_alone else modes.axes, reason, block.span)
     if words:
-        state = state.move(positions(state, words, modes, block.is_skippable))
+        state = _moved(state, words, block, modes)
     preset = next((code for code in rows_of(block, modes) if code.effect is Effect.PRESET), None)
     if preset is not None and state.is_incremental:
         rows = (modes.lexicon.addresses[word.address] for word in words)
@@ -518,6 +526,13 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         state = state.lose(open_axes, f"what {preset.text} sets where increments are in force is not known", block.span)
     state = _lose_ends(state, block, modes)
     return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
+
+
+def _moved(state: State, words: list[Word], block: Block, modes: Modes) -> State:
+    """The state behind the motion of a block with these axis words."""
+    is_in_plane = any(_axis(word, modes) in state.plane.axes for word in words)
+    state = state.move(positions(state, words, modes, block.is_skippable))
+    return state.cut() if is_in_plane else state
 
 
 def _lose_ends(state: State, block: Block, modes: Modes) -> State:
@@ -636,11 +651,14 @@ def _lost_by_faults(block: Block, modes: Modes) -> dict[str, Span]:
 class PlainLines:
     """The plain lines of programs that a control reads as what they look like: they move its own axes, and a comment is
     one. Such a line is no contour, and belongs to one only beside a line that is not plain, as long as `is_plain`;
-    there is nothing to say of it. With `has_points`, they are those in which each coordinate has its point."""
+    there is nothing to say of it. A coordinate that counts so few least increments that it may have lost its point is
+    in none of them; with `has_points`, each has its point."""
 
     def __init__(self, modes: Modes, *, has_points: bool = False) -> None:
         others = "".join(axis for axis in AXES if axis not in modes.axes)
-        ways = [rf"[{others}]"] * bool(others) + [rf"[{AXES}][+-]?+[0-9]++(?!\.)"] * has_points
+        is_counted = modes.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+        digits = "[0-9]++" if has_points else "0*+[1-9][0-9]{0,2}+"
+        ways = [rf"[{others}]"] * bool(others) + [rf"[{AXES}][+-]?+{digits}(?![0-9.])"] * is_counted
         self._others, self._syntax = re.compile("|".join(ways) or "(?!)", re.IGNORECASE), modes.syntax
 
     def has(self, line: str) -> bool:
@@ -675,6 +693,7 @@ def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
     if modes.syntax.plain.parts is not None:
         return _advance_by_parts(state, passage, modes, modes.syntax.plain.parts)
     axes, motion, lines = dict[str, Position](), None, passage.lines
+    state = state.cut()
     text = passage.text.upper()
     programmed = [axis for axis in modes.axes if axis in text]
     # Increments are not in force where lines are plain: no place follows from the one before.

@@ -40,6 +40,7 @@ class ReadIssue(Enum):
     VARIABLE = "variable"
     WORD_IGNORED = "word-ignored"
     POINT_MISSING = "point-missing"
+    POINT_LOST = "point-lost"
     SUSPECTED = "suspected"
     START_IN_INCREMENTS = "start-in-increments"
     MOVE_IN_INCREMENTS = "move-in-increments"
@@ -318,7 +319,7 @@ def leave(
     Where it has no end, for this reason, whose `cause` may lie in a line before it, what its words say of the end is
     still known.
     """
-    state, last, axes = claim.left, claim.blocks[-1], claim.after.plane.axes
+    state, last, axes = claim.left.cut(), claim.blocks[-1], claim.after.plane.axes
     before = claim.before.axes
     is_skippable = any(block.is_skippable for block in claim.blocks) or any(before[axis].is_skippable for axis in axes)
     if end is not None:

@@ -255,6 +255,13 @@ def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:
     if part is None:
         return ()
     found = find_alternatives(part)
+    loose = () if found.items else [name for doubt in found.doubts for name in doubt.unknowns]
+    if loose:
+        # At these values, something else is not fixed either: where two parts of one circle meet.
+        part = restrict(part, (name for name in assemble(part).unknowns if name not in loose))
+        if not part.facts or not analyse(assemble(part)).is_determined:
+            return ()
+        found = find_alternatives(part)
     if found.items or not found.is_complete:
         return min(map(_compared, found.items), key=_disagreements) if found.items else ()
     return settle(part).solution.refusals

@@ -99,8 +99,8 @@ CALLED = """\
 9 L X+230 Y+20 RL F300
 10 CP IPA+720 IZ-4 DR+
 11 CP IPA+360 DR+
-12 L X+220 Y+20 R0
-13 C X+220 Y+20 DR+
+12 L X+221 Y+20 R0
+13 C X+221 Y+20 DR+
 14 L Z+50 FMAX M30
 15 LBL 1
 16 L IZ-2 FMAX
@@ -127,7 +127,7 @@ def test_klartext_with_labels_and_a_helix_stays_klartext(tmp_path: Path):
     assert lines[at + 2] == "C X+214 Y+20 Z-5 DR+"
     assert lines[at + 8] == "C X+226 Y+20 Z-8 DR+"
     # The arc behind turns about the pole of the program.
-    assert lines[lines.index("12 L X+220 Y+20") + 1] == "CC X+220 Y+20"
+    assert lines[lines.index("12 L X+221 Y+20") + 1] == "CC X+220 Y+20"
     same = call("diff", *words, tmp_path / "a.h", str(new))
     assert same.exit_code == 0, same.output
     done = call(*made[:-2], "--post", "fanuc")

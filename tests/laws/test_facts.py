@@ -35,6 +35,7 @@ FACTS: tuple[Any, ...] = (
     geometry.Radius("length", "r"),
     geometry.RadiusStep("length", "r", "s"),
     *(geometry.Leaving("L", "P", "C", turn) for turn in geometry.Turn),
+    geometry.ParallelTangent("L", "P", "C"),
     *(geometry.Spoke("angle", "C", "P", "r", axis, quarters) for axis in (0, 1) for quarters in (0, 3)),
     geometry.EqualRadii("", "r", "s"),
     *(kind(*CIRCLES, side) for kind in (geometry.TangentCircles, geometry.PointBeside) for side in (1, -1, "side")),
@@ -273,6 +274,8 @@ def oracle(fact: Any, at: Place) -> tuple[float, tuple[float, ...]]:  # noqa: C9
             return radius - other - length, ()
         case geometry.Leaving():
             return along(line, p - c), (turn * left(p - c, line),)
+        case geometry.ParallelTangent():
+            return along(line, p - c), ()
         case geometry.Spoke(quarters=quarters):
             return part(p - c) - radius * part(angle * 1j**quarters), ()
         case geometry.EqualRadii():

@@ -7,7 +7,7 @@ import sys
 from contextlib import contextmanager
 from dataclasses import replace
 from itertools import pairwise
-from math import atan2, dist, pi, tau
+from math import atan2, cos, dist, pi, radians, sin, tau
 from random import Random
 
 import pytest
@@ -95,12 +95,63 @@ ARC = "FC X+50 Y+20 CCX+30 CCY+20 DR+ R20"
 
 @pytest.mark.parametrize(
     ("name", "word"),
-    [("block-no-line", "PAR 2"), ("block-no-line-3", "RAN 2"), ("block-missing", "PAR 9"), ("block-missing-2", "RY 7")],
+    [("block-no-line", "RAN 2"), ("block-missing", "PAR 9"), ("block-missing-2", "RY 7")],
 )
 def test_a_reference_to_a_block_that_it_cannot_mean_is_told(name, word):
     row = VECTORS[HEIDENHAIN][f"heidenhain-{name}"]
     (own,) = (each for each in solved_vector(HEIDENHAIN, row).diagnostics if each.code == row["refused"]["code"])
     assert own.message.startswith(word)
+
+
+@pytest.mark.parametrize(
+    ("blocks", "number", "element", "off"),
+    [
+        (("FL AN+30", "FL AN+30", "FL X+80 Y+20"), "one", "line 3", None),
+        (("FL AN+30", "FLT", "FLT", "FL AN-30 X+80"), "one", "line 4", None),
+        (("FL AN+30", "FL AN+210", "FL X+80 Y+20"), "two", "line 2", None),
+        (("FC DR- R20 CCX+20 CCY+0", "FCT DR- R20", "FLT"), "two", "arc 3", None),
+        (("FL X+20 Y+0 LEN25", "FL AN+30", "FL AN+30", "FL X+80 Y+20"), "one", "line 4", "5.000 mm"),
+        (("FC DR- R20 CCX+25 CCY+0", "FCT DR- R20", "FLT"), "two", "arc 3", "5.000 mm"),
+    ],
+)
+def test_where_a_line_or_a_circle_is_cut_in_two_is_no_missing_word_and_a_contradiction_has_its_amount(
+    blocks, number, element, off
+):
+    found = [each for each in solved(chain(*blocks, before="L X+0 Y+0")).diagnostics if each.severity.value == "error"]
+    (missing,) = (each.message for each in found if each.code == "words-missing")
+    verb = "word is" if number == "one" else "words are"
+    assert missing.startswith(f"{number} {verb} missing, so ")
+    assert element in missing.partition(": ")[0]
+    against = [each.message for each in found if each.code != "words-missing"]
+    assert [f"by {off}" in each for each in against] == [True] * (off is not None)
+
+
+def test_what_contradicts_itself_beside_a_cut_circle_is_told_for_the_cut():
+    answer = solved(chain("FC DR- R20 CCX+20 CCY+0", "FCT DR- R20", "FLT AN-60 LEN40 IX+30", before="L X+0 Y+0"))
+    assert [(each.code, " by " in each.message) for each in answer.diagnostics] == [("words-conflict", True)]
+
+
+@pytest.mark.parametrize("corner", ["RND R5", "CHF 5"])
+@pytest.mark.parametrize("head", ["", "TOOL CALL 4 Z S3200\n", "L X+0 Y+0\nTOOL CALL 4 Z S3200\n"])
+def test_a_corner_before_any_element_is_refused(head, corner):
+    text = f"0 BEGIN PGM A MM\n{head}{corner}\nFL X+30 Y+20\nFL X+50 Y+0\nEND PGM A MM"
+    found = contoursolve.check(text, control=HEIDENHAIN)
+    assert [each.code for each in found if each.severity.value == "error"] == ["heidenhain-corner-first"]
+
+
+def test_a_line_may_be_parallel_to_the_begin_of_an_arc_at_a_distance():
+    radius, sense = 40.0, radians(60)
+    blocks = "FC DR- R40 CCA+60", "FL AN-30 LEN10", "FL PAR 2 DP 60", "FL X+80 Y+0 AN-90"
+    answer = solved(chain(*blocks, before="L X+0 Y+0"))
+    assert answer.status.value == "ambiguous"
+    for item in answer.alternatives.items:
+        points = {name: complex(*at) for name, at in item.solution.points.items()}
+        center = points["P2"] - radius * complex(cos(sense), sin(sense))
+        tangent = center * 1j / abs(center)
+        line = points["P4"] - points["P3"]
+        assert abs(center) == pytest.approx(radius)
+        assert (line.conjugate() * tangent).imag == pytest.approx(0, abs=1e-6)
+        assert abs((points["P4"].conjugate() * tangent).imag) == pytest.approx(60)
 
 
 def test_two_points_about_one_pole_may_be_at_two_distances():

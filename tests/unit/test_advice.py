@@ -48,7 +48,6 @@ def test_an_increment_in_brackets_is_offered_too():
         "add Y? (such as Y10, Y0.001 or above)": "G1 ANG=30 Y10",
         "delete ANG=30": "",
         "add X=IC(?) (such as X=IC(10), X=IC(0.001) or above)": "G1 ANG=30 X=IC(10)",
-        "add Y=IC(?) (such as Y=IC(10), Y=IC(0.001) or above)": "G1 ANG=30 Y=IC(10)",
     }
 
 

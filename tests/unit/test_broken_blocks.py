@@ -195,7 +195,8 @@ def test_every_single_word_whose_dropping_mends_a_block_is_offered_and_every_blo
         text = " ".join(words[:index] + words[index + 1 :])
         again = answer_to(text, start=case.start_text, depth="verdict")
         if again.status.value == "solved" and not again.diagnostics:
-            assert text in offered, (case.text, words[index])
+            # A list has at most four.
+            assert text in offered or len(offered) == 4, (case.text, words[index])
 
 
 NUMBERS = ("30.", "-30.", "120.", "5.", "-150.", "67.")

@@ -302,7 +302,7 @@ def test_the_traits_of_a_line_are_those_of_the_program_and_variables_are_numbers
 
 def test_the_control_stays_when_what_shows_it_is_taken_out():
     with pytest.raises(contoursolve.UnknownControlError):
-        begin("G111 A180.\nG3 X-50 Y0 R50 Q-1\nG1 X-50 Y42.857 ,A171.87")
+        begin("G111 A180. K-30. B120. X80.\nG1 X-50 RND=2\nZ-90")
     now = Talk(f"{PAIR} Q-1")
     now.do("write", text=now.text.replace(",A171.87 Q-1", ""))
     assert (now.own.exploration.result.control, now.answer) == ("nct-99m", None)

@@ -64,6 +64,51 @@ def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
     assert found[0].fixes[0].replacement == fix
 
 
+START_UPS = [
+    ("G42\nG01 X30. ,R5.\nY40.", True),
+    ("G01 X10.\nG42 D1\nM8\nX30. ,R5.\nY40.", True),
+    ("G42 D1\nG01 Z-5. F100.\nX30. ,R5.\nY40.", True),
+    ("G42\nG01 X10.\nX30.\nG40\nY40. ,R5.\nX60.", True),
+    ("G42\nG01 X10.\nX20.\nX30.\nG40\nX40. ,R5.\nY40.", True),
+    ("G42\nG01 X10.\nG41\nX30. ,R5.\nY40.", True),
+    ("G42\nM98 P7\nG00 X0 Y0\nG01 X30. ,R5.\nY40.\nM30\nO7\nG01 X5.\nM99", False),
+    ("G42\nG01 X10.\nG42\nX30. ,R5.\nY40.", False),
+    ("G42\nG01 X10.\nX20.\nX25.\nX30. ,R5.\nY40.", False),
+    ("G40 G80\nG01 X30. ,R5.\nY40.", False),
+    ("G42\nG01 X10.\nX30. ,R5.\nY40. ,R5.\nX60. ,R5.\nY80.\nG40\nX90.", False),
+]
+"""Behind a rapid to X0 Y0 of a mill: whether a corner stands in the first move since the compensation was switched."""
+
+
+@pytest.mark.parametrize(("text", "is_told"), START_UPS)
+def test_no_corner_stands_in_the_first_move_behind_a_switch_of_the_compensation(text, is_told):
+    found = [each.code for each in errors(solve(f"G17 G90 G00 X0 Y0\n{text}", control=MILL))]
+    assert found == ["fanuc-corner-start-up"] * is_told
+
+
+def test_a_haas_lathe_makes_the_same_corners_in_each_plane():
+    def made(text: str, *, is_swapped: bool):
+        found = solve(text, control=HAAS_LATHE)
+        assert not found.has_errors
+        way = (lambda at: complex(at.imag, at.real)) if is_swapped else complex
+        return [(each.kind, way(each.start), way(each.end), each.radius) for each in path(found)]
+
+    own = made("G00 X60. Z2.\nG01 Z-20. ,R3.\nX100. ,C2.\nZ-50.", is_swapped=False)
+    assert own == made("G17 G00 X60. Y2.\nG01 Y-20. ,R3.\nX100. ,C2.\nV-30.", is_swapped=True)
+    assert own == made("G19 G00 Y30. Z2.\nG01 Z-20. ,R3.\nY50. ,C2.\nW-30.", is_swapped=True)
+
+
+@pytest.mark.parametrize("centre", ["I20.", "J0", "I22. J3.", "J-9. I20."])
+def test_a_radius_wins_over_a_centre_and_says_so(centre):
+    text = "G17 G90 G00 X0 Y0\nG01 X40. ,C6.\nG02 X60. Y20. {}\nG01 X80."
+    found = solve(text.format(f"{centre} R20."), control=MILL)
+    assert path(found) == path(solve(text.format("R20."), control=MILL))
+    assert [each.code.rpartition("-")[2] for each in found.diagnostics] == ["ignored"] * len(centre.split())
+    assert not errors(found)
+    clash = solve(text.format(f"{centre} R20."), control=HAAS_MILL, settings={"haas-mill.generation": "classic"})
+    assert "haas-center-and-radius" in {each.code for each in errors(clash)}
+
+
 # Random contours --------------------------------------------------------------------------------------------
 
 MACHINES = {
@@ -118,7 +163,7 @@ DRAWN = [
     (LATHE, {"redundant-angle": "error"}, {"strict": True}, None),
     (HAAS_LATHE, {"angle-sense": "ray"}, {"sense": "ray"}, None),
     (MILL, {"guard-deg": "0"}, {"guard": 0.0}, None),
-    *((HAAS_MILL, {"arcs": "on"}, {"arcs": True}, kinds) for kinds in PAIRS),
+    *((HAAS_MILL, {"generation": "classic"}, {"arcs": True}, kinds) for kinds in PAIRS),
 ]
 """Controls, settings, what they change of the oracle's machine, and the kinds of two moves."""
 

@@ -94,6 +94,17 @@ def test_the_first_fix_is_what_a_colleague_would_name(text, code, fix):
 # Corners in blocks of their own -------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("code", ["G301", "G302"])
+def test_a_corner_of_its_own_stands_beside_rapids_with_a_feed_and_a_word_does_not(code):
+    text = f"{MILL}{{}} X30\n{code} I5 F100\n{{}} X40 Y40\nM30"
+    plain = path(text.format("G1", "G1").replace(" F100", ""))
+    for first, second in (("G0", "G1"), ("G1", "G0"), ("G0", "G0")):
+        assert path(text.format(first, second)) == plain
+    word = "#RND" if code == "G302" else "#CHR"
+    refused(f"{MILL}G0 X30 {word}=5\nG1 X40 Y40", "isg-corner-rapid")
+    refused(f"{MILL}G1 X30 {word}=5\nG0 X40 Y40", "isg-corner-without-next")
+
+
 # Expansion ----------------------------------------------------------------------------------------------------------
 
 WRITTEN = {name: program_of(ISG, name) for name in VECTORS[ISG] if name.startswith("IS-")} | {

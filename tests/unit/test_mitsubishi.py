@@ -50,6 +50,29 @@ def test_sweeps_are_those_of_the_sheet():
     assert (*other.center, abs(other.sweep)) == pytest.approx((45.0483, 61.5539, 218.573), abs=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("words", "kept"),
+    [("X30. ,C5. ,R2.", ",R2."), (",C5. X30. ,R2.", ",R2."), (",C5. ,R2. X30.", ",R2."), ("X30. ,R2. ,C5.", ",C5.")],
+)
+def test_the_last_of_two_corner_words_is_made_wherever_else_in_the_block_they_stand(words, kept):
+    text = MILL + "G01 {}\nX40. Y40."
+    made = elements(text.format(words))
+    assert made == elements(text.format(f"X30. {kept}"))
+    found = mitsubishi(text.format(words)).diagnostics
+    assert [each.code.rpartition("-")[2] for each in found] == ["replaced"]
+    refused = mitsubishi(text.format(words), two_corner_words="error")
+    assert [each.code for each in refused.diagnostics][:1] == ["mitsubishi-two-corners"]
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [("G01 X30. ,R5.\nM30", "P382"), ("G01 X3. ,R5.\nY40.", "P383"), ("G01 X30. ,R5.\nY3.", "P383")],
+)
+def test_a_corner_that_does_not_fit_has_its_alarm(text, number):
+    (alarm,) = {each.alarm.number.split()[0] for each in mitsubishi(MILL + text).diagnostics if each.alarm}
+    assert alarm == number
+
+
 @pytest.mark.parametrize("plane", PLANES)
 def test_a_centre_by_p_and_q_is_absolute(plane):
     """P is for I and Q for K; in G17 Q is for J, in G19 P is for J."""

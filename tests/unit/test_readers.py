@@ -50,11 +50,16 @@ def test_a_program_that_all_its_controls_read_alike_is_solved_and_the_first_is_n
         ("G00 X50. Y0\nG02 X80. Y30. R10. F200 ,R3.\nG01 Y60.\nX0\nM30",
          ["the controls read program lines 2 to 3 differently", "  nct-99m, fanuc-mill and mitsubishi: R10.: ",
           "  haas-mill: X80., Y30., R10. and ,R3.: this control makes corners between lines alone"]),
-        # Where readers end at the same place, a point in which they differ is named.
-        ("G99 G18\nT0101\nG0 X40. Z0.\nG1 Z-40. ,R5. F.2\nX80. ,C1.\nZ-60.\nM30",
-         ["the controls read program lines 4 to 6 differently",
-          "  nct-99m, fanuc-mill, haas-mill and mitsubishi: passes Z-40.0000 X45.0000",
-          "  fanuc-lathe and haas-lathe: passes Z-40.0000 X50.0000"]),
+        # Where readers end at the same place, the first line or arc in which they differ is named.
+        ("G18 G40\nG0 X40. Z0.\nG1 Z-40. ,R5. F.2\nX80. ,C1.\nZ-60.\nM30",
+         ["the controls read program lines 3 to 5 differently",
+          "  nct-99m, fanuc-mill, haas-mill and mitsubishi: after a line to Z-35.0000 X40.0000, an arc ",
+          "  fanuc-lathe and haas-lathe: after a line to Z-35.0000 X40.0000, an arc to Z-40.0000 X50.0000"]),
+        # Fanuc's mills leave out a corner that hardly turns.
+        ("G90 G17 G21\nG00 X0 Y0\nG01 X60. ,R4. F400\nX90. Y0.4\nY30.\nM30",
+         ["the controls read program lines 3 to 4 differently",
+          "  nct-99m and mitsubishi: at first a line to X59.97",
+          "  fanuc-mill and haas-mill: at first a line to X60.0000 Y0.0000"]),
         # An axis that another control reads as an angle.
         ("G17 G90 G00 X0 Y0\nG01 X50. A30.\nX80. ,R2.\nY60.\nM30", ["the controls read program line 2 differently"]),
     ],
@@ -64,6 +69,61 @@ def test_what_each_control_makes_of_a_program_that_they_read_differently_is_told
         check(program)
     lines = str(caught.value).splitlines()
     assert [line[: len(start)] for line, start in zip(lines, told, strict=False)] == told
+
+
+SAFE = "G00 G18 G20 G40 G80 G99"
+TURNED = "G00 X2. Z0.1\nG01 Z-1. F0.01 ,R0.1\nX3.\nM30"
+PECKED = "G43 H1 Z5.\nG83 X10. Z-20. R2. Q5. F90\nG80"
+
+
+@pytest.mark.parametrize(
+    ("text", "first"),
+    [
+        (f"{SAFE}\nT0101\n{TURNED}", "fanuc-lathe"),
+        (f"G54 G18\nG50 S2000\n{TURNED}", "fanuc-lathe"),
+        (f"G18 G21\nG96 S180 M03\n{TURNED}", "fanuc-lathe"),
+        (f"G18\nG28 U0 W0\n{TURNED}", "fanuc-lathe"),
+        (f"G18\nG76 P010060 Q100 R0.02\n{TURNED}", "fanuc-lathe"),
+        (f"G18\n{TURNED.replace('M30', 'W-2.')}", "fanuc-lathe"),
+        # Both are spoken for: what a plane says counts.
+        (f"G18\nT0101 M06\n{TURNED}", None),
+        (f"G18\n{TURNED}", None),
+        (f"G18\n{PECKED}\n{TURNED}", "nct-99m"),
+        # A pole of SINUMERIK; its file alone says that, too.
+        ("N30 G111 X30 Y20\nN40 G0 AP=0 RP=25\nN50 G1 AP=60 RP=25", None),
+        ("N30 G111 X30 Z20\nN40 G0 AP=0 RP=25\nN50 G1 AP=60 RP=25", None),
+        ("G111 A180. K-30. B120. X80.", "yasnac-lx3"),
+        # What only one control has decides; an arc with R and its centre is one of NCT where nothing else is shown.
+        ("N10 G00 X0 Y0\nN20 G01 X10 F1000\nN30 G02 X30 Y0 R10 I10 J0\nN40 G01 X50 #RND=2\nN50 Y20", "isg"),
+        ("G17 G00 X0 Y0\nG01 X10. F100\nG02 X30. Y0 R10. I10. J0\nG01 X50. Y20.", "nct-99m"),
+        # Beside both ends, A is an axis.
+        ("G90 G17\nG0 X0 Y0\nG1 X30. Y5. A5. F100\nX40. Y5. A10.", None),
+    ],
+)
+def test_words_that_speak_for_a_kind_of_machine_tell_the_control(text, first):
+    try:
+        found = check(text)
+    except UnknownControlError:
+        assert first is None
+        return
+    told = {each.code for each in found}
+    assert "control-unknown" not in told
+    assert solve(text).control == first
+    mine = OpenProgram(text)
+    assert (mine.dialect.name if mine.dialect else None) == first
+
+
+def test_a_program_for_sinumerik_by_its_name_has_no_contour_of_a_lathe():
+    assert solve("N10 G111 X30 Z20", name="pole.mpf").control is None
+    assert solve("N10 G111 X30 Z20", name="pole.nc").control == "yasnac-lx3"
+
+
+def test_where_readers_cut_alike_and_tell_other_findings_that_is_said_and_the_findings_are_those_of_the_first():
+    text = "G17 G90 G00 X0 Y0\nG01 X30. ,C31.\nX40. Y40."
+    *found, told = check(text)
+    assert told.message.startswith(f"{MILLS} cut the same path, but tell other findings: its findings are those of nct")
+    assert found == [*check(text, control="nct-99m")]
+    assert [each.is_error for each in found] == [True]
 
 
 def test_an_edit_may_make_controls_read_differently():

@@ -10,6 +10,11 @@ from oracle import Element, elements_of
 from vectors import program_of
 
 from contoursolve import expand, solve
+from contoursolve.comparison import compare, follow
+from contoursolve.controls import DIALECTS
+from contoursolve.gcode import parse
+from contoursolve.geometry import Length
+from contoursolve.program import Request, run as run_program
 
 CONTROLS = ("siemens-840d", "siemens-808d")
 MILL = "G17 G90 G0 X0 Y0\n"
@@ -30,6 +35,12 @@ def path(text: str, control: str = CONTROLS[0], **settings: str) -> list[Element
 
 def ends(text: str, **settings: str) -> list[tuple[float, float]]:
     return [(each.end.real, each.end.imag) for each in path(text, **settings)]
+
+
+def followed(text: str):
+    """The whole path of a program."""
+    dialect = DIALECTS[CONTROLS[0]]
+    return follow(run_program(parse(text), Request(dialect, Length.MM)), dialect, Length.MM, dialect.modes.axes)
 
 
 def near(*places: tuple[float, float]):
@@ -89,6 +100,45 @@ def test_x_is_what_its_command_says():
     assert ends("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50", machine="lathe") == near(*as_diameter)
     assert ends("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50") == near(*as_diameter)
     assert siemens("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50", machine="mill").answers[0].contour is None
+
+
+X_WORDS = ("X50", "X=AC(50)", "X=DAC(50)", "X=RAC(25)", "X=DIC(10)", "X=RIC(5)", "G91 X5", "G91 X=DAC(50)")
+
+
+@pytest.mark.parametrize("word", X_WORDS)
+def test_under_diam90_coordinates_and_increments_make_one_contour_and_a_word_may_say_what_it_is(word):
+    text = "G18 G90 DIAM90\nG0 X40 Z2\nG1 Z-10 F0.2 RND=0.5\n{} RND=1\nG90 Z-30 RND=1\n{}\nM30\n"
+    plain, meant = text.format("X50", "X60"), text.format(word, "G91 X5" if "G91" in word else "X=DIC(10)")
+    assert path(meant) == path(plain)
+    written = expand(meant, control=CONTROLS[0]).text
+    assert compare(*(followed(text) for text in (plain, written)), 0.001).is_equal
+    assert path(meant.replace("DIAM90", "DIAMON").replace("X5 ", "X10 ").replace("X5\n", "X10\n")) == path(plain)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["G0 X30 {}=5\nY40\nG1 X60", "G1 X30 {}=5\nG0 Y40", "G0 X30 {}=5\nG1 Y40", "G0 X30 {}=5\nM8\nG0 Y40"],
+)
+@pytest.mark.parametrize("word", ["RND", "CHR", "CHF"])
+def test_the_808d_makes_corners_beside_rapids_and_larger_ones_where_that_is_set(text, word):
+    text = MILL + text.format(word)
+    made, plain = path(text, CONTROLS[1]), path(text.replace("G0 X30", "G1 X30").replace("G0 Y40", "G1 Y40"))
+    assert made[:3] == plain[:3]
+    assert path(text, rapid_corner="made") == made
+    assert siemens(text).has_errors
+    assert siemens(text, CONTROLS[1], rapid_corner="error").diagnostics
+
+
+@pytest.mark.parametrize("behind", ["M30", "M8\n" * 4 + "Y40", "G18\nX40 Z40"])
+@pytest.mark.parametrize("word", ["RND", "CHR", "CHF"])
+def test_the_808d_leaves_out_a_corner_without_a_second_move(word, behind):
+    text = f"{MILL}G1 X10\nX30 {word}=5\n{behind}"
+    result = siemens(text, CONTROLS[1])
+    assert [each.code for each in result.diagnostics] == [f"siemens-{word.lower()}-left-out"]
+    (answer,) = result.answers
+    assert [(each.kind, each.end) for each in elements_of(answer)] == [("line", 30 + 0j)]
+    for refusing in (siemens(text), siemens(text, CONTROLS[1], no_second_move="error")):
+        assert refusing.has_errors
 
 
 # Settings -----------------------------------------------------------------------------------------------------------

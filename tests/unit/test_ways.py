@@ -124,7 +124,9 @@ def test_a_mode_on_which_ways_do_not_agree_is_not_known(name):
     )
     corner, first = (" RND=1", "Z") if control == SIEMENS else (" ,R1.", "Z" if control == LATHE else "Y")
     own = "" if name == "motion" else "G01 "
-    lines = f"{plane} G00 X40. {first}0.\n{jump}\n{code}\n{label}\n{{}}{own}{first}-20.{corner}\nX60.\nM30"
+    # In a program with Y, nothing but its code says that X is a diameter.
+    end = "Y1\nM30" if name == "diameters" else "M30"
+    lines = f"{plane} G00 X40. {first}0.\n{jump}\n{code}\n{label}\n{{}}{own}{first}-20.{corner}\nX60.\n{end}"
     (answer, *_) = solve(lines.format(""), control=control).answers
     assert any(told in each.message for each in answer.diagnostics), [each.message for each in answer.diagnostics]
     assert answer.contour is None

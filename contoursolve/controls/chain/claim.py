@@ -21,6 +21,7 @@ from contoursolve.controls.chain.language import (
     IN_ZX,
     LAST,
     LEAVES,
+    LEFT_OUT,
     LINE_LINE,
     NEGATIVE_RADIUS,
     NO_TANGENT,
@@ -34,6 +35,7 @@ from contoursolve.controls.chain.language import (
     OTHER_ZERO,
     POINT,
     RAPID,
+    RAPID_CORNER,
     SIGNED,
     SMOOTH,
     THREAD,
@@ -62,7 +64,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         prefix = f"{index + 1}:"
         own, givens, kept = _stated(language, member, builder, prefix)
         holds = {
-            *_circumstances(language, member, first, is_only=len(members) == 1, is_first=not index),
+            *_circumstances(language, member, first, modes, is_only=len(members) == 1, is_first=not index),
             *([BESIDE_ARC] if any(each.turn is not None for each in elements[index : index + 2]) else []),
             *language.basis.circumstances(member, states[max(index - 1, 0) : index + 2], modes),
             *(name for name, (setting, value) in language.basis.where_set.items() if modes.has(setting, value)),
@@ -79,18 +81,24 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     return builder.build(
         form,
         _begins(before, members[0]),
-        last,
+        replace(last, plane=replace(last.plane, diameters=_counted(members))),
         words=known,
         unknown=tuple(word for word in unknown if word not in unread),
         unread=tuple(dict.fromkeys((*unread, *filter(None, (member.unread for member in members))))),
         choices=tuple(_choices(language, elements, names, known, modes)),
         selectors=tuple(_selectors(language, elements, names, known, modes)),
-        selected=language.planes.get(last.plane.code),
+        selected=language.planes.get(last.plane.code, last.plane),
         conventions=tuple({each.setting.name: each for each in conventions}.values()),
         makes=_makes(form, members) if len(builder.blocks) > len(members) else (),
         lasting=frozenset(name for name in known if name.partition(":")[2] in language.corner.stays),
         doubts={mode: why for member in members for mode, why in member.here.doubts.items()},
     )
+
+
+def _counted(members: Sequence[Member]) -> tuple[bool, bool]:
+    """The axes of the plane that count diameters: X does where it does in one of the blocks."""
+    first, second = (any(axis) for axis in zip(*(member.here.plane.diameters for member in members), strict=True))
+    return first, second
 
 
 def _begins(before: State, member: Member) -> State:
@@ -291,7 +299,7 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, build
         return stated
     if element.is_smooth:
         stated[TURN] = Given(TURN, Decimal(0), Unit.DEGREE, None)
-    elif element.turn is not None:
+    elif element.turn is not None and not (language.arc.radius_wins and "R" in words):
         stated |= _supplied("center-", "", stated, asked)
     if element.is_over:
         return stated
@@ -322,7 +330,9 @@ def _supplied(
     return {name + suffix: Given(name + suffix, Decimal(0), Unit.MM, None) for name in missing}
 
 
-def _circumstances(language: Language, member: Member, first: State, *, is_only: bool, is_first: bool) -> Iterator[str]:
+def _circumstances(
+    language: Language, member: Member, first: State, modes: Modes, *, is_only: bool, is_first: bool
+) -> Iterator[str]:
     radius, plane = member.block.find(language.address_of("R")), member.here.plane
     is_negative = radius is not None and radius.number is not None and radius.number < 0
     centers = sum(member.block.find(address) is not None for address in first.plane.centers)
@@ -334,8 +344,14 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         OTHER_PLANE: replace(plane, diameters=first.plane.diameters) != first.plane,
         OTHER_ZERO: member.here.axes is not first.axes
         and any(member.here.axes[axis] is not first.axes[axis] for axis in first.plane.axes),
-        OTHER_DIAMETER: plane.code == first.plane.code and plane.diameters != first.plane.diameters,
+        OTHER_DIAMETER: plane.code == first.plane.code
+        and plane.diameters != first.plane.diameters
+        # One command may tell diameters in absolute coordinates from radii in increments.
+        and member.here.diameter is not first.diameter,
         RAPID: member.here.motion == 0,
+        RAPID_CORNER: language.corner.words_in_rapid(modes)
+        or (member.corner is not None and language.corner.codes_in_rapid),
+        LEFT_OUT: language.corner.leaves_out(modes),
         THREAD: member.here.motion in language.order.threads,
         FOLLOWED: member.element.is_followed,
         LAST: member.is_last,

@@ -68,7 +68,7 @@ class ChainFinder:
             return None
         members = [self._member(block, state, modes, is_over=False)]
         is_alone = self._is_over_defined(block, members[0].here)
-        is_tied = is_alone or self._is_tied_alone(members[0], modes)
+        is_tied = is_alone or self._is_tied_alone(members[0])
         position = index
         while members[0].here.motion in self._cutting or self._runs_in_rapid(members):
             last = members[-1]
@@ -83,9 +83,10 @@ class ChainFinder:
                 break
             before, here = here, self._apply(here, blocks[following], modes)
             is_over = self._begins_in_intersection(last, blocks[following], here)
-            is_cut = here.motion in self._cutting and self._moves(blocks[following], here)
+            is_cut = self._may_follow_corner(last, here, modes) and self._moves(blocks[following], here)
             is_smooth = here.motion == self.language.arc.tangent and last.here.motion in self._cutting
-            if not is_over and not is_smooth and not (self._makes_corner(last) and is_cut):
+            is_joined = is_smooth or (self._makes_corner(last) and is_cut)
+            if not is_over and (self._ends_behind(last, here, modes) or not is_joined):
                 break
             if is_over:
                 members[-1] = replace(last, element=replace(last.element, is_followed=True))
@@ -151,7 +152,22 @@ class ChainFinder:
         return last, following
 
     def _runs_in_rapid(self, members: Sequence[Member]) -> bool:
-        return self.language.order.runs_in_rapid and members[-1].here.motion == 0
+        may_run = self.language.order.runs_in_rapid or self.language.corner.codes_in_rapid
+        return may_run and members[-1].here.motion == 0
+
+    def _ends_behind(self, last: Member, here: State, modes: Modes) -> bool:
+        """Whether nothing joins a block to the next one: a rapid without a corner, or a corner that is left out, as
+        another plane is selected behind it."""
+        is_rapid = last.here.motion == 0 and not self.language.order.runs_in_rapid
+        is_left = self.language.corner.leaves_out(modes) and here.plane.code != last.here.plane.code
+        return (is_rapid and last.corner is None) or is_left
+
+    def _may_follow_corner(self, last: Member, here: State, modes: Modes) -> bool:
+        """Whether a motion may follow the corner of a block."""
+        corner = self.language.corner
+        may_be_rapid = last.corner is not None and corner.codes_in_rapid
+        may_be_rapid = may_be_rapid or (self._has_corner(last) and corner.words_in_rapid(modes))
+        return here.motion in self._cutting or (here.motion == 0 and may_be_rapid)
 
     def _bend(self, members: Sequence[Member], state: State, modes: Modes) -> Element:
         """The last block's element: an arc that begins in the direction of what is before it turns to the side on which
@@ -404,24 +420,16 @@ class ChainFinder:
         is_kept = member.here.motion != 0 and member.here.memory.keys() & self.language.corner.stays.keys()
         return self._has_corner(member) or bool(is_kept)
 
-    def _is_tied_alone(self, member: Member, modes: Modes) -> bool:
-        """Whether a block is calculated although nothing follows that belongs to it: a line by its angle, one with
-        a corner; and where arcs are checked, an arc with an end, if its values are known. About its centre, it is a
-        full circle if that is where it begins (assumed)."""
+    def _is_tied_alone(self, member: Member) -> bool:
+        """Whether a block is calculated although nothing follows that belongs to it: a line by its angle, one with a
+        corner, and an arc about a centre that it has to itself."""
         block, here = member.block, member.here
         stated = self._stated(block, here)
         is_centered = here.motion in _TURNS and bool(stated & {*self.language.arc.centers})
         is_open = is_centered and not stated & {"I", "J", "K", "R"}
         if self._has_corner(member) or member.element.is_smooth or is_open:
             return True
-        if stated & {*self._angles, self.language.meeting.selector} or self._keeps_angle(member):
-            return True
-        is_variable = any(word.number is None and not word.is_asked for word in block.words)
-        if not self.language.arc.is_checked or here.motion not in _TURNS or is_variable:
-            return False
-        if not stated & {*here.plane.axes, "R"}:
-            return False
-        return "R" in stated or not stated & {*here.plane.centers} or not _ends_where_it_begins(block, here, modes)
+        return bool(stated & {*self._angles, self.language.meeting.selector}) or self._keeps_angle(member)
 
 
 def reading(
@@ -451,15 +459,6 @@ def reading(
         return replace_fields(dialect, modes=replace_fields(dialect.modes, lexicon=words), find=ChainFinder(language))
 
     return change
-
-
-def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:
-    ends = {word.address: word for word in block.words if word.address in here.plane.axes}
-    return all(
-        word.number is not None
-        and modes.words(here).value(word, here.unit) == (0 if here.is_incremental else here.axes[axis].value)
-        for axis, word in ends.items()
-    )
 
 
 def _ways_of(segment: Segment) -> _Ways:

@@ -92,6 +92,7 @@ def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> 
     """The form of blocks in a row with the settings of a control."""
     options = _Options(
         slack=modes.radius_difference,
+        counts_from_origin=modes.arcs is not None and modes.arcs.counts_from_origin,
         counts_clockwise=language.meeting.counts_clockwise(modes),
         is_ray=language.angle.is_ray(modes),
         guard=language.corner.guard(modes),
@@ -109,11 +110,13 @@ def _shape(element: Element, names: Names) -> Line | Arc:
 
 
 class _Options(Struct, frozen=True):
-    """The decisions of settings: by how much the radii at two points of an arc may differ, whether the intersections of
-    two circles count clockwise, whether lines must run as their angles say, how smooth a joint has no corner, by how
-    much two circles may miss a contact, and whether a corner on such a joint is refused."""
+    """The decisions of settings: by how much the radii at two points of an arc may differ, whether the words of a
+    centre are its coordinates, whether the intersections of two circles count clockwise, whether lines must run as
+    their angles say, how smooth a joint has no corner, by how much two circles may miss a contact, and whether a corner
+    on such a joint is refused."""
 
     slack: float
+    counts_from_origin: bool
     counts_clockwise: bool
     is_ray: bool
     guard: float
@@ -227,7 +230,7 @@ def _stated(
     """The facts that the blocks state, in the order in which they are believed."""
     previous: tuple[Element, Names] | None = None
     for element, each in zip(elements, names, strict=True):
-        yield from _own_facts(language, element, each, previous[1].tail if previous else START)
+        yield from _own_facts(language, element, each, previous[1].tail if previous else START, options)
         if element.is_smooth and previous and element.turn is not None:
             yield _smooth(*previous, element, each)
         previous = element, each
@@ -281,10 +284,10 @@ def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) 
             yield FactRow(put_on(_shape(element, each), each.own, slack=slack), needs)
 
 
-def _own_facts(language: Language, element: Element, names: Names, start: str) -> Iterator[FactRow]:
+def _own_facts(language: Language, element: Element, names: Names, start: str, options: _Options) -> Iterator[FactRow]:
     """The facts that a block states; `start` is where the one before it begins."""
     q = names.prefix
-    yield from _own_center(language, element, names)
+    yield from _own_center(language, element, names, options)
     for order, axis in _ORDERS:
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))
         if not element.is_over or language.meeting.joining is Joining.PAIRED:
@@ -306,7 +309,7 @@ def _own_facts(language: Language, element: Element, names: Names, start: str) -
                 yield FactRow(Collinear(names.tail, names.own, names.head), (q + POINT,))
 
 
-def _own_center(language: Language, element: Element, names: Names) -> Iterator[FactRow]:
+def _own_center(language: Language, element: Element, names: Names, options: _Options) -> Iterator[FactRow]:
     """The facts that the block of an arc states of its centre and radius."""
     if element.turn is None:
         return
@@ -314,6 +317,9 @@ def _own_center(language: Language, element: Element, names: Names) -> Iterator[
     for order, axis in _ORDERS:
         given = f"{q}center-{order}"
         if element.is_over and language.meeting.joining is Joining.OVER_DEFINED:
+            yield FactRow(Coordinate(given, names.center, axis), (given,))
+            continue
+        if options.counts_from_origin and not element.is_over:
             yield FactRow(Coordinate(given, names.center, axis), (given,))
             continue
         origin = names.head if element.is_over else names.tail

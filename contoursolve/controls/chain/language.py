@@ -50,6 +50,10 @@ CORNER_CROWDED = "@corner-crowded"
 """A block of its own behind it that makes a corner says more than the size."""
 CORNER_TWICE = "@corner-twice"
 """A block and one of its own behind it state the same kind of corner."""
+RAPID_CORNER = "@rapid-corner"
+"""Its corner may stand beside a rapid."""
+LEFT_OUT = "@left-out"
+"""The control leaves out a corner behind which no move follows."""
 CORNER_ALONE = "@corner-alone"
 """A block of its own that makes a corner, behind no move."""
 BESIDE_ARC = "@beside-arc"
@@ -264,6 +268,12 @@ class CornerWords:
     that one runs. I, J and K state a distance along their own axis."""
     is_signed_by_shape: bool = False
     """Whether these words have a sign only between two such lines, and are other corner words elsewhere."""
+    words_in_rapid: Callable[[Modes], bool] = _never
+    """Tells whether its words make corners beside rapids, too."""
+    codes_in_rapid: bool = False
+    """Whether blocks of their own do."""
+    leaves_out: Callable[[Modes], bool] = _never
+    """Tells whether it leaves out a corner behind which no move follows in the same plane, without an alarm."""
     note: str = ""
     """The action of the control at each corner that it inserts, half a sentence without a full stop."""
     guard: Callable[[Modes], float] = _no_guard
@@ -312,7 +322,7 @@ class BlockMeeting:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ArcWords:
-    """The words of arcs that other controls do not have, and the arcs that are checked."""
+    """The words of arcs that other controls do not have."""
 
     centers: tuple[str, str] | tuple[()] = ()
     """The addresses of the coordinates of a centre, of an arc without an end: for I and J, for I and K, or J and K."""
@@ -321,8 +331,8 @@ class ArcWords:
     its block."""
     tangent: int | None = None
     """The motion of an arc that begins in the direction of the element before it."""
-    is_checked: bool = False
-    """Whether an arc for which the control calculates nothing is checked, too."""
+    radius_wins: bool = False
+    """Whether a centre counts for nothing beside a radius."""
 
     def centers_at(self, plane: Plane) -> Mapping[str, str]:
         """The names of these addresses in a plane."""

@@ -198,7 +198,10 @@ def _claim(
         if member.turn and "R" in member.has:
             # Of two arcs, the shorter one.
             choices.append(Choice(f"C{label}", Side.LEFT if member.turn is Turn.CCW else Side.RIGHT, f"{prefix}R"))
-    form = _form(tuple(elements), tuple(labels), _FACES if modes.has(WIDTH, "face") else _WORDS, is_open)
+    words = _FACES if modes.has(WIDTH, "face") else _WORDS
+    if words.slack != modes.radius_difference:
+        words = structs.replace(words, slack=modes.radius_difference)
+    form = _form(tuple(elements), tuple(labels), words, is_open)
     foreign = [each for member in members for each in member.block.words if each.address not in (*rows, "G")]
     told = {ARC_Q.name} if any(each.turn and (each.open or "Q" in each.has) for each in members) else set[str]()
     conventions = (modes.convention(each) for each in SETTINGS if each.name in {*told, *modes.settings})

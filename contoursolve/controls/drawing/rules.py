@@ -24,7 +24,7 @@ _SAID: Mapping[str, tuple[str, str]] = {
     "point-1": ("{words}: of this point one coordinate is missing", "give both coordinates"),
     "distance-alone": ("{words}: a distance needs the line to which it is parallel", "give PAR and the number of it"),
     "block-missing": ("{words}: no element of this number stands before it", "give the number of an earlier element"),
-    "block-no-line": ("{words} is the number of an arc, and PAR and RAN need a line", "give the number of a line"),
+    "block-no-line": ("{words} is the number of an arc, and RAN needs a line", "give the number of a line"),
     "pole-missing": ("{words}: polar data need a pole, and the drawing has none", "give the pole of the drawing"),
     "tangent-first": (
         "it is the first element, and nothing is before it to which it could be tangent",

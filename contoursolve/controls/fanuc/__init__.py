@@ -5,6 +5,7 @@ Their words, languages and rules come in; four controls go out. Begin with `lang
 
 from functools import partial
 
+from contoursolve.controls.arc_facts import reading_arcs
 from contoursolve.controls.chain import ChainFinder, Language, forms_of
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
@@ -49,7 +50,7 @@ def _control(
     settings: tuple[Setting, ...],
     contours: str,
 ) -> Dialect:
-    return Dialect(
+    control = Dialect(
         name=name,
         title=title,
         modes=modes,
@@ -61,6 +62,7 @@ def _control(
         contours=contours,
         settings=(*settings, *SETTINGS_OF_ALL),
     )
+    return reading_arcs(control)
 
 
 FANUC_LATHE = _control(

@@ -124,7 +124,7 @@ _OFF = {"options": "--rules off"}
 _BESIDE_ARCS = dict.fromkeys(("radius-too-small", "circle-undefined", "radius-difference", "half-circle"), _OFF)
 _VANISHED = {"wrong": "{start}G01 X0 {corner}{size}\nM8\n{turn}", **_OFF}
 _STRAIGHT = {"turn": "{hardly_turned}", "options": "--set CONTROL.guard-corner=error"}
-_ALLOWED = "--set CONTROL.arcs=on"
+_ALLOWED = "--set CONTROL.generation=classic"
 _TURNED = (
     "{start}G01 W-20. ,R5.\nU20. W-10.",
     "{start}G01 Z-20. ,R2.\nX40.\nG02 X60. Z-30. I10. K0",
@@ -153,7 +153,6 @@ FANUC_MILL_WORDS = OwnWords(
     },
     _ON_MILLS,
     {
-        "fanuc-center-and-radius": ("{start}G01 X40. ,C6.\nG02 X60. Y20. R20.",),
         "fanuc-corner-outside-plane": ("G18 G90 G00 X0 Z0\nG01 X40. ,C6.\nG02 X60. Z20. I20. K0",),
     },
 )
@@ -161,7 +160,13 @@ HAAS_LATHE_WORDS = OwnWords(
     {**_TURNING, "angle": "A", "of_others": ",A5.", "foreign": "Q5."},
     {**_BESIDE_ARCS, "haas-corner-straight": _STRAIGHT},
     _ON_HAAS,
-    {"haas-arc": _TURNED},
+    {
+        "haas-arc": _TURNED,
+        "haas-plane-changes": (
+            "G17 G00 X60. Y2.\nG01 Y-20. ,R3.\nX100. ,C2.\nV-30.",
+            "G19 G00 Y30. Z2.\nG01 Z-20. ,R3.\nY50. ,C2.\nW-30.",
+        ),
+    },
 )
 HAAS_MILL_WORDS = OwnWords(
     _MILLING,

@@ -11,6 +11,7 @@ from contoursolve.controls.chain import (
     CLOSING_LINE,
     OPEN_LINE,
     AngleWords,
+    ArcWords,
     BlockMeeting,
     BlockOrder,
     CornerWords,
@@ -41,13 +42,15 @@ from contoursolve.controls.fanuc.lexicon import (
 from contoursolve.controls.plain import LATHE
 from contoursolve.diagnostics import Book, Evidence, Source
 from contoursolve.geometry import CornerShape
-from contoursolve.reading import Modes, Sample, Setting, State, all_of, some
+from contoursolve.reading import Mode, Modes, Sample, Setting, State, all_of, some
 
 GUARD = Decimal(1)
 """Degrees: the angles within which a control computes no vertex and makes no corner."""
 
 WRONG_PLANE, UNGUARDED = "@wrong-plane", "@unguarded"
 STRICT_ANGLE, COMPENSATION_CHANGES = "@strict-angle", "@compensation-changes"
+COMPENSATION_CHANGED = "@compensation-changed"
+"""G40, G41 or G42 stands in a block before, and this is the first move since."""
 SUPPLEMENTARY, ALONG_ARC = "@supplementary", "@along-arc"
 STRAIGHT_ONLY = "@straight-only"
 """Corners stand between lines alone."""
@@ -76,11 +79,14 @@ def _guard(manual: Book) -> Setting:
 
 
 REDUNDANT_ANGLE = redundant_angle_setting(DRAWING.assumed("not described"), "check")
-ARCS = setting(
-    "arcs",
-    "corners beside arcs",
-    {"off": "corners stand between lines alone", "on": "corners stand beside arcs, too"},
-    HAAS.assumed("some releases have them"),
+GENERATION = setting(
+    "generation",
+    "which generation of the control it is",
+    {
+        "NGC": "Next Generation: corners stand between lines alone",
+        "classic": "classic control: corners stand beside arcs, too",
+    },
+    HAAS.printed("mill NGC (2017) p. 250; classic mill, G02 and G03"),
 )
 
 _SETBACK, _FILLET = CornerShape.CHAMFER_SETBACK, CornerShape.FILLET
@@ -143,7 +149,7 @@ HAAS_LATHE_SETTINGS = (
     *(HAAS_NUMBER, angle_sense_setting(HAAS.assumed("not described")), HAAS_GUARD, _guard_corner(HAAS)),
     _HAAS_ARGUMENTS,
 )
-HAAS_MILL_SETTINGS = (HAAS_NUMBER, HAAS_GUARD, _guard_corner(HAAS), ARCS, _HAAS_ARGUMENTS)
+HAAS_MILL_SETTINGS = (HAAS_NUMBER, HAAS_GUARD, _guard_corner(HAAS), GENERATION, _HAAS_ARGUMENTS)
 
 _CORNERED = some(",C", ",R", "corner-first", "corner-second", "corner-R", "corner-C")
 
@@ -170,11 +176,14 @@ def _refuses(modes: Modes) -> bool:
 
 def _circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
     is_first = len(states) == 2  # noqa: PLR2004 - no block of the contour is before it
+    moved_with = member.before.moved_with if is_first else states[-2].compensation
     is_entered = is_first or not _is_wrong_plane(member.before)
     holds = {
         WRONG_PLANE: is_entered and _is_wrong_plane(member.here),
         UNGUARDED: not _guarded(modes),
         COMPENSATION_CHANGES: member.before.compensation != member.here.compensation,
+        COMPENSATION_CHANGED: moved_with != member.before.compensation == member.here.compensation
+        and Mode.COMPENSATION not in member.here.doubts,
     }
     return (name for name, is_true in holds.items() if is_true)
 
@@ -246,6 +255,7 @@ FANUC_MILL_LANGUAGE = Language(
         ),
     ),
     corner=CornerWords(guard=_guard_sine, refuses=_refuses, signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK}),
+    arc=ArcWords(radius_wins=True),
     order=BlockOrder(threads=frozenset({33}), passes=frozenset({4})),
 )
 
@@ -253,7 +263,7 @@ HAAS_LATHE_LANGUAGE = replace_fields(
     FANUC_LATHE_LANGUAGE,
     lexicon=HAAS_LATHE_WORDS,
     angle=replace_fields(FANUC_LATHE_LANGUAGE.angle, address="A"),
-    allowed=FANUC_LATHE_LANGUAGE.allowed - {",A"} | {"A"},
+    allowed=FANUC_LATHE_LANGUAGE.allowed - {",A"} | {"A", "Y", "V"},
     samples={
         (A_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
         (A_LINE, A_LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {A95.7}")),
@@ -265,10 +275,11 @@ HAAS_MILL_LANGUAGE = replace_fields(
     lexicon=HAAS_MILL_WORDS,
     basis=replace_fields(
         FANUC_MILL_LANGUAGE.basis,
-        where_set={STRAIGHT_ONLY: (ARCS, "off")},
+        where_set={STRAIGHT_ONLY: (GENERATION, "NGC")},
         premises=_premises(
-            HAAS_NUMBER, HAAS_GUARD, Premise(ARCS, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)
+            HAAS_NUMBER, HAAS_GUARD, Premise(GENERATION, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)
         ),
     ),
     corner=replace_fields(FANUC_MILL_LANGUAGE.corner, signed={}),
+    arc=ArcWords(),
 )

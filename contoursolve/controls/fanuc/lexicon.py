@@ -33,9 +33,12 @@ _INCREMENTS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, FANUC_MANUAL)
 LATHE_PLANES = {17: replace(LATHE, code="G17"), 18: LATHE, 19: replace(LATHE, code="G19")}
 """A lathe has Z and X alone, whatever plane is selected."""
 
-_LATHE_CODES = code_rows(
-    FANUC_MANUAL, merge(LATHE_CODES, {Effect.SINGLE: dict.fromkeys(range(70, 77), "cycle")}), LATHE_PLANES
-)
+HAAS_LATHE_PLANES = {17: replace(PLANES[17], diameters=(True, False)), 18: LATHE, 19: PLANES[19]}
+"""A Haas lathe may have Y, and makes corners in each of its planes."""
+
+_OF_LATHES = merge(LATHE_CODES, {Effect.SINGLE: dict.fromkeys(range(70, 77), "cycle")})
+_LATHE_CODES = code_rows(FANUC_MANUAL, _OF_LATHES, LATHE_PLANES)
+_HAAS_LATHE_CODES = code_rows(FANUC_MANUAL, _OF_LATHES, HAAS_LATHE_PLANES)
 _MILL_CODES = code_rows(FANUC_MANUAL, MILL_CODES, PLANES)
 
 
@@ -45,6 +48,7 @@ def _with(words: Lexicon, *rows: Address) -> Lexicon:
 
 
 _TURNED = lexicon(FANUC_MANUAL, _INCREMENTS, "XZ", {"U": "X", "W": "Z"}, is_diameter=True)
+_HAAS_TURNED = lexicon(FANUC_MANUAL, _INCREMENTS, "XYZ", {"U": "X", "V": "Y", "W": "Z"}, is_diameter=True)
 _MILLED = lexicon(FANUC_MANUAL, _INCREMENTS, "XYZ", {}, is_diameter=False)
 
 _ANGLE = "angle of the line, from +Z, counter-clockwise"
@@ -61,7 +65,7 @@ MILL_WORDS = _with(
     Address(",R", _ROUND, Unit.MM, CORNERS.printed("sample program")),
 )
 HAAS_LATHE_WORDS = _with(
-    _TURNED,
+    _HAAS_TURNED,
     Address("A", _ANGLE, Unit.DEGREE, HAAS.assumed("recalled")),
     Address(",C", _LEG, Unit.MM, HAAS.printed("example")),
     Address(",R", _ROUND, Unit.MM, HAAS.printed("example")),
@@ -77,7 +81,7 @@ _CODES = {
     for name, more, own in (
         ("lathe", LATHES, _LATHE_CODES),
         ("mill", MILLS, _MILL_CODES),
-        ("haas lathe", HAAS_LATHES, _LATHE_CODES),
+        ("haas lathe", HAAS_LATHES, _HAAS_LATHE_CODES),
         ("haas mill", HAAS_MILLS, _MILL_CODES),
     )
 }
@@ -97,6 +101,6 @@ MILL_MODES = Modes(
     MILL_WORDS, _CODES["mill"], _ON_MILLS, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS, zero=_MILL_ZERO
 )
 HAAS_LATHE_MODES = Modes(
-    HAAS_LATHE_WORDS, _CODES["haas lathe"], _ON_LATHES, CALLS, language=haas(), zero=_HAAS_LATHE_ZERO
+    HAAS_LATHE_WORDS, _CODES["haas lathe"], (*_ON_LATHES, "Y"), CALLS, language=haas(), zero=_HAAS_LATHE_ZERO
 )
 HAAS_MILL_MODES = Modes(HAAS_MILL_WORDS, _CODES["haas mill"], _ON_MILLS, CALLS, language=haas(), zero=_HAAS_MILL_ZERO)

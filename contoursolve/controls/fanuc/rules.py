@@ -20,6 +20,7 @@ from contoursolve.controls.chain.language import (
 from contoursolve.controls.chain.rules import ExampleWords, Manual, chain_rules
 from contoursolve.controls.fanuc.language import (
     ALONG_ARC,
+    COMPENSATION_CHANGED,
     COMPENSATION_CHANGES,
     GUARD,
     STRAIGHT_ONLY,
@@ -30,7 +31,8 @@ from contoursolve.controls.fanuc.language import (
 )
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
 from contoursolve.controls.geometry_rules import ANGLE_RAPID, COMMA_MISSING, GEOMETRY_RULES, Otherwise, told
-from contoursolve.diagnostics import Alarm, Book, Evidence, Source
+from contoursolve.controls.rule_rows import with_pages
+from contoursolve.diagnostics import Alarm, Book, Evidence, Severity, Source
 from contoursolve.reading import AngleAlong, AnglesParallel, Rule, all_of, at_least, some
 
 _ANY = (LINE, OVER_LINE, ARC)
@@ -81,6 +83,7 @@ _FANUC_MILL = _Machine("fanuc", CORNERS, "", True, _MILLING, "X30.", "X40. Y40."
 _HAAS_LATHE = _Machine("haas", HAAS, "A", False, _TURNING, "Z-20.", "X40. Z-30.", _SQUARE)
 _HAAS_MILL = _Machine("haas", HAAS, "", False, _MILLING, "X30.", "X40. Y40.", thread=33)
 
+_MILLED_ON_LATHE = "G17 G00 X60. Y-10.\nG01 Y10. ,R3.\nX20. ,C2.\nY-10."
 _VERTEX = _TURNING + "G01 ,A180. ,R3.\nX60. Z-47. ,A120."
 _ARC_BEHIND = _MILLING + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
 
@@ -230,6 +233,58 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
     return (*own_rows, sign)
 
 
+def _start_up(machine: _Machine) -> Rule:
+    """The row about a corner in the first move behind a block with G40, G41 or G42 alone."""
+    switched = machine.cut.replace("G01", "G42\nG01")
+    short = machine.line.replace("20.", "5.").replace("30.", "5.")
+    return Rule(
+        code=f"{machine.prefix}-corner-start-up",
+        message="{words}: this is the first move since G40, G41 or G42, and the move that switches takes no corner",
+        help="put a move without a corner between them",
+        source=machine.source(
+            "alarm 039 is printed; that the next move starts or ends it is recalled", Evidence.ASSUMED
+        ),
+        alarm=machine.alarm("039 CHF/CNR NOT ALLOWED IN NRC", Evidence.ASSUMED),
+        roles=_ANY,
+        when=some(*_CORNERS) & some(COMPENSATION_CHANGED),
+        accepted=(machine.cut, switched.replace("G01 ", f"G01 {short}\n")),
+        rejected=(
+            switched,
+            switched.replace("G42", "G42\nM8"),
+            switched.replace("G00", "G42 G00").replace("\nG42", "\nG40"),
+        ),
+    )
+
+
+_RADIUS_WINS = "printed for lathes: 16/18-C p. 67"
+_ARC_ROWS = (
+    *(
+        Rule(
+            code=f"fanuc-{order}-centre-ignored",
+            message="{words} is ignored: R says where the centre is{comparison}",
+            help="delete {words}, or delete R",
+            source=_FANUC_MILL.source(_RADIUS_WINS, Evidence.DERIVED),
+            severity=Severity.WARNING,
+            roles=(ARC,),
+            when=some(word) & some("R") & some(*STATED_POINT),
+            ignores=word,
+            accepted=(_ARC_BEHIND, _ARC_BEHIND.replace("I20. J0", "R20.")),
+            rejected=(_ARC_BEHIND.replace("J0", "J0 R20."), _ARC_BEHIND.replace(other, "R20.")),
+        )
+        for order, word, other in (("first", "center-first", " J0"), ("second", "center-second", "I20."))
+    ),
+    Rule(
+        code="fanuc-radius-without-end",
+        message="{words}: without an end the arc moves nothing, and a corner needs a move on both sides",
+        help="add the coordinates of its end, or give the centre instead",
+        source=_FANUC_MILL.source(f"{_RADIUS_WINS}; alarm list", Evidence.DERIVED),
+        alarm=_FANUC_MILL.alarm("051 (no move after a corner) or 055 (no move before it)", Evidence.DERIVED),
+        roles=(ARC,),
+        when=some("R") & ~some(*STATED_POINT),
+        accepted=(_ARC_BEHIND,),
+        rejected=(_ARC_BEHIND.replace("X60. Y20. I20. J0", "R20."),),
+    ),
+)
 _ALONG_ARC = (
     Rule(
         code="fanuc-chamfer-along-arc",
@@ -247,6 +302,7 @@ _ALONG_ARC = (
 def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
     """The rows about planes and arcs."""
     cut = machine.cut
+    beside = "Y5." if machine.start == _TURNING else "Z-5."
     return (
         *(_ALONG_ARC if machine.has_alarms else ()),
         Rule(
@@ -257,14 +313,15 @@ def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
             roles=_ANY,
             when=some("beside-X", "beside-Y", "beside-Z"),
             accepted=(cut,),
-            rejected=(cut.replace("X30.", "X30. Z-5."),),
+            rejected=(cut.replace(machine.line, f"{machine.line} {beside}"),),
         ),
     )
 
 
 def _shared_rules(machine: _Machine) -> Iterator[Rule]:
     """The rows that controls share."""
-    is_lathe, manual = machine.start == _TURNING, machine.source("arcs", Evidence.ASSUMED)
+    is_lathe, is_haas_lathe = machine.start == _TURNING, machine is _HAAS_LATHE
+    manual = machine.source("arcs", Evidence.ASSUMED)
     sources = {
         "corner-rapid": machine.source("the function", Evidence.DERIVED),
         "corner-negative": machine.source("not described", Evidence.ASSUMED),
@@ -298,19 +355,26 @@ def _shared_rules(machine: _Machine) -> Iterator[Rule]:
             arc_code="G02",
         ),
         sources=sources,
+        alarms={"circle-undefined": Alarm("022 R OR I,J,K COMMAND NOT FOUND", Evidence.PRINTED)}
+        if machine.has_alarms
+        else {},
     )
-    arcs = ("center-and-radius", "circle-undefined", "radius-without-end")
+    clash = ("center-and-radius", "radius-without-end")
+    arcs = ("circle-undefined", *(() if machine.has_alarms else clash))
     wanted = (
         "corner-rapid",
         "corner-negative",
         "zero-moves",
         *(("angle-range",) if is_lathe else ("plane-changes", *arcs)),
+        *(("plane-changes",) if is_haas_lathe else ()),
     )
     for rule in chain_rules(shared):
         code = rule.code.removeprefix(f"{machine.prefix}-")
         if code in wanted and code in arcs and rule.when is not None and not machine.has_alarms:
             # A setting allows corners beside arcs.
             yield replace(rule, when=rule.when & ~some(STRAIGHT_ONLY), accepted=(machine.cut,), rejected=())
+        elif code == "plane-changes" and is_haas_lathe:
+            yield replace(rule, rejected=(_MILLED_ON_LATHE.replace("X20.", "G18 X20."),))
         elif code in wanted:
             yield rule
 
@@ -322,7 +386,8 @@ def _straight_only(machine: _Machine) -> Rule:
     return Rule(
         code=f"{machine.prefix}-arc",
         message="{words}: this control makes corners between lines alone, and this is an arc",
-        help="end the contour before the arc, or write its lines and corners out",
+        help="end the contour before the arc, or write its lines and corners out"
+        + ("; for a classic control, set haas-mill.generation=classic" if machine is _HAAS_MILL else ""),
         source=machine.source("block patterns; alarm list" if is_lathe else "corners between two lines"),
         alarm=machine.alarm("052 (the block after a corner is not G01)"),
         roles=(ARC,),
@@ -339,13 +404,15 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
     return (
         Rule(
             code=f"{machine.prefix}-plane",
-            message="the contour is not in the plane of Z and X",
+            message="the contour is not in the plane of Z and X"
+            if machine.has_alarms
+            else "{words}: the control works out lines by angles in the plane of Z and X alone",
             help="write G18 before it",
             source=machine.source(_ALARM_LIST),
             alarm=machine.alarm("212 ILLEGAL PLANE SELECT"),
             roles=_ANY,
-            when=some(WRONG_PLANE),
-            accepted=(good, "G18 " + good),
+            when=some(WRONG_PLANE) if machine.has_alarms else some(WRONG_PLANE) & some(angle),
+            accepted=(good, "G18 " + good) if machine.has_alarms else (good, "G18 " + good, _MILLED_ON_LATHE),
             rejected=("G17 " + good,),
         ),
         Rule(
@@ -363,7 +430,7 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
             message="{words}: the line runs along Z to within 1 deg, so X does not say where it ends",
             help="give its end by Z",
             source=machine.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
-            alarm=machine.alarm("057 (the end of the block is not found)"),
+            alarm=machine.alarm("057 NO SOLUTION OF BLOCK END"),
             roles=(LINE,),
             is_about_geometry=True,
             when=some(*_SECOND) & ~some(*_FIRST) & AngleAlong((angle,), 0, GUARD) & ~some(UNGUARDED),
@@ -375,7 +442,7 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
             message="{words}: the line runs along X to within 1 deg, so Z does not say where it ends",
             help="give its end by X",
             source=machine.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
-            alarm=machine.alarm("057 (the end of the block is not found)"),
+            alarm=machine.alarm("057 NO SOLUTION OF BLOCK END"),
             roles=(LINE,),
             is_about_geometry=True,
             when=some(*_FIRST) & ~some(*_SECOND) & AngleAlong((angle,), 90, GUARD) & ~some(UNGUARDED),
@@ -436,7 +503,7 @@ _VERTEX_RULES = (
         message="{words}: the two lines are parallel to within 1 deg, so the control computes no vertex",
         help="correct one of the angles",
         source=_FANUC_LATHE.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
-        alarm=_FANUC_LATHE.alarm("058 (the end of the block is not found)"),
+        alarm=_FANUC_LATHE.alarm("058 END POINT NOT FOUND"),
         roles=(LINE_LINE,),
         is_about_geometry=True,
         when=AnglesParallel(("1:,A", "2:,A"), GUARD) & ~some("1:" + UNGUARDED),
@@ -524,39 +591,73 @@ def _lathe_examples(machine: _Machine) -> dict[str, tuple[str, str]]:
     }
 
 
-FANUC_LATHE_RULES = (
-    *_corner_rules(_FANUC_LATHE),
-    *_square_rules(_FANUC_LATHE, "I5.", "K5.", "X40."),
-    _straight_only(_FANUC_LATHE),
-    *_angle_rules(_FANUC_LATHE),
-    *_shared_rules(_FANUC_LATHE),
-    *_VERTEX_RULES,
-    *_geometry(_FANUC_LATHE, _lathe_examples(_FANUC_LATHE)),
-    *GEOMETRY_RULES,
+_30I = "30i/31i/32i B-63944EN-1/02 p. 118"
+_FANUC_LATHE_PAGES = {"fanuc-chamfer-letter": _30I}
+_FANUC_MILL_PAGES = {"fanuc-chamfer-letter": _30I, "fanuc-circle-undefined": "alarm list: 22"}
+_HAAS_LATHE_PAGES = dict.fromkeys(
+    ("haas-comma-missing", "haas-corner-without-next"), "classic lathe, corner rounding and chamfering example"
 )
-FANUC_MILL_RULES = (
-    *_corner_rules(_FANUC_MILL),
-    *_square_rules(_FANUC_MILL, "J5.", "I5.", "Y40."),
-    *_mill_rules(_FANUC_MILL),
-    *_shared_rules(_FANUC_MILL),
-    *_geometry(_FANUC_MILL, _MILL_EXAMPLES),
-    *GEOMETRY_RULES,
+_HAAS_MILL_PAGES = {
+    "haas-arc": "mill NGC (2017) p. 250",
+    "haas-corner-outside-plane": "mill NGC (2017) p. 251",
+    "haas-corner-without-next": "mill NGC (2017) p. 250",
+    "haas-comma-missing": "mill NGC (2017) p. 249",
+}
+"""What a page prints, by the codes of rules."""
+
+FANUC_LATHE_RULES = with_pages(
+    (
+        *_corner_rules(_FANUC_LATHE),
+        _start_up(_FANUC_LATHE),
+        *_square_rules(_FANUC_LATHE, "I5.", "K5.", "X40."),
+        _straight_only(_FANUC_LATHE),
+        *_angle_rules(_FANUC_LATHE),
+        *_shared_rules(_FANUC_LATHE),
+        *_VERTEX_RULES,
+        *_geometry(_FANUC_LATHE, _lathe_examples(_FANUC_LATHE)),
+        *GEOMETRY_RULES,
+    ),
+    DRAWING,
+    _FANUC_LATHE_PAGES,
 )
-HAAS_LATHE_RULES = (
-    *_corner_rules(_HAAS_LATHE),
-    *_square_rules(_HAAS_LATHE, "I5.", "K5.", "X40."),
-    _straight_only(_HAAS_LATHE),
-    *_angle_rules(_HAAS_LATHE),
-    *_shared_rules(_HAAS_LATHE),
-    _NO_VERTEX,
-    *_geometry(_HAAS_LATHE, _lathe_examples(_HAAS_LATHE)),
-    *GEOMETRY_RULES,
+FANUC_MILL_RULES = with_pages(
+    (
+        *_corner_rules(_FANUC_MILL),
+        _start_up(_FANUC_MILL),
+        *_square_rules(_FANUC_MILL, "J5.", "I5.", "Y40."),
+        *_mill_rules(_FANUC_MILL),
+        *_ARC_ROWS,
+        *_shared_rules(_FANUC_MILL),
+        *_geometry(_FANUC_MILL, _MILL_EXAMPLES),
+        *GEOMETRY_RULES,
+    ),
+    CORNERS,
+    _FANUC_MILL_PAGES,
 )
-HAAS_MILL_RULES = (
-    *_corner_rules(_HAAS_MILL),
-    *_mill_rules(_HAAS_MILL),
-    *_shared_rules(_HAAS_MILL),
-    _straight_only(_HAAS_MILL),
-    *_geometry(_HAAS_MILL, {"corners-overlap": _MILL_EXAMPLES["corners-overlap"]}),
-    *GEOMETRY_RULES,
+HAAS_LATHE_RULES = with_pages(
+    (
+        *_corner_rules(_HAAS_LATHE),
+        *_square_rules(_HAAS_LATHE, "I5.", "K5.", "X40."),
+        _straight_only(_HAAS_LATHE),
+        *_mill_rules(_HAAS_LATHE),
+        *_angle_rules(_HAAS_LATHE),
+        *_shared_rules(_HAAS_LATHE),
+        _NO_VERTEX,
+        *_geometry(_HAAS_LATHE, _lathe_examples(_HAAS_LATHE)),
+        *GEOMETRY_RULES,
+    ),
+    HAAS,
+    _HAAS_LATHE_PAGES,
+)
+HAAS_MILL_RULES = with_pages(
+    (
+        *_corner_rules(_HAAS_MILL),
+        *_mill_rules(_HAAS_MILL),
+        *_shared_rules(_HAAS_MILL),
+        _straight_only(_HAAS_MILL),
+        *_geometry(_HAAS_MILL, {"corners-overlap": _MILL_EXAMPLES["corners-overlap"]}),
+        *GEOMETRY_RULES,
+    ),
+    HAAS,
+    _HAAS_MILL_PAGES,
 )

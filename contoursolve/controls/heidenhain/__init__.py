@@ -3,7 +3,9 @@
 Its words, elements and rules come in; a control goes out. Begin with `elements`.
 """
 
+from contoursolve.controls.arc_facts import reading_arcs
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
+from contoursolve.controls.heidenhain.arcs import arc_of, suspected
 from contoursolve.controls.heidenhain.examples import WORDS
 from contoursolve.controls.heidenhain.find import find
 from contoursolve.controls.heidenhain.follow import ZERO, follow
@@ -14,7 +16,7 @@ from contoursolve.controls.plain import PLANES
 from contoursolve.execution import klartext
 from contoursolve.reading import Dialect, Modes
 
-HEIDENHAIN = Dialect(
+_HEIDENHAIN = Dialect(
     name="heidenhain",
     title="HEIDENHAIN TNC, Klartext with free contours FK",
     modes=Modes(
@@ -36,3 +38,4 @@ HEIDENHAIN = Dialect(
     settings=(*SETTINGS, *SETTINGS_OF_ALL),
     writing=WRITING,
 )
+HEIDENHAIN = reading_arcs(_HEIDENHAIN, read=arc_of, suspects=suspected)

@@ -5,6 +5,8 @@ NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
 NO_BLOCK, TWO_BLOCKS, NO_LINE = "@no-block ", "@two-blocks ", "@no-line "
 """Before the name of a word that refers to a block: that block is not there; there are two; it is an arc, where the
 word refers to a line."""
+PARAMETER = "@parameter"
+"""A word of it has a Q parameter for its number."""
 NO_CENTER, NO_RADIUS = "@no-center", "@no-radius"
 """C without a CC in force; CR without R."""
 NO_TURN = "@no-turn"

@@ -28,6 +28,7 @@ from contoursolve.controls.heidenhain.circumstances import (
     NO_RADIUS,
     NO_SENSE,
     NO_TURN,
+    PARAMETER,
     TOOL,
     TURNS_BACK,
     TWO_BLOCKS,
@@ -288,7 +289,7 @@ def _referred(chain: ChainBlocks, number: int) -> Iterator[tuple[str, int | str]
         refers_to_line = name in REFERRING_TO_LINES and not (name == "RAN" and other == place)
         if other == TWICE:
             yield name, TWO_BLOCKS
-        elif other is None or other > place or (name in REFERRING_TO_LINES and not other):
+        elif other is None or other > place or (name in ("PAR", *REFERRING_TO_LINES) and not other):
             yield name, NO_BLOCK
         elif refers_to_line and chain.members[other - 1].function not in STRAIGHT:
             yield name, NO_LINE
@@ -355,6 +356,7 @@ def _lacking(chain: ChainBlocks, number: int, elements: Sequence[FkElement]) -> 
         FULL: member.is_full,
         NO_RADIUS: member.function == "CR" and "R" not in own,
         CLOSES_NOTHING: "CLSD-" in own and not 0 < chain.opening < number,
+        PARAMETER: any(_is_parameter(word, member.block) for word in own.values()),
         CONTINUED: _CONTINUES.search(member.block.text),
         NEVER_CLOSED: number == chain.opening and not chain.is_closed,
         TOOL: tool is not None,
@@ -363,6 +365,13 @@ def _lacking(chain: ChainBlocks, number: int, elements: Sequence[FkElement]) -> 
         TURNS_BACK: is_turned and _is_same_circle(before[-1].block, member.block, chain.words),
     }
     yield from (name for name, is_so in holds.items() if is_so)
+
+
+def _is_parameter(word: Word, block: Block) -> bool:
+    """Whether the number of a word is that of a Q parameter, or such a parameter whose value is not known."""
+    span = block.typed_span(word.span)
+    is_open = word.number is None and not word.is_asked
+    return is_open or any(each.is_within(span) for each in block.substituted)
 
 
 def _givens(chain: ChainBlocks, elements: Sequence[FkElement], builder: ContourBuilder) -> dict[str, Given]:

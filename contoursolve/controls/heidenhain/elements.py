@@ -32,6 +32,7 @@ from contoursolve.geometry import (
     Line,
     Offset,
     ParallelLines,
+    ParallelTangent,
     Radius,
     RadiusStep,
     Ray,
@@ -306,12 +307,15 @@ def point_rows(place: PlacedElement, axes: tuple[str, str]) -> Iterator[FactRow]
 
 
 def parallel_rows(chain: Chain, place: PlacedElement) -> Iterator[FactRow]:
-    """A line parallel to another one, and at which distance."""
+    """A line parallel to another one, or to the tangent of an arc where it begins, and at which distance."""
     number = place.element.parallel
     if not (number and place.element.is_line):
         return
     other, word, distance = chain.places[number - 1], f"{place.prefix}PAR", f"{place.prefix}DP"
-    yield FactRow(ParallelLines(other.name, place.name, word), (word,))
+    if other.element.is_line:
+        yield FactRow(ParallelLines(other.name, place.name, word), (word,))
+    else:
+        yield FactRow(ParallelTangent(place.name, other.tail, other.center, word), (word,))
     if "DP" in place.element.touching:
         yield FactRow(put_on(place.shape, other.tail, distance), (word, distance))
         return

@@ -117,6 +117,9 @@ _RIGHT = {
         "{start}2 FL X+30 Y+5\n3 FL AN+90 LEN20\n4 FL IX+10 RX2 IY+40 RY2{tail}",
         "{above}2 FC DR- R20 CCX+20 CCY+30\n3 FLT\n4 FCT DR- R12 ICCX+70 RCCX2 ICCY+15 RCCY2 CCA+0{tail}",
     ),
-    "heidenhain-block-no-line": ("{start}2 FL AN+20 LEN40\n3 FL IAN+50 LEN30\n4 FL LEN20 IAN+30 RAN2{tail}",),
+    "heidenhain-block-no-line": (
+        "{start}2 FC DR- R40 CCX+40 CCY+0 X+40 Y+40\n3 FL PAR 2 LEN20 Y+60{tail}",
+        "{start}2 FL AN+20 LEN40\n3 FL IAN+50 LEN30\n4 FL LEN20 IAN+30 RAN2{tail}",
+    ),
 }
 WORDS = OwnWords(_GAPS, _SLIPS, _ABSENT, _RIGHT)

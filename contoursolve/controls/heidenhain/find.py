@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import replace as replace_fields
 from itertools import count
 
+from msgspec import structs
+
 from contoursolve.controls.heidenhain.chain_blocks import (
     OF_CORNERS,
     ChainBlocks,
@@ -63,6 +65,8 @@ def find(
         is_begun = function in OF_CORNERS
     if not is_begun:
         return None
+    if words.slack != modes.radius_difference:
+        words = structs.replace(words, slack=modes.radius_difference)
     chain = ChainBlocks(state, modes, words)
     if function != POLE or _next_function(blocks, index) in MOVES:
         chain.read(blocks, index)

@@ -19,7 +19,7 @@ from contoursolve.controls.heidenhain.lexicon import (
     function_of,
 )
 from contoursolve.diagnostics import Span
-from contoursolve.gcode import Block, Word, late_pattern
+from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
 from contoursolve.reading import (
     Mode,
@@ -134,6 +134,9 @@ def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:
     """The state behind a block that sets a pole: where the tool is, if it has no coordinates."""
     moved = positions(state, axis_words(block, modes), modes, block.is_skippable)
     memory, stated = dict(state.memory), list[str]()
+    if function == CENTER:
+        # The line that states it, as it is written.
+        memory[CENTER] = Word(CENTER, None, False, block.text, block.span)
     for axis in state.plane.axes:
         # A centre keeps the coordinate that its block leaves out; CC alone takes the position.
         if axis in moved or (function == CENTER and not moved):
@@ -187,7 +190,7 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
     return state.move({**moved, **positions(state, others, modes, block.is_skippable)})
 
 
-_CALLS_CYCLE = late_pattern(BLOCK_NUMBER + r"CYCL[ \t]+CALL\b", re.IGNORECASE)
+_CALLS_CYCLE = re.compile(BLOCK_NUMBER + r"CYCL[ \t]+CALL\b", re.IGNORECASE)
 _CYCLE = "a cycle runs"
 _RECALLED = BOOK.assumed("coordinate transformations")
 _MOST_SHOWN = 40
@@ -262,7 +265,7 @@ def _shown(block: Block) -> str:
     return " ".join(_NUMBER.sub("", text).split())[:_MOST_SHOWN]
 
 
-_NUMBER = late_pattern(BLOCK_NUMBER, re.IGNORECASE)
+_NUMBER = re.compile(BLOCK_NUMBER, re.IGNORECASE)
 
 
 def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:

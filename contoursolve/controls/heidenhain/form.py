@@ -76,7 +76,7 @@ def _rows(chain: Chain) -> Iterator[FactRow]:
         after = places[place.number] if place.number < len(places) else None
         for point, is_met in ((place.tail, _is_met(chain, place, place)), (place.head, _is_met(chain, place, after))):
             if not is_met:
-                yield FactRow(put_on(place.shape, point), ())
+                yield FactRow(put_on(place.shape, point, slack=words.slack), ())
 
 
 def _is_met(chain: Chain, arc: PlacedElement, second: PlacedElement | None) -> bool:

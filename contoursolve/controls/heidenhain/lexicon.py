@@ -13,6 +13,7 @@ from contoursolve.diagnostics import Book, Source
 from contoursolve.gcode import NUMBER, Block, Syntax, Word, late_pattern, plain_spelling, words_as
 from contoursolve.geometry import CornerShape, Unit
 from contoursolve.reading import TURNED, Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.tolerance import CIRCLE_DEVIATION, RADIUS_DIFFERENCE
 
 BOOK = Book("HEIDENHAIN TNC user's manuals")
 _FK, _PATH = BOOK.printed("free contour programming FK"), BOOK.printed("path functions")
@@ -79,6 +80,8 @@ class PlaneWords(Struct, frozen=True, dict=True):
     has_corners: bool = False
     """Whether the block of an element may have the corner behind it."""
     chamfer: CornerShape = CornerShape.CHAMFER_SETBACK
+    slack: float = RADIUS_DIFFERENCE
+    """mm. By how much the radii at two points of an arc may differ."""
 
     def each(self, *texts: str) -> tuple[str, ...]:
         """Texts with each axis for their braces, text by text."""
@@ -132,7 +135,7 @@ class PlaneWords(Struct, frozen=True, dict=True):
         )
 
 
-IN_KLARTEXT = PlaneWords()
+IN_KLARTEXT = PlaneWords(slack=CIRCLE_DEVIATION)
 
 
 def _long(words: PlaneWords) -> str:
@@ -302,7 +305,12 @@ def rows_of(
         ),
         *((free, Unit.MM, f"PD{axis}", f"{axis} of a point beside the element") for axis in words.axes),
         (free, Unit.MM, "D", "distance of that point from the element"),
-        (free, Unit.SIGN, "PAR", "block of the line to which it is parallel"),
+        (
+            free,
+            Unit.SIGN,
+            "PAR",
+            "block of the line, or of the arc where it begins, to which it is parallel",
+        ),
         (free, Unit.MM, "DP", "distance from that line"),
         *((free, Unit.SIGN, f"R{name}", f"block from which I{name} counts") for name in words.referred),
         *((free, Unit.SIGN, name, "begins in the direction of the element before it") for name in TANGENT),
@@ -319,8 +327,8 @@ def rows_of(
     return named
 
 
-REFERRING_TO_LINES = ("PAR", "RAN")
-"""Words that name a line: no page tells which direction of an arc they would mean."""
+REFERRING_TO_LINES = ("RAN",)
+"""The word that names a line: no page tells which direction of an arc it would mean."""
 
 _BESIDE = (
     ("N", "number of a block", Bearing.NONE),

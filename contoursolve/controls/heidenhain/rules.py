@@ -27,6 +27,7 @@ from contoursolve.controls.heidenhain.circumstances import (
     NO_RADIUS,
     NO_SENSE,
     NO_TURN,
+    PARAMETER,
     TOOL,
     TURNS_BACK,
     TWO_BLOCKS,
@@ -57,6 +58,7 @@ _POINT = START + "2 FL P1X+20 P1Y+20\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _BESIDE = START + "2 FL PDX+20 PDY+20 D0\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _ARC = START + "2 FC DR+ R20 CCX+0 CCY+20 X+20 Y+20\n3 END PGM A MM"
 _PARALLEL = START + "2 FL X+50 Y+0\n3 FL AN+90\n" + "4 FL PAR 2 DP 30 AN+180\n5 FL X+0 Y+0 AN-90"
+_TURNED_FROM = START + "2 FL X+50 Y+0\n3 FL AN+90 LEN20\n4 FL IAN+90 RAN 2 LEN20"
 _POLAR = START + "2 FPOL X+10 Y+0\n3 FL PR+20 PA+45\n4 END PGM A MM"
 _POLE = START + "2 FL X+5 Y+0\n3 FPOL X+10 Y+0\n4 FL PR+20 PA+45\n5 END PGM A MM"
 _CLOSED = START + "2 FL X+30 Y+0 CLSD+\n3 FL X+30 Y+20\n4 FL CLSD-\n5 END PGM A MM"
@@ -128,14 +130,19 @@ def _rows(words: PlaneWords) -> tuple[Rule, ...]:
         _row("block-twice", "{words}: two elements of the chain have this block number, so it tells of neither",
              "number the blocks anew, so that each number stands once", BOOK.assumed("data relative to a block"),
              _referring(TWO_BLOCKS, words.referring), _FK, _FAR, ("3 FL X+50", "2 FL X+50")),
-        _row("block-no-line", "{words} names the block of an arc, and PAR and RAN name a line",
+        _row("block-no-line", "{words} names the block of an arc, and RAN names a line",
              "write the number of a line, or state the direction by AN", BOOK.assumed("data relative to a block"),
-             _referring(NO_LINE, REFERRING_TO_LINES), _FK, _PARALLEL,
+             _referring(NO_LINE, REFERRING_TO_LINES), _FK, _TURNED_FROM,
              ("2 FL X+50 Y+0", "2 FC X+50 Y+0 DR- R40")),
         _row("reference-alone", "{words} names the block from which an increment counts, and the increment is missing",
              "write the increment before it, or delete {words}", _PRINTED_REFERENCE,
              reduce(or_, (some(f"R{name}") & ~some(f"I{name}") for name in words.referred)), _FK, _NUMBERED,
              ("IX+5", "X+35"), severity=Severity.WARNING),
+        _row("parameter-relative", "{words}: an element with data relative to a block takes no Q parameters",
+             "write numbers in this block, or give its data without {words}",
+             BOOK.printed("TNC 426: data relative to a block"),
+             some(PARAMETER) & some(*(f"R{name}" for name in words.referred)), _FK,
+             _NUMBERED.replace("2 FL", "Q1 = 5\n2 FL"), ("IX+5", "IX+Q1")),
         _row("pole-missing", "{words}: polar data need a pole, and no FPOL is in force; CC does not serve here",
              "write FPOL X Y before the chain or in it", BOOK.printed("pole of FK"),
              some(NO_POLE) & some(*sorted(POLAR)), _FK, _POLAR,

@@ -5,6 +5,7 @@ Its words, language and rules come in; a control goes out. Begin with `language`
 
 import re
 
+from contoursolve.controls.arc_facts import reading_arcs
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL, with_default
 from contoursolve.controls.isg.language import LANGUAGE, SETTINGS
@@ -29,7 +30,7 @@ def _signs(block: Block) -> tuple[Word, ...]:
     return tuple(word for word in words if word.address in _OWN or (word.address == "G" and word.number in codes))
 
 
-ISG = Dialect(
+_ISG = Dialect(
     name="isg",
     title="ISG kernel: Beckhoff TwinCAT CNC, KUKA",
     modes=MODES,
@@ -43,3 +44,4 @@ ISG = Dialect(
     motion=1,
     diameter=Diameter.OFF,
 )
+ISG = reading_arcs(_ISG)

@@ -81,6 +81,8 @@ _ABSENT = {
 }
 _RIGHT = {
     "isg-two-corners": ("{start}G1 X30 #CHR=5\nX40 Y40", "{start}G1 X30 #CHF=5\nX40 Y40"),
+    "isg-corner-crowded": ("{start}G1 X30\nG302 I5 F200\nG1 X40 Y40",),
+    "isg-corner-rapid": ("{start}G0 X30\nG302 I5\nG1 X40 Y40", "{start}G1 X30\nG301 I5\nG0 X40 Y40"),
     "isg-corner-size": ("{start}G1 X30\nG301 I5\nG1 X40 Y40",),
     "isg-center-and-radius": (
         "{start}G1 X40 #RND=6\nG2 X60 Y20 R20",

@@ -19,7 +19,7 @@ from contoursolve.controls.chain import (
 )
 from contoursolve.controls.chain.language import Premise, sense_conventions
 from contoursolve.controls.control_settings import angle_sense_setting, first_motion_setting, length_setting, setting
-from contoursolve.controls.isg.lexicon import BOOK, CHAMFER, MODES, ROUNDING
+from contoursolve.controls.isg.lexicon import BOOK, CENTERS, CHAMFER, MODES, ROUNDING
 from contoursolve.controls.plain import PLANES
 from contoursolve.geometry import CornerShape
 from contoursolve.reading import Modes, Sample, State, some
@@ -43,10 +43,16 @@ MODAL = setting(
 )
 
 
+UNCORRECTED = "@uncorrected"
+"""The control does not move the centres of arcs."""
+
+
 def _circumstances(member: Member, _: Sequence[State], _modes: Modes) -> Iterator[str]:
     size = member.here.memory.get("I")
     if member.corner is not None and (size is None or size.number == 0):
         yield NO_SIZE
+    if CENTERS in member.here.memory:
+        yield UNCORRECTED
 
 
 MACHINE = setting(
@@ -73,6 +79,7 @@ LANGUAGE = Language(
             "#RND": CornerShape.FILLET,
         },
         codes={CHAMFER: "#CHR", ROUNDING: "#RND"},
+        codes_in_rapid=True,
     ),
     samples={
         (A_LINE,): Sample(_START, ("G1 {X40} {Y23.094} {#ANG=30}",)),

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from decimal import Decimal
 
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
@@ -32,6 +33,8 @@ from contoursolve.reading import (
 BOOK = Book("ISG kernel, programming manual")
 
 
+CENTERS = "G164"
+"""The name of what is in force where the control does not move the centre of an arc that disagrees with its ends."""
 CHAMFER, ROUNDING = 301, 302
 """G301 and G302: corners in blocks of their own."""
 
@@ -131,11 +134,16 @@ def _words() -> Lexicon:
 
 
 def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
-    """The size of the last G301 or G302 stays in force for the next one; and an angle, where that is set."""
+    """The size of the last G301 or G302 stays in force for the next one; an angle, where that is set; and G164."""
     angle, size = block.find("#ANG"), block.find("I")
     is_corner = any(word.address == "G" and word.number in (CHAMFER, ROUNDING) for word in block.words)
     kept = {"I": size} if is_corner and size is not None else {}
     kept |= {"#ANG": angle} if angle is not None else {}
+    for word in block.words:
+        ends = _CENTRES.get(word.number) if word.address == "G" and word.number is not None else None
+        if ends is not None:
+            memory = {name: each for name, each in memory.items() if name not in ends}
+            kept |= {f"G{word.number}": word} if word.number != FROM_START else {}
     mark = _LINES_OF_COMMENT.match(block.text)
     if mark is not None and mark["begins"]:
         kept[COMMENTED] = Word(COMMENTED, None, False, mark[0].strip(), block.span)
@@ -144,6 +152,14 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
     return {**memory, **kept} if kept else memory
 
 
+FROM_START = 162
+_CENTRES: Mapping[Decimal, tuple[str, ...]] = {
+    Decimal(161): ("G161",),
+    Decimal(FROM_START): ("G161",),
+    Decimal(164): ("G164", "G165"),
+    Decimal(165): ("G164", "G165"),
+}
+"""Codes about centres, which stay in force, and those that each of them ends."""
 _LINES_OF_COMMENT = re.compile(r"\s*+#\s*+COMMENT\s++(?:(?P<begins>BEGIN)|END)\b", re.IGNORECASE)
 
 

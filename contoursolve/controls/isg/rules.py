@@ -1,6 +1,9 @@
 """ISG kernel: which words may be combined, and what has no solution. The error numbers are printed."""
 
+from dataclasses import replace
+
 from contoursolve.controls.chain.language import (
+    ARC,
     CORNER_ALONE,
     CORNER_BOTH,
     CORNER_CROWDED,
@@ -9,11 +12,13 @@ from contoursolve.controls.chain.language import (
     LINE,
     OTHER_DIAMETER,
     OVER_LINE,
+    STATED_CENTER,
 )
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
 from contoursolve.controls.isg.examples import EXAMPLES, WORDS
-from contoursolve.controls.isg.language import NO_SIZE
+from contoursolve.controls.isg.language import NO_SIZE, UNCORRECTED
 from contoursolve.controls.isg.lexicon import BOOK
+from contoursolve.controls.rule_rows import with_pages
 from contoursolve.diagnostics import Alarm, Evidence
 from contoursolve.reading import Count, all_of, some
 
@@ -23,8 +28,10 @@ _IDS = {
     "end-missing": "21904 (contour line not completely defined)",
     "closing-incomplete": "21904 (contour line not completely defined)",
     "closing-increment": "21910 (second block incremental)",
+    "circle-uncorrected": "20036 (the radius of a circle is 0)",
     "corner-size": "20012 (no size, or 0)",
     "corner-both": "20130 (two G codes of one group)",
+    "center-and-radius": "21024 (centre and radius at once; newer controls: 22159)",
     "corner-alone": "20351 (no motion block before), or 20701 (two corners without a motion between)",
 }
 _START = "G17 G90 G0 X0 Y0\n"
@@ -36,13 +43,11 @@ MANUAL = Manual(
     rounding="#RND",
     radius="R",
     examples=EXAMPLES,
-    alarms={
-        code: Alarm(number, Evidence.ASSUMED if code == "corner-both" else Evidence.PRINTED)
-        for code, number in _IDS.items()
-    },
+    alarms={code: Alarm(number, Evidence.PRINTED) for code, number in _IDS.items()},
 )
 _row, _PRINTED = MANUAL.row, Evidence.PRINTED
 _BLOCK = _START + "G1 X30\nG302 I5\nG1 X40 Y40"
+_UNCORRECTED = MANUAL.arc.replace("G17", "G17 G164")
 _CORNERS = (("#CHR",), ("#CHF",), ("#RND",))
 
 _OWN = (
@@ -66,6 +71,8 @@ _OWN = (
     _row("corner-alone", "G301 and G302 stand between two moves; here no move is right before",
          "put the corner right after the move that it ends", some(CORNER_ALONE), (LINE,), _BLOCK,
          ("G302 I5", "G302 I5\nG301 I2"), evidence=_PRINTED),
+    _row("circle-uncorrected", "the arc has neither a centre nor a radius", "add I, J or K of the plane, or R",
+         ~some(*STATED_CENTER, "R") & some(UNCORRECTED), (ARC,), _UNCORRECTED, (" I20 J0", ""), evidence=_PRINTED),
     _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
          "write G51 or G52 before its first block", some(OTHER_DIAMETER), ANY,
          "G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG1 Z-50",
@@ -78,4 +85,25 @@ _GEOMETRY = {
     "corner-straight": (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
     "line-reversed": (MANUAL.angled, MANUAL.angled.replace("X40", "X-40")),
 }
-RULES = WORDS.tell(*rules_of(MANUAL, _OWN, _GEOMETRY))
+_COUNTED = "the arc has neither a centre nor a radius; its centre counts as where it begins, and the radius is 0"
+_ROWS = (
+    # Without G164, a centre that is missing counts 0.
+    replace(rule, message=_COUNTED, when=rule.when & ~some(UNCORRECTED))
+    if rule.code == "isg-circle-undefined" and rule.when is not None
+    else rule
+    for rule in rules_of(MANUAL, _OWN, _GEOMETRY)
+)
+RULES = WORDS.tell(
+    *with_pages(
+        _ROWS,
+        BOOK,
+        {
+            "isg-circle-undefined": "G02, G03; G165",
+            "isg-angle-on-arc": "contour line programming",
+            "isg-angles-parallel": "diagnosis: 21892",
+            "isg-center-and-radius": "diagnosis: 21024; newer 22159",
+            "isg-corner-both": "diagnosis: 20130",
+            "isg-end-missing": "diagnosis: 21904",
+        },
+    )
+)

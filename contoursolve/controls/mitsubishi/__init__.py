@@ -3,6 +3,7 @@
 Its words, language and rules come in; a control goes out. Begin with `language`.
 """
 
+from contoursolve.controls.arc_facts import reading_arcs
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.mitsubishi.language import LANGUAGE, SETTINGS
@@ -22,7 +23,7 @@ def _signs(block: Block) -> tuple[Word, ...]:
     return tuple(word for word in block.words if word.address in shown)
 
 
-MITSUBISHI = Dialect(
+_MITSUBISHI = Dialect(
     name="mitsubishi",
     title="Mitsubishi M70, M700, M800 and E70",
     modes=MODES,
@@ -35,3 +36,4 @@ MITSUBISHI = Dialect(
     contours="lines with A or ,A, arcs without an end, H0 and H1 beside an arc, and ,C or ,R",
     settings=(*SETTINGS, *SETTINGS_OF_ALL),
 )
+MITSUBISHI = reading_arcs(_MITSUBISHI)

@@ -50,7 +50,12 @@ _GAPS = {
 }
 _INCREMENTS = {"options": "--set CONTROL.number=increment"}
 _SLIPS: dict[str, dict[str, str]] = {
-    **dict.fromkeys(("point-missing", "start-in-increments", "move-in-increments"), _INCREMENTS),
+    **dict.fromkeys(("point-missing", "point-lost", "start-in-increments", "move-in-increments"), _INCREMENTS),
+    "mitsubishi-two-corners": {
+        "contour": "{line} {before} ,C5. {corner}{size}\n{turn}",
+        "options": "--set CONTROL.two-corner-words=error",
+    },
+    "corner-twice": {"more": " {other_corner}", "options": "--set CONTROL.two-corner-words=error"},
     "mitsubishi-corner-arc": {"contour": "{arc_blocks}", "options": "--set CONTROL.corner=I"},
     "mitsubishi-chamfer-along-arc": {"contour": "{arc_blocks}", "options": "--set CONTROL.chamfer-on-arc=arc_length"},
     "mitsubishi-centre-from-end": {"contour": "{leaving}", "options": "--set CONTROL.first-centre=end"},

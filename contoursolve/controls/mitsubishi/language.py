@@ -41,12 +41,16 @@ from contoursolve.controls.control_settings import (
     number_setting,
     setting,
 )
-from contoursolve.controls.mitsubishi.lexicon import BOOK, MODES, TURNED_PLANES, turned
-from contoursolve.reading import Assumption, ContourForm, Convention, Dialect, Modes, Sample, State, some
+from contoursolve.controls.mitsubishi.lexicon import BOOK, LAST_CORNER, MODES, TURNED_PLANES, turned
+from contoursolve.reading import Assumption, ContourForm, Convention, Dialect, Modes, Sample, State, all_of, some
 
 PICK_REQUIRED, STRAIGHT_ONLY = "@pick-required", "@straight-only"
 UNGUARDED, ALONG_ARC, PICKS_NOTHING = "@unguarded", "@along-arc", "@picks-nothing"
 FROM_END = "@from-end"
+CHAMFER_LAST, ROUNDING_LAST = "@chamfer-last", "@rounding-last"
+"""Which of two corner words stands behind the other one in its block."""
+ONE_CORNER = "@one-corner"
+"""A block takes one corner word."""
 INCREMENTAL, HIGH_SPEED, TURNED = "@incremental", "@high-speed", "@turned"
 
 
@@ -113,8 +117,15 @@ _GUARD = setting(
     {"1": "at less than 1 deg no vertex is computed", "0": "only parallel lines have none"},
     BOOK.assumed("alarm P392"),
 )
+_TWO_CORNERS = setting(
+    "two-corner-words",
+    "what ,C and ,R in one block are",
+    {"last": "of ,C and ,R in a block the last is made", "error": "a block takes one of ,C and ,R"},
+    LAST_CORNER,
+)
 SETTINGS = (
     _NUMBER, _DIAMETER, _ANGLE_WORD, _FULL_CIRCLE, _FIRST_CENTER, _PICK, CONTACT, _SENSE, _CORNER, _ARC_CHAMFER, _GUARD,
+    _TWO_CORNERS,
     arguments_setting(BOOK.assumed("not described")),
 )  # fmt: skip
 
@@ -127,6 +138,7 @@ _PREMISES = (
     Premise(_ANGLE_WORD, some("A") & ~some(",A")),
     Premise(_FULL_CIRCLE, some(OPEN_ARC_END) & _CENTER & ~some("H")),
     Premise(_FIRST_CENTER, some(OPEN_ARC_END) & some("center-first", "center-second")),
+    Premise(_TWO_CORNERS, all_of(",C", ",R")),
     Premise(_CORNER, some(",C", ",R") & some(BESIDE_ARC)),
     Premise(_ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
     Premise(_GUARD, some("A", ",A"), is_told_where_set=True),
@@ -135,9 +147,14 @@ _PREMISES = (
 
 
 def _circumstances(member: Member, _: Sequence[State], _modes: Modes) -> Iterator[str]:
-    pick = member.block.find("H")
+    pick, corners = (
+        member.block.find("H"),
+        [each.address for each in member.block.words if each.address in (",C", ",R")],
+    )
     holds = {
         INCREMENTAL: member.here.is_incremental,
+        CHAMFER_LAST: corners[-1:] == [",C"],
+        ROUNDING_LAST: corners[-1:] == [",R"],
         HIGH_SPEED: "G05" in member.here.memory,
         TURNED: any(member.here.plane.diameters),
         PICKS_NOTHING: pick is not None and pick.number not in (None, 0, 1),
@@ -201,6 +218,7 @@ LANGUAGE = Language(
             PICK_REQUIRED: (_PICK, "error"),
             STRAIGHT_ONLY: (_CORNER, "I"),
             FROM_END: (_FIRST_CENTER, "end"),
+            ONE_CORNER: (_TWO_CORNERS, "error"),
             ALONG_ARC: (_ARC_CHAMFER, "arc_length"),
             UNGUARDED: (_GUARD, "0"),
         },

@@ -22,6 +22,7 @@ _NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.assumed("a machine paramet
 STOPS = BOOK.assumed("an address that cannot stand there stops the control")
 _PLACE = BOOK.printed("linear angle command, p. 375")
 _CHAMFER = Source("Mitsubishi corner chamfering, as users quote it", "length of ,C", Evidence.PRINTED)
+LAST_CORNER = BOOK.assumed("corner chamfering, second hand: of two words in a block, the last is valid")
 _CENTER = BOOK.printed("p. 378: format list 3")
 _ANGLE = "angle of the line, from the plane's first axis, counter-clockwise"
 

@@ -33,16 +33,19 @@ from contoursolve.controls.geometry_rules import (
 from contoursolve.controls.mitsubishi.examples import WORDS
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,
+    CHAMFER_LAST,
     FROM_END,
     HIGH_SPEED,
     INCREMENTAL,
+    ONE_CORNER,
     PICK_REQUIRED,
     PICKS_NOTHING,
+    ROUNDING_LAST,
     STRAIGHT_ONLY,
     TURNED,
     UNGUARDED,
 )
-from contoursolve.controls.mitsubishi.lexicon import BOOK
+from contoursolve.controls.mitsubishi.lexicon import BOOK, LAST_CORNER
 from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Alarm, Evidence, Severity
 from contoursolve.reading import AnglesParallel, Value, all_of, some
@@ -58,6 +61,7 @@ _BOOK = BOOK.printed("linear angle command, p. 375")
 
 _MILL = "G17 G90 G00 X0 Y0\n"
 _CUT = _MILL + "G01 X30. ,C5.\nX40. Y40."
+_TWICE = _MILL + "G01 X30. ,R6.\nY20. ,R6.\nX60."
 _ANGLED = _MILL + "G01 X40. A30."
 _VERTEX = _MILL + "G01 A70.\nX80. Y25. A-30."
 _CROSSING = _MILL + "G01 A10.\nG02 X60. Y10. I-20. J-25. H0"
@@ -77,17 +81,24 @@ _FORMAT = _alarm("P395 (address or format)")
 
 _ROWS = (
     _row("two-corners", "{words}: a block takes ,C or ,R, not both", "keep one of them",
-         BOOK.assumed("not described"), all_of(*_CORNER), _ANY, _CUT, (",C5.", ",C5. ,R5."), alarm=_FORMAT),
+         BOOK.assumed("not described"), all_of(*_CORNER) & some(ONE_CORNER), _ANY, _CUT, alarm=_FORMAT),
+    *(
+        _row(f"{name}-replaced", "{words}: the control makes the last corner word of a block alone, without a message",
+             f"delete {word}, or delete {kept}", LAST_CORNER, all_of(*_CORNER) & some(last) & ~some(ONE_CORNER), _ANY,
+             _CUT, (",C5.", f"{word}5. {kept}5."), ignores=word, severity=Severity.WARNING)
+        for name, word, kept, last in (("chamfer", ",C", ",R", ROUNDING_LAST), ("rounding", ",R", ",C", CHAMFER_LAST))
+    ),
     _row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
          "put the next element right after it, or delete it",
          BOOK.assumed("corner chamfering: the first block"), some(*_CORNER) & some(LAST) & ~some(RAPID), _ANY,
-         _CUT, ("\nX40.", "\nM8\nX40."), ("\nX40.", "\nG00 X40.")),
+         _CUT, ("\nX40.", "\nM8\nX40."), ("\nX40.", "\nG00 X40."), alarm=_alarm("P382 (no move behind the corner)")),
     _row("corner-rapid", "{words}: the control makes a corner in a cutting move, not in G00", "write G01",
          BOOK.derived("corner"), some(*_CORNER) & some(RAPID), _ANY, _CUT, ("G01 ", "")),
     _row("corner-arc",
          "{words}: with corner chamfering I this control makes corners between lines alone, and this is an arc",
          "write its lines and corners out; with option II set corner=II",
-         BOOK.assumed("corner chamfering I"), some(*STATED_POINT, *STATED_CENTER, "R", *_CORNER) & some(STRAIGHT_ONLY),
+         BOOK.printed("p. 372: corner chamfering I"),
+         some(*STATED_POINT, *STATED_CENTER, "R", *_CORNER) & some(STRAIGHT_ONLY),
          _ARCS, _ARC),
     _row("chamfer-along-arc", "a chamfer whose size is measured along an arc is not computed",
          "set chamfer-on-arc=chord, or write the chamfer out",
@@ -188,11 +199,13 @@ _ROWS = (
 
 
 _MISSED = _alarm("P397 (no crossing or contact)")
+_SHORT = _alarm("P383 or P384 (shorter than the corner needs: the block, or the next one)")
 _OWN = (
     told("mitsubishi-circle-missed", _CROSSING, ("A10.", "A80."), alarm=_MISSED),
     told("mitsubishi-no-point", _TOUCHING, ("R30.", "R3."), alarm=_MISSED),
     told("mitsubishi-radius-difference", _ARC, ("I20.", "I18.")),
-    told("mitsubishi-corner-too-large", _CUT, (",C5.", ",C31.")),
+    told("mitsubishi-corner-too-large", _CUT, (",C5.", ",C31."), alarm=_SHORT),
+    told("mitsubishi-corners-overlap", _TWICE, ("R6.", "R16."), alarm=_SHORT),
 )
 _COMMON = tuple(rule for rule in COMMON_RULES if rule.code != "no-point")
 RULES = WORDS.tell(*_COMMON, *_ROWS, *_OWN, *GEOMETRY_RULES)

@@ -1,5 +1,6 @@
 """The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
 
+from contoursolve.controls.arc_facts import reading_arcs
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL, arguments_setting
@@ -38,7 +39,7 @@ _MOVING = (Effect.MOTION, Effect.CYCLE, Effect.SINGLE)
 _OTHER_CODES = {number for number, code in CODES.items() if code.effect not in _MOVING}
 
 
-NCT_99M = Dialect(
+_NCT_99M = Dialect(
     name="nct-99m",
     title="NCT 99M and 2000M milling controls",
     modes=MODES,
@@ -50,3 +51,4 @@ NCT_99M = Dialect(
     contours="blocks with ,A ,C or ,R, arcs with R, and intersections by ,A or by end, centre and R",
     settings=(*SETTINGS, arguments_setting(CODES_SOURCE), *SETTINGS_OF_ALL),
 )
+NCT_99M = reading_arcs(_NCT_99M)

@@ -155,7 +155,7 @@ COMBINATION_RULES = (
         roles=(ARC,),
         when=at_most(0, STATED_CENTER, "R"),
         accepted=(_GOOD, _CENTERED),
-        rejected=(_START + "G3 X-50 Y0\n" + _LINE, _START + "G3 X-50 Y0"),
+        rejected=(_START + "G3 X-50 Y0\n" + _LINE,),
     ),
     Rule(
         code="nct-center-and-radius",
@@ -176,7 +176,7 @@ COMBINATION_RULES = (
         roles=(ARC,),
         when=some("R") & ~some(*STATED_POINT),
         accepted=(_GOOD,),
-        rejected=(_START + "G3 R50\n" + _LINE, _START + "G3 R50"),
+        rejected=(_START + "G3 R50\n" + _LINE,),
     ),
     Rule(
         code="nct-radius-zero",
@@ -197,7 +197,7 @@ COMBINATION_RULES = (
         roles=(ARC, OVER_CIRCLE),
         when=some("wrong-center"),
         accepted=(_CENTERED,),
-        rejected=(_START + "G3 I-50 K0\n" + _LINE, _START + "G3 X-50 I-50 K0"),
+        rejected=(_START + "G3 I-50 K0\n" + _LINE,),
     ),
     Rule(
         code="nct-center-on-line",

@@ -7,10 +7,19 @@ from dataclasses import replace
 from functools import partial
 from typing import cast
 
+from contoursolve.controls.arc_facts import reading_arcs
 from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.plain import PLANES
-from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
+from contoursolve.controls.siemens.language import (
+    LANGUAGE,
+    LANGUAGE_808D,
+    RAPID_CORNER_808D,
+    RAPID_CORNER_840D,
+    SECOND_MOVE_808D,
+    SECOND_MOVE_840D,
+    SETTINGS,
+)
 from contoursolve.controls.siemens.lexicon import AXIAL_MODES, BOOK, MODES, SYNTAX, statements
 from contoursolve.controls.siemens.rules import RULES, RULES_REDUCING
 from contoursolve.execution import MacroLanguage
@@ -62,7 +71,7 @@ def _main_def(default: str) -> Setting:
     )
 
 
-SIEMENS_840D = Dialect(
+_840D = Dialect(
     name="siemens-840d",
     title="SINUMERIK 840D sl, 828D and ONE",
     modes=AXIAL_MODES,
@@ -72,18 +81,27 @@ SIEMENS_840D = Dialect(
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="lines with ANG=, corners with RND=, CHR= or CHF=, and CT",
-    settings=(*SETTINGS, _too_big("error"), _main_def("program"), *SETTINGS_OF_ALL),
+    settings=(
+        *SETTINGS,
+        RAPID_CORNER_840D,
+        SECOND_MOVE_840D,
+        _too_big("error"),
+        _main_def("program"),
+        *SETTINGS_OF_ALL,
+    ),
     motion=1,
     diameter=Diameter.BY_PLANE,
 )
-SIEMENS_808D = replace(
-    SIEMENS_840D,
+_808D = replace(
+    _840D,
     name="siemens-808d",
     title="SINUMERIK 808D",
     # A lexicon of its own tells for which control words were read.
     modes=replace(MODES, lexicon=replace(MODES.lexicon), language=statements(shows_main=False)),
     rules=RULES_REDUCING,
-    settings=(*SETTINGS, _too_big("reduce"), _main_def("local"), *SETTINGS_OF_ALL),
+    find=ChainFinder(LANGUAGE_808D),
+    settings=(*SETTINGS, RAPID_CORNER_808D, SECOND_MOVE_808D, _too_big("reduce"), _main_def("local"), *SETTINGS_OF_ALL),
     # Nothing in a program tells it from its larger sibling.
     rare=LANGUAGE.own,
 )
+SIEMENS_840D, SIEMENS_808D = reading_arcs(_840D), reading_arcs(_808D)

@@ -65,9 +65,19 @@ _SLIPS = {
         "wrong": "{start}G1 X10 Y5\nANG=30 RND=6\nX=IC(60) Y=IC(20) ANG=-45",
         "options": "--set CONTROL.closing-incremental=error",
     },
+    **{
+        f"siemens-{word.lower()}-left-out": {
+            "wrong": f"{{start}}G1 X30 {word}=5\nG18\nX40 Z40",
+            "options": "--set CONTROL.no-second-move=leave-out",
+        }
+        for word in ("CHR", "CHF", "RND")
+    },
+    "siemens-corner-without-next": {"turn": "M30", "options": "--set CONTROL.no-second-move=error"},
+    "siemens-plane-changes": {"turn": "G18 X40 Z40", "options": "--set CONTROL.no-second-move=error"},
+    "siemens-corner-rapid": {"line": "", "options": "--set CONTROL.rapid-corner=error"},
     "axis-crossed": {"wrong": "G18 DIAMON G90 G0 X20 Z0\nG1 Z-20 RND=2\nX-20 Z-30"},
     "corner-twice": {"contour": "G1 X30 CHR=5 CHF=5\nX40 Y40"},
-    "start-diameter": {"wrong": "G18 DIAMON\nG1 X40 RND=2\nZ-50", "options": '--start "X20 Z0"'},
+    "start-diameter": {"wrong": "G18 DIAMON\nG1 X40 RND=2\nZ-50\nG0 Y5", "options": '--start "X20 Z0"'},
 }
 _ABSENT = {
     **AS_WRITTEN,
@@ -89,6 +99,11 @@ _RIGHT = {
     "siemens-center-and-radius": (
         "{start}G1 X40 RND=6\nG2 X60 Y20 CR=20",
         "G18 DIAMOF G90 G0 X0 Z0\nG1 X40 RND=6\nG2 X60 Z-20 I20 K0",
+    ),
+    "siemens-diameter-changes": (
+        "G18 DIAM90 G90 G0 X20 Z0\nG1 Z-10\nG91 X5 RND=1\nG90 Z-30 RND=1\nX40",
+        "G18 DIAM90 G90 G0 X20 Z0\nG1 Z-10\nX=DAC(30) RND=1\nZ-30 RND=1\nX=RIC(5)",
+        "G18 DIAM90 G90 G0 X20 Z0\nG1 Z-10\nX=DIC(10) RND=1\nZ-30 RND=1\nX=RAC(20)",
     ),
     "siemens-closing-increment": (
         "{start}G1 X=AC(30) Y=AC(0) RND=5\nX=IC(10) Y=IC(40)",

@@ -19,7 +19,15 @@ from contoursolve.controls.chain import (
     Member,
     reading,
 )
-from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, Premise, sense_conventions
+from contoursolve.controls.chain.language import (
+    BESIDE_ARC,
+    FOLLOWED,
+    LAST,
+    RAPID,
+    RAPID_CORNER,
+    Premise,
+    sense_conventions,
+)
 from contoursolve.controls.control_settings import (
     angle_sense_setting,
     arc_chamfer_setting,
@@ -30,7 +38,7 @@ from contoursolve.controls.control_settings import (
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, TANGENT_ARC
 from contoursolve.geometry import CornerShape
-from contoursolve.reading import ContourForm, Convention, Dialect, Diameter, Modes, Sample, State, all_of, some
+from contoursolve.reading import ContourForm, Convention, Dialect, Diameter, Modes, Sample, Setting, State, all_of, some
 
 STRICT_ANGLE, NO_STEPS, ALONG_ARC = "@strict-angle", "@no-steps", "@along-arc"
 
@@ -116,26 +124,49 @@ def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes
     yield from sense_conventions(SENSE, form, modes)
 
 
+_RAPID = ("rapid-corner", "a corner beside G0", {"error": "it is refused", "made": "it is made as beside G1"})
+_SECOND = (
+    "no-second-move",
+    "a corner behind which no move follows in the same plane",
+    {"error": "it is refused", "leave-out": "it is left out, without an alarm"},
+)
+_OF_808D = BOOK.printed("808D milling, chamfer, second hand")
+RAPID_CORNER_840D, SECOND_MOVE_840D = (setting(*row, BOOK.assumed("840D: not described")) for row in (_RAPID, _SECOND))
+RAPID_CORNER_808D, SECOND_MOVE_808D = (
+    setting(name, meaning, dict(reversed(values.items())), _OF_808D) for name, meaning, values in (_RAPID, _SECOND)
+)
 FIRST_MOTION = first_motion_setting(BOOK.assumed("as samples without G1 show"))
 SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER, ANGLE_NAME, CHAMFER_NAME, FIRST_MOTION)
 
 _START = "G17 G90 G0 X0 Y0"
 
+
+def _corners(rapid: Setting, second: Setting) -> CornerWords:
+    return CornerWords(
+        words={"CHR": _SETBACK, "CHF": CornerShape.CHAMFER_FACE, "RND": _FILLET},
+        stays={"RNDM": "RND"},
+        words_in_rapid=lambda modes: modes.has(rapid, "made"),
+        leaves_out=lambda modes: modes.has(second, "leave-out"),
+    )
+
+
+def _premises_of(rapid: Setting, second: Setting) -> tuple[Premise, ...]:
+    corners = some("CHR", "CHF", "RND")
+    return (
+        Premise(rapid, some(RAPID) & some(RAPID_CORNER), is_told_where_set=True),
+        Premise(second, corners & some(LAST), is_told_where_set=True),
+    )
+
+
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
     allowed=frozenset({*"NGFSTMDHXYZIJK", "ANG", "RND", "CHR", "CHF", "CR", "RNDM", "FRC", "FRCM"})
-    | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")},
+    | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")}
+    | {f"X={way}" for way in ("DAC", "DIC", "RAC", "RIC")},
     meeting=BlockMeeting(joining=Joining.OPEN, closes_by_steps=True),
     angle=AngleWords(address="ANG", sense=SENSE),
     names={MODES.radius: "R"},
-    corner=CornerWords(
-        words={
-            "CHR": _SETBACK,
-            "CHF": CornerShape.CHAMFER_FACE,
-            "RND": _FILLET,
-        },
-        stays={"RNDM": "RND"},
-    ),
+    corner=_corners(RAPID_CORNER_840D, SECOND_MOVE_840D),
     arc=ArcWords(tangent=TANGENT_ARC),
     order=BlockOrder(between=3, runs_in_rapid=True),
     samples={
@@ -152,6 +183,11 @@ LANGUAGE = Language(
             ALONG_ARC: (ARC_CHAMFER, "arc_length"),
         },
         conventions=_conventions,
-        premises=_PREMISES,
+        premises=(*_PREMISES, *_premises_of(RAPID_CORNER_840D, SECOND_MOVE_840D)),
     ),
+)
+LANGUAGE_808D = replace_fields(
+    LANGUAGE,
+    corner=_corners(RAPID_CORNER_808D, SECOND_MOVE_808D),
+    basis=replace_fields(LANGUAGE.basis, premises=(*_PREMISES, *_premises_of(RAPID_CORNER_808D, SECOND_MOVE_808D))),
 )

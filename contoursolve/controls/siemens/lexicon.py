@@ -209,6 +209,8 @@ def _zero(*more: ZeroRow) -> ZeroTable:
 
 _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = "ANG|RNDM?|CHR|CHF|CR"
+_WAYS = "[DR]?[AI]C"
+"""How one word counts: absolute or as an increment; of X, also as a diameter or as a radius."""
 # What stands before an equals sign is one name up to the blank before it.
 _PLACES = r"(?<=[FXYZIJK])@|(?<=[XYZ])(?<!\S[XYZ])=(?>@|AC\(@\))|(?<=CR)=@"
 SYNTAX = Syntax(
@@ -221,14 +223,14 @@ SYNTAX = Syntax(
       [+-]?+[\d.,]++(?-i:[Ool|][\d.,Ool|]*+)(?![\w(\[=]))
   | (?P<word>(?P<comma>)(?:
         (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:{IN_BRACKETS})?))[ \t]*+=[ \t]*+)(?:
-            (?P<function>[AaIi][Cc])[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)
+            (?P<function>{_WAYS})[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)
           | (?P<plain>{_NUMBER})(?![\w.,+*/\-\[(])|(?P<wanted>\?)
-          | (?![\d.,+-]++(?:[\s;]|$)|[AaIi][Cc][ \t]*+\([\d.,+-]++\))
+          | (?![\d.,+-]++(?:[\s;]|$)|{_WAYS}[ \t]*+\([\d.,+-]++\))
             (?P<formula>(?>(?:[^\s;()\[\]\"]++|{IN_PARENTHESES}|{IN_BRACKETS}|\"[^\"]*+\")+)))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:(?P<short>{_NUMBER})(?![\d.,])|(?P<asked>\?))))
   | (?P<malformed>(?:(?:{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)|[A-Za-z_]\w*+[ \t]*+=[ \t]*+|[A-Za-z][ \t]*+)
       (?=[\d.,+-])[\d.,+-]++
-     |[A-Za-z_]\w*+[ \t]*+=[ \t]*+[AaIi][Cc][ \t]*+\([\d.,+-]++\))
+     |[A-Za-z_]\w*+[ \t]*+=[ \t]*+{_WAYS}[ \t]*+\([\d.,+-]++\))
   | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{IN_PARENTHESES}|{IN_BRACKETS})?)
   | (?P<bare>[A-Za-z])
   | (?P<stray>\"[^\"]*+\"?+|[^ \tA-Za-z;]++)
@@ -291,6 +293,11 @@ def _words() -> Lexicon:
             Address(f"{axis}=AC", "coordinate, whatever G90 and G91 say", Unit.MM, _PLACE, axis, is_absolute=True)
         )
         rows.append(Address(f"{axis}=IC", "increment, whatever G90 and G91 say", Unit.MM, _PLACE, axis, True))
+    own = BOOK.assumed("words of a diameter or a radius: recalled")
+    for letter, counts in (("D", "diameter"), ("R", "radius")):
+        for way, meaning in (("AC", "coordinate"), ("IC", "increment")):
+            row = Address(f"X={letter}{way}", f"{meaning} as a {counts}", Unit.MM, own, "X", way == "IC", letter == "D")
+            rows.append(replace(row, is_absolute=way == "AC", keeps_diameter=True))
     kept = {name: row for name, row in plain.addresses.items() if name != "R"}
     source = BOOK.assumed("addresses")
     return Lexicon(

@@ -7,14 +7,19 @@ from contoursolve.controls.chain.language import (
     ARC,
     BESIDE_ARC,
     FOLLOWED,
+    LAST,
+    LEFT_OUT,
     LINE,
     NO_TANGENT,
     OTHER_DIAMETER,
     OVER_LINE,
+    RAPID,
+    RAPID_CORNER,
     SMOOTH,
     STATED_CENTER,
 )
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
+from contoursolve.controls.rule_rows import with_pages
 from contoursolve.controls.siemens.examples import EXAMPLES, WORDS
 from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_ANGLE
 from contoursolve.controls.siemens.lexicon import BOOK
@@ -53,6 +58,13 @@ _OWN = (
              f"delete {word}, or delete RND", all_of(word, "RND"), ANY, MANUAL.cut, ("RND=5", f"{word}=2 RND=5"),
              evidence=Evidence.PRINTED, ignores=word, severity=Severity.WARNING)
         for word in ("CHR", "CHF")
+    ),
+    *(
+        _row(f"{word.lower()}-left-out", "{words}: no move follows in the plane, so the control leaves the corner out",
+             f"put the next line or arc right after it, or delete {word}",
+             some(word) & some(LAST) & some(LEFT_OUT) & (~some(RAPID) | some(RAPID_CORNER)), ANY,
+             MANUAL.cut, ignores=word, severity=Severity.WARNING)
+        for word in ("CHR", "CHF", "RND")
     ),
     _row("chamfer-along-arc", "a chamfer that is measured along an arc is not computed",
          "set chamfer-on-arc=chord, or write the chamfer out", some("CHR") & some(ALONG_ARC) & some(BESIDE_ARC), ANY,
@@ -115,9 +127,19 @@ _OF_VARIABLES = (
         rejected=(f"R1=1==1 AND 2==2\n{MANUAL.cut}",),
     ),
 )
-RULES = WORDS.tell(*rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS), *_OF_VARIABLES)
+_RULES = WORDS.tell(*rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS), *_OF_VARIABLES)
+_ONE = "NC programming 12/2019 (ONE) p."
+RULES = with_pages(
+    _RULES,
+    BOOK,
+    {
+        "siemens-corner-negative": f"{_ONE} 1242: CHF, CHR and RND are unsigned",
+        "siemens-rounding-negative": f"{_ONE} 1242: RNDM is unsigned",
+        "siemens-closing-incomplete": f"{_ONE} 214",
+    },
+)
 _REDUCED = "; the control makes it smaller by itself, to a size that is not printed"
 RULES_REDUCING = tuple(
     replace(rule, message=rule.message + _REDUCED) if rule.code == "siemens-corner-too-large" else rule
-    for rule in RULES
+    for rule in with_pages(_RULES, BOOK, {"siemens-plane-changes": "808D milling 01/2014 p. 89"})
 )

@@ -1,9 +1,9 @@
 """The YASNAC LX3 lathe control, from section 2.8.30 and pages 31-32 of its Instruction Manual."""
 
+from contoursolve.controls.arc_facts import reading_arcs
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.control_settings import SETTINGS_OF_ALL, arguments_setting
 from contoursolve.controls.plain import LATHE
-from contoursolve.controls.yasnac_lx3.arc import ARC_FORMS, ARC_RULES
 from contoursolve.controls.yasnac_lx3.examples import WORDS
 from contoursolve.controls.yasnac_lx3.find import find, follow
 from contoursolve.controls.yasnac_lx3.g111 import G111, G111_RULES
@@ -11,7 +11,7 @@ from contoursolve.controls.yasnac_lx3.g112 import G112_FORMS, G112_RULES
 from contoursolve.controls.yasnac_lx3.leaving import LEAVING_FORMS, LEAVING_RULES
 from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, BOOK, MODES, MOTION_AFTER
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import Dialect
+from contoursolve.reading import POLAR_WORDS, SEMICOLON_COMMENT, SINUMERIK_FILE, Y_AXIS, Dialect
 
 _OF_A_POCKET = frozenset("DJLQY")
 """Words of a circular pocket, which G12 is on Haas mills, and of no bevel or quarter circle."""
@@ -28,17 +28,20 @@ def _signs(block: Block) -> tuple[Word, ...]:
     return tuple(word for word in block.words if word.address == "G" and word.number in codes)
 
 
-YASNAC_LX3 = Dialect(
+_YASNAC_LX3 = Dialect(
     name="yasnac-lx3",
     title="YASNAC LX3 lathe control",
     modes=MODES,
     plane=LATHE,
-    forms=(G111, *G112_FORMS, *LEAVING_FORMS, *ARC_FORMS),
-    rules=WORDS.tell(*COMMON_RULES, *G111_RULES, *G112_RULES, *LEAVING_RULES, *ARC_RULES),
+    forms=(G111, *G112_FORMS, *LEAVING_FORMS),
+    rules=WORDS.tell(*COMMON_RULES, *G111_RULES, *G112_RULES, *LEAVING_RULES),
     find=find,
     signs=_signs,
+    # On SINUMERIK, G111 and G112 state a pole, and this lathe has no Y.
+    excluded_by=frozenset({Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, SINUMERIK_FILE}),
     contours="G111, G112, G11, G12, and G01 with I or K",
     settings=(BEVEL, MOTION_AFTER, arguments_setting(BOOK.assumed("not described")), *SETTINGS_OF_ALL),
     has_runs=False,
     follow=follow,
 )
+YASNAC_LX3 = reading_arcs(_YASNAC_LX3)

@@ -7,7 +7,6 @@ from math import asin, atan2, cos, degrees, hypot, pi, radians, sin
 
 from msgspec.structs import replace
 
-from contoursolve.controls.yasnac_lx3.arc import claim_arc
 from contoursolve.controls.yasnac_lx3.claim import AXIS_EFFECTS
 from contoursolve.controls.yasnac_lx3.g111 import claim_g111
 from contoursolve.controls.yasnac_lx3.g112 import WAY, claim_g112
@@ -33,7 +32,7 @@ from contoursolve.tolerance import AGREEMENT, LENGTH
 AXIS_WORDS = frozenset("XUZW")
 """Words that move an axis."""
 
-_BEVELLING, _ROUNDING, _LINE, _ARC_CODES = 11, 12, 1, (2, 3)
+_BEVELLING, _ROUNDING, _LINE = 11, 12, 1
 
 
 def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
@@ -59,7 +58,7 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
     if motion == _LINE and addresses & AXIS_WORDS and addresses & {"I", "K"}:
         # p. 31-32: the bevel of G11 in another form.
         return claim_leaving(block, _LINE, state, modes)
-    return claim_arc(block, motion, state, modes) if motion in _ARC_CODES else None
+    return None
 
 
 MOST = 8

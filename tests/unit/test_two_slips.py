@@ -1,0 +1,158 @@
+"""Two slips at once: each has its finding and its fix, and the fixes apply one after the other."""
+
+import pytest
+
+import contoursolve
+from contoursolve.program import changed
+
+TURNED = "G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60."
+PLATE = "N10 G17 G90|N20 G0 X0 Y0|N30 G41 G1 X60 ,R8 F200|N40 Y40 ,C5|N50 X30 ,R8|N60 X0 Y0"
+
+
+def one_after_the_other(control: str, lines: list[str]) -> list[str]:
+    """A program with the first fix of its first error or warning, and so on until nothing is left or has a fix."""
+    for _ in range(4):
+        result = contoursolve.solve("\n".join(lines), control=control)
+        found = [(each, fix) for each in result.diagnostics for fix in each.fixes[:1]]
+        if not found:
+            break
+        finding, fix = found[0]
+        old = dict(enumerate(lines, 1))
+        changes = contoursolve.changes_of(fix, result.lines_of(finding), old)
+        lines = changed("\n".join(lines), changes).split("\n")
+    return lines
+
+
+CASES = {
+    "letter": ("fanuc-lathe", TURNED, {"X50.": "X5O.", ",R3.": ",R30."}),
+    "comma": ("fanuc-lathe", TURNED, {",C1.": "C1.", ",R3.": ",R30."}),
+    "two commas": ("fanuc-lathe", TURNED, {",C1.": ",,C1.", ",R3.": ",R30."}),
+    "comma for point": ("fanuc-lathe", TURNED, {",C1.": ",C1,", ",R3.": ",R30."}),
+    "mill": ("nct-99m", PLATE, {"Y40": "Y4O", "X30 ,R8": "X30 ,R88"}),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_two_slips_have_a_finding_and_a_fix_each(name):
+    control, right, slips = CASES[name]
+    text = right
+    for meant, typed in slips.items():
+        text = text.replace(meant, typed, 1)
+    result = contoursolve.solve(text.replace("|", "\n"), control=control)
+    errors = [each for each in result.diagnostics if each.is_error]
+    assert len(errors) == len(slips)
+    for each in errors:
+        # A finding points at what is typed, and its fix changes that line alone.
+        span = each.labels[0].span
+        assert any(span_text(text, span) in typed for typed in slips.values())
+        new = each.fixes[0].by_line(result.lines_of(each))
+        assert [line for line in new if new[line] != text.split("|")[line - 1]] == [span.line]
+    assert "|".join(one_after_the_other(control, text.split("|"))) == right
+
+
+def span_text(text: str, span: tuple[int, int, int]) -> str:
+    return text.split("|")[span[0] - 1][span[1] - 1 : span[2] - 1]
+
+
+LOST = {
+    "before another contour": (
+        "G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X56. Z-80. ,R1.|Z-95.|X62.",
+        ("Z-75.", "Z-75"),
+    ),
+    "outside contours": ("G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60.|Z-105.|X72.", ("Z-105.", "Z-105")),
+    "beside another slip": ("G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60.", ("Z-75.", "Z-75")),
+}
+
+
+@pytest.mark.parametrize("name", LOST)
+def test_a_lost_point_is_the_first_error_and_nothing_else_is_blamed_for_it(name):
+    right, (meant, typed) = LOST[name]
+    text = right.replace(meant, typed)
+    result = contoursolve.solve(text.replace("|", "\n"), control="fanuc-lathe")
+    (finding,) = result.diagnostics
+    assert (finding.code, finding.is_error) == ("point-lost", True)
+    assert "|".join(one_after_the_other("fanuc-lathe", text.split("|"))) == right
+    both = text.replace(",R3.", ",R30.")
+    found = contoursolve.solve(both.replace("|", "\n"), control="fanuc-lathe").diagnostics
+    assert [each.code for each in found] == ["point-lost", "fanuc-corner-too-large"]
+    assert "|".join(one_after_the_other("fanuc-lathe", both.split("|"))) == right
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G00 X40. Z2.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60.|Z5",  # the path goes no farther than with the point
+        "G00 X40000 Z-48000|G01 Z-60000 ,R3000 F0.2|X50000 ,C1000|Z-75000|X60000|Z-750",  # nothing has a point
+        "G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60.|G04 X75",  # a dwell
+    ],
+)
+def test_a_number_without_a_point_that_may_be_meant_is_no_lost_one(text):
+    found = contoursolve.solve(text.replace("|", "\n"), control="fanuc-lathe").diagnostics
+    assert all(each.code != "point-lost" for each in found)
+
+
+def test_a_fix_that_keeps_the_contour_does_not_hide_a_likelier_slip():
+    text = "G17 G90 G21 G00 X0. Y0.\nG01 X0. Y-18. ,C2. F300.\nX-7.5 Y-730.99\nX22.95 Y-760.24\nG00 Z50.\nM30\n"
+    (finding,) = contoursolve.solve(text, control="fanuc-mill").diagnostics
+    assert [each.applicability.value for each in finding.fixes[:2]] == ["changes-contour", "safe"]
+    assert contoursolve.apply_fixes(text, control="fanuc-mill").text == text
+    mended = contoursolve.apply_fixes(text, control="fanuc-mill", unsafe=True).text
+    assert mended == text.replace("Y-730.99", "Y-73.99")
+
+
+FIRST = {
+    "a retract behind a corner": (
+        "fanuc-mill",
+        "G90 G17 G21|G00 X-10. Y0|G01 Z-3. F200.|X80. ,R8.|Y60. ,C6.|X0. ,C6.|Y0. ,R4.|G01 Z15.",
+        "delete ,R4.",
+    ),
+    "a lost zero": (
+        "siemens-840d",
+        "G18 G90 DIAMON|G0 X20 Z2|G1 Z0 F0.2|G1 Z-20 RND=2|ANG=15 X40|Z-60",
+        "write ANG=150 for ANG=15 (a lost zero)",
+    ),
+    "a line by its angle alone": (
+        "fanuc-lathe",
+        "G00 X40. Z-48.|G01 Z-60. ,R4. F0.2|X50. ,C1.|Z-75.|,A160.|Z-95.|X62.",
+        "add X? to program line 5",
+    ),
+    "an angle without its comma": (
+        "fanuc-lathe",
+        "G00 X20. Z2.|G01 Z-25. ,R3. F0.2|A150.|X40. Z-60. ,A170.|X50.",
+        "write ,A150. for A150. in program line 3",
+    ),
+    "one price": (
+        "nct-99m",
+        "G17 G90 G41 G0 X80 Y5|G1 X40 Y25 ,R6 F200|X5 Y20 ,A45|G40 G0 X-20",
+        "write ,A225 for ,A45",
+    ),
+    "a head": (
+        "nct-99m",
+        "G17 G90 G21 G40|G0 X-50. Y-20.|G43 Z5. H1|G1 Z-4. F100|G41 G1 X0. Y0. D1 F250|G1 X0. Y60. ,A90.|G1 X80. Y0.",
+        "delete ,A90.",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FIRST)
+def test_the_likeliest_fix_is_first_and_no_list_is_long(name):
+    control, text, meant = FIRST[name]
+    found = contoursolve.solve(text.replace("|", "\n"), control=control).diagnostics
+    fixes = [each.fixes for each in found if each.fixes]
+    assert fixes[0][0].description.startswith(meant)
+    assert all(len(each) <= 4 for each in fixes)
+
+
+def test_a_list_of_fixes_is_short_and_its_numbers_were_tried():
+    text = (
+        "0 BEGIN PGM HH MM|1 L X+0 Y+0 RL F300|2 FL AN+6|3 FC DR- R30 CCX+40 CCY+40|4 FSELECT 1|5 FLT X+100 Y+20"
+        "|6 END PGM HH MM"
+    )
+    (finding,) = contoursolve.solve(text.replace("|", "\n"), control="heidenhain").diagnostics
+    assert len(finding.fixes) == 4
+    assert finding.fixes[0].description.startswith("write AN+60 for AN+6 (a lost zero)")
+    for fix in finding.fixes:
+        for number in fix.numbers:
+            lines = [each.replace(number.word, number.example) for each in fix.replacement.split("\n")]
+            whole = [text.split("|", maxsplit=1)[0], text.split("|")[1], *lines, text.rsplit("|", maxsplit=1)[-1]]
+            assert contoursolve.solve("\n".join(whole), control="heidenhain").answers[0].contour is not None
