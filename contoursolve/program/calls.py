@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report, status_text
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.execution import ARGUMENT, MACHINES, Call, Limit, Machine, ModalCall, Surroundings, When, counts_in
-from contoursolve.gcode import Block, Caller, Program, Substitution, parse_block, spell, typed_span
+from contoursolve.gcode import Block, Caller, Program, Substitution, late_pattern, parse_block, spell, typed_span
 from contoursolve.geometry import Length
 from contoursolve.program.cycle_profiles import CycleProfile, begins_wrongly, profiles_of, turns_back
 from contoursolve.program.request import Request
@@ -61,7 +61,7 @@ def arguments_without_point(machine: Machine, asked: Request) -> Iterator[Diagno
         )
 
 
-_CONDITION = re.compile(r"\A.*\]THEN", re.IGNORECASE)
+_CONDITION = late_pattern(r"\A.*\]THEN", re.IGNORECASE)
 
 
 def in_text_order(

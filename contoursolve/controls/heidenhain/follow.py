@@ -19,7 +19,7 @@ from contoursolve.controls.heidenhain.lexicon import (
     function_of,
 )
 from contoursolve.diagnostics import Span
-from contoursolve.gcode import Block, Word
+from contoursolve.gcode import Block, Word, late_pattern
 from contoursolve.geometry import Length
 from contoursolve.reading import (
     Mode,
@@ -190,7 +190,7 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
     return state.move({**moved, **positions(state, others, modes, block.is_skippable)})
 
 
-_CALLS_CYCLE = re.compile(BLOCK_NUMBER + r"CYCL[ \t]+CALL\b", re.IGNORECASE)
+_CALLS_CYCLE = late_pattern(BLOCK_NUMBER + r"CYCL[ \t]+CALL\b", re.IGNORECASE)
 _CYCLE = "a cycle runs"
 _RECALLED = BOOK.assumed("coordinate transformations")
 _MOST_SHOWN = 40
@@ -265,7 +265,7 @@ def _shown(block: Block) -> str:
     return " ".join(_NUMBER.sub("", text).split())[:_MOST_SHOWN]
 
 
-_NUMBER = re.compile(BLOCK_NUMBER, re.IGNORECASE)
+_NUMBER = late_pattern(BLOCK_NUMBER, re.IGNORECASE)
 
 
 def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
