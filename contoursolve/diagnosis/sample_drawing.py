@@ -80,7 +80,7 @@ class SampleDrawing(Struct, frozen=True, eq=False):
         ]
 
     def missing(self, names: Collection[str] = ()) -> int:
-        """How many words a path still lacks beside these: where a cut lies makes no difference to it."""
+        """The number of words that a path still lacks beside these: where a cut lies makes no difference to it."""
         return self.open_after(names) - len(self.cuts(names))
 
     def open_after(self, names: Collection[str] = ()) -> int:

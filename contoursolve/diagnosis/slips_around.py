@@ -189,10 +189,14 @@ def _of_words(
         for word in block.words:
             if word.address in "GNOMF" or word.is_asked or is_in_vain(word.span):
                 continue
+            is_computed = any(each.is_within(block.typed_span(word.span)) for each in block.substituted)
             typed = {id(each): typed_as(word, each, stated) for each in (prices.within, prices.outside)}
             for kind in kinds if all(typed.values()) else ():
                 read_as = typed[id(prices.speech(block, kind))]
                 for text in texts_for(kind, read_as) if read_as else ():
+                    if is_computed and number_in(text) != number_in(word.text):
+                        # Nobody typed that number.
+                        continue
                     edit = change(word, text)
                     yield (edit,), (kind,), prices.price(edit, kind)
 

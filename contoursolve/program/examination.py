@@ -46,6 +46,7 @@ from contoursolve.reading import (
     Position,
     ReadIssue,
     State,
+    WithoutPoint,
     advance,
     advance_plainly,
     apply_modes,
@@ -168,6 +169,8 @@ class Examination:
     def _lost_point(self, view: View, found: Beginning, cursor: Cursor) -> tuple[int, Word] | None:
         """The word of what was found that has lost its point, with the place of its block; None for none."""
         modes, blocks = self.dialect.modes, view[: found.lines]
+        if modes.lexicon.numbers.without_point is not WithoutPoint.LEAST_INCREMENTS:
+            return None
         if not any(counts_few(word, modes.lexicon) for block in blocks for word in block.words if word.address in AXES):
             return None
         ahead = [block for each in reversed([*near(cursor.ahead)]) for block in each]

@@ -146,7 +146,7 @@ def fixes_applied(name: str, control: str, draw: Random) -> None:
     assert done.exit_code == (2 if "no-contour" in left else int(bool(left)))
     assert len(left) <= len(errors)
     assert {*left} <= {*errors}
-    safe = {each.code for each in after if any(fix.applicability.value == "safe" for fix in each.fixes)}
+    safe = {each.code for each in after if each.fixes and each.fixes[0].applicability.value == "safe"}
     assert safe <= {each.finding.code for each in mended.left}
     touched = {line for each in mended.applied for line in each.old.values()}
     lines, now = split_lines(old), old
@@ -160,10 +160,10 @@ def fixes_applied(name: str, control: str, draw: Random) -> None:
 
 
 def safe_fixes_by_line(text: str, control: str) -> list[dict[int, str]]:
-    """For each finding the lines that its first fix writes that keeps the contour, unless it writes what is there."""
+    """For each finding the lines that its first fix writes, if it keeps the contour, unless it writes what is there."""
     result, lines, found = solve(text, control=control), split_lines(text), []
     for finding in result.diagnostics:
-        fix = next((fix for fix in finding.fixes if fix.applicability.value == "safe"), None)
+        fix = next((fix for fix in finding.fixes[:1] if fix.applicability.value == "safe"), None)
         new = fix.by_line(result.lines_of(finding)) if fix else {}
         found += [new] if any(lines[line - 1].rstrip("\r\n") != each for line, each in new.items()) else []
     return found

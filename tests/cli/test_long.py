@@ -45,7 +45,7 @@ def test_blocks_that_are_not_kept_give_the_same_output(arguments, monkeypatch, t
 
 LATHE, MILL = "G01 X{x:.3f} Z-{z:.3f} F0.2", "N10 G01 X{x:.3f} Y-{z:.3f} F200"
 SINUMERIK = "N5 G3 X{x:.3f} Y={z:.3f} CR=80\n; note\nG1 X=AC({x:.3f}) Y{z:.3f} F500"
-KLARTEXT = "1 L X+{x:.3f} Y-{z:.3f} R0 FMAX M3\n2 CC X+{x:.3f} Y+0\nC X+{z:.3f} Y+2 DR+ ; note\nCR X+1 Y+2 R-5.5 DR-"
+KLARTEXT = "1 L X+{x:.3f} Y+{z:.3f} R0 FMAX M3\n2 CC X+0 Y+0\nC X-{x:.3f} Y-{z:.3f} DR+ ; note\nCR X+1 Y+2 R-65.5 DR-"
 ISG = "N1 G02 X={x:.3f} Y{z:.3f} I1 J2 (note) ; note\nG01 X1 Y{z:.3f}"
 
 
@@ -74,7 +74,8 @@ def test_plain_lines_are_not_read_into_words(move, contour, control, monkeypatch
         read.clear()
         CliRunner().invoke(main, ["check", *control, str(program)])
         counts.append(len(read))
-    assert counts[1] - counts[0] < 10
+    # The last lines of each passage say what stays in force.
+    assert counts[1] - counts[0] < 25
     assert counts[1] < 1_100
 
 

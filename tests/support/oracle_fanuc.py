@@ -37,6 +37,8 @@ class Machine(NamedTuple):
     """The words of a corner between two axes; their sign tells which way the next line runs."""
     beside: str = ""
     """The axes that turn: they leave the path in the plane as it is."""
+    radius_wins: bool = False
+    """Whether an arc with both a centre and R is made by R."""
 
 
 class Run(NamedTuple):
@@ -269,7 +271,8 @@ def _close(
 
 def _arc(walk: _Walk, block: _Block, before: _Block | None) -> None:
     words, start = block.words, walk.at
-    centers = [address for address in PLANES[walk.plane][2:] if address in words]
+    is_by_radius = walk.machine.radius_wins and "R" in words
+    centers = [address for address in PLANES[walk.plane][2:] if address in words and not is_by_radius]
     allowed = {*_names(walk), *_CORNERS, *PLANES[walk.plane][2:], "R", *walk.machine.beside}
     walk.is_near |= bool(words.keys() & ({"I", "J", "K"} - allowed))  # outside the plane, it means nothing
     if before is not None or words.keys() - allowed - {"I", "J", "K"} or not walk.machine.arcs:

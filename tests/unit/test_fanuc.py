@@ -113,7 +113,7 @@ def test_a_radius_wins_over_a_centre_and_says_so(centre):
 
 MACHINES = {
     LATHE: Machine(is_lathe=True, signed="IKR"),
-    MILL: Machine(is_lathe=False, signed="IJK"),
+    MILL: Machine(is_lathe=False, signed="IJK", radius_wins=True),
     HAAS_LATHE: Machine(is_lathe=True, angle="A", meets=False, signed="IKR"),
     HAAS_MILL: Machine(is_lathe=False, arcs=False, beside="AB"),
 }

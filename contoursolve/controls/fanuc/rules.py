@@ -603,7 +603,7 @@ _HAAS_MILL_PAGES = {
     "haas-corner-without-next": "mill NGC (2017) p. 250",
     "haas-comma-missing": "mill NGC (2017) p. 249",
 }
-"""What a page prints, by the codes of rules."""
+"""The sentence of a page, by the codes of rules."""
 
 FANUC_LATHE_RULES = with_pages(
     (

@@ -210,7 +210,7 @@ def _zero(*more: ZeroRow) -> ZeroTable:
 _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = "ANG|RNDM?|CHR|CHF|CR"
 _WAYS = "[DR]?[AI]C"
-"""How one word counts: absolute or as an increment; of X, also as a diameter or as a radius."""
+"""The way one word counts: absolute or as an increment; of X, also as a diameter or as a radius."""
 # What stands before an equals sign is one name up to the blank before it.
 _PLACES = r"(?<=[FXYZIJK])@|(?<=[XYZ])(?<!\S[XYZ])=(?>@|AC\(@\))|(?<=CR)=@"
 SYNTAX = Syntax(
