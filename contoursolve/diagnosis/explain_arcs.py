@@ -46,11 +46,8 @@ class _Mended(Struct, frozen=True):
     rounding: str = ""
 
 
-def explain_arc(context: Context, block: Block, before: State, modes: Modes) -> Iterator[Diagnostic]:
-    """Findings about the arc that a block states by itself, if it states one with which something is wrong."""
-    arc = arc_of(block, before, modes)
-    if arc is None:
-        return
+def explain_arc(context: Context, arc: PlainArc, before: State, modes: Modes) -> Iterator[Diagnostic]:
+    """Findings about the arc that a block states by itself, if something is wrong with it."""
     for fault in faults_of(arc):
         yield replace(_told(context, arc, fault), fixes=tuple(_fixes(arc, fault, before, modes))[:MOST_FIXES])
 

@@ -14,7 +14,6 @@ from contoursolve.diagnosis import (
     Depth,
     Policy,
     corner_words,
-    explain_arc,
     explain_asked_outside,
     explain_codes_by_name,
     explain_corners,
@@ -48,6 +47,7 @@ from contoursolve.reading import (
     ReadIssue,
     State,
     advance_plainly,
+    arc_of,
     codes_of,
     doubtful_words,
     suspected,
@@ -318,16 +318,24 @@ def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
         return step
     modes, context, found = dialect.modes, Context(asked.rules, asked.unit), list[Diagnostic]()
     for block in () if any(map(_is_of_shape, step.findings)) else step.blocks:
-        found += _elsewhere(context, block, explain_arc(context, block, step.before, modes))
+        found += _elsewhere(context, block, _explain_arc(context, block, step.before, modes))
     if step.passage is not None:
         passage = step.passage
         for index in suspected(passage, step.before, modes):
             before = advance_plainly(step.before, passage.part(0, index), modes) if index else step.before
             line = passage.lines[index].rstrip("\r\n")
-            found += explain_arc(context, parse_block(line, passage.line + index, passage.syntax), before, modes)
+            found += _explain_arc(context, parse_block(line, passage.line + index, passage.syntax), before, modes)
     if asked.policy is Policy.WARN:
         found = [replace(each, severity=Severity.WARNING) if each.is_error else each for each in found]
     return replace(step, findings=(*step.findings, *found)) if found else step
+
+
+def _explain_arc(context: Context, block: Block, before: State, modes: Modes) -> Iterator[Diagnostic]:
+    arc = arc_of(block, before, modes)
+    if arc is not None:
+        from contoursolve.diagnosis import explain_arc  # noqa: PLC0415 - many programs have none
+
+        yield from explain_arc(context, arc, before, modes)
 
 
 def _is_of_shape(finding: Diagnostic) -> bool:

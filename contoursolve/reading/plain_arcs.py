@@ -8,7 +8,7 @@ from math import hypot
 
 from msgspec import Struct
 
-from contoursolve.gcode import Block, Passage, Syntax, Word, words_of
+from contoursolve.gcode import Block, Passage, Syntax, Word, late_pattern, words_of
 from contoursolve.geometry import Turn
 from contoursolve.reading.arc_table import ArcIssue, ArcTable, Beyond, BothStated
 from contoursolve.reading.lexicon import Bearing, Code, Effect, Lexicon
@@ -309,10 +309,10 @@ def suspected(passage: Passage, state: State, modes: Modes) -> Iterator[int]:
     return (modes.arcs.suspects or _suspected_in_codes)(passage, state, modes)
 
 
-_ARC_CODE = re.compile(r"G0?[23](?![0-9])", re.IGNORECASE)
-_LINE_CODE = re.compile(r"G0?[01](?![0-9])", re.IGNORECASE)
-_WORD = re.compile(r"(CR|[XYZIJKR])=?(?:AC\()?([-+]?[0-9.]+)", re.IGNORECASE)
-_MOVING = re.compile(r"[XYZ]", re.IGNORECASE)
+_ARC_CODE = late_pattern(r"G0?[23](?![0-9])", re.IGNORECASE)
+_LINE_CODE = late_pattern(r"G0?[01](?![0-9])", re.IGNORECASE)
+_WORD = late_pattern(r"(CR|[XYZIJKR])=?(?:AC\()?([-+]?[0-9.]+)", re.IGNORECASE)
+_MOVING = late_pattern(r"[XYZ]", re.IGNORECASE)
 
 
 def _suspected_in_codes(passage: Passage, state: State, modes: Modes) -> Iterator[int]:

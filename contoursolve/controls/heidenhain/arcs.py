@@ -6,7 +6,7 @@ from math import hypot
 
 from contoursolve.controls.heidenhain.follow import CENTER, TOOL_AXIS, is_of_machine
 from contoursolve.controls.heidenhain.lexicon import ABOUT_CENTER, LEXICON, SYNTAX, function_of
-from contoursolve.gcode import Block, Passage, parse_block, words_of
+from contoursolve.gcode import Block, Passage, late_pattern, parse_block, words_of
 from contoursolve.reading import ArcWord, Mode, Modes, PlainArc, State, apply_modes, table_in
 from contoursolve.tolerance import LENGTH
 
@@ -82,9 +82,9 @@ def _center(here: State, axis: str, *, is_stated: bool) -> ArcWord | None:
 
 # Plain lines -----------------------------------------------------------------------------------------------------
 
-_ARC = re.compile(r"^[ \t]*+(?:[0-9]++[ \t]++)?(C[CR]?)[ \t]", re.IGNORECASE | re.MULTILINE)
-_WORD = re.compile(r"([XYR])([-+]?[0-9.,]+)", re.IGNORECASE)
-_FUNCTION = re.compile(r"^[ \t]*+(?:[0-9]++[ \t]++)?(CC?R?)[ \t]", re.IGNORECASE)
+_ARC = late_pattern(r"^[ \t]*+(?:[0-9]++[ \t]++)?(C[CR]?)[ \t]", re.IGNORECASE | re.MULTILINE)
+_WORD = late_pattern(r"([XYR])([-+]?[0-9.,]+)", re.IGNORECASE)
+_FUNCTION = late_pattern(r"^[ \t]*+(?:[0-9]++[ \t]++)?(CC?R?)[ \t]", re.IGNORECASE)
 
 
 def suspected(passage: Passage, state: State, modes: Modes) -> Iterator[int]:
