@@ -19,11 +19,12 @@ from contoursolve.program.recognise import (
     SeveralControlsError,
     UnknownControlError,
     choose,
+    readers_of_arcs,
     turned_with_corners,
     what_shows,
 )
 from contoursolve.program.request import Request
-from contoursolve.reading import Dialect, ReadIssue, Taken
+from contoursolve.reading import ArcIssue, Dialect, ReadIssue, Taken
 from contoursolve.solving import LineSegment, Segment
 from contoursolve.tolerance import ERROR_BOUND_WARNING
 
@@ -55,6 +56,8 @@ class _Reading(Struct, frozen=True):
     findings: frozenset[Hashable]
     """The place, the kind and the severity of each finding, and the first fix of an error, if that was looked for."""
     has_errors: bool
+    arcs: frozenset[int] = frozenset()
+    """The lines with an error about an arc."""
 
 
 def choose_alike(
@@ -79,9 +82,11 @@ def choose_alike(
         if found is not None and sign:
             told = Taken(ReadIssue.CONTROL_CALLED, {"control": found.name, "sign": sign})
             found = replace(found, taken=(*found.taken, told))
-    if found is not None or not names:
+    if found is not None:
         return found
     own = stated_settings(block.text for block in program.blocks) | dict(settings or {})
+    if not names:
+        return _by_arcs(program, asked, own)
     readings = {name: _read(program, configure(DIALECTS[name], own), asked) for name in names}
     readers = [*readings] if several else _taking_corners(readings)
     if not any(each.outcomes for each in readings.values()):
@@ -100,9 +105,31 @@ def choose_alike(
     if is_told_alike and any(each.has_errors for each in readings.values()):
         full = (_read(program, configure(DIALECTS[name], own), asked, Depth.FULL) for name in readers)
         is_told_alike = len({each.findings for each in full}) == 1
+    return _first_of(readers, own_dialect, is_told_alike=is_told_alike)
+
+
+def _by_arcs(program: Program, asked: Request, own: Mapping[str, str]) -> Dialect | None:
+    """The first control of those for which a program without a contour may be, where none of them can run an arc of it;
+    None where one of them finds nothing wrong."""
+    names, common = readers_of_arcs(program), frozenset[int]()
+    findings = set[frozenset[Hashable]]()
+    for name in names:
+        reading = _read(program, configure(DIALECTS[name], own), asked)
+        common = common & reading.arcs if findings else reading.arcs
+        findings.add(reading.findings)
+        if not common:
+            return None
+    first = configure(DIALECTS[names[0]], own) if names else None
+    return first and _first_of(names, first, is_told_alike=len(findings) == 1)
+
+
+def _first_of(names: Sequence[str], first: Dialect, *, is_told_alike: bool) -> Dialect:
+    """The first of some controls that cut the same path, with what its reader is told of them."""
+    if len(names) == 1:
+        return first
     how = "read this program alike" if is_told_alike else "cut the same path, but tell other findings"
-    alike = Taken(ReadIssue.CONTROL_ALIKE, {"controls": join(readers), "control": first, "how": how})
-    return replace(own_dialect, taken=(*own_dialect.taken, alike))
+    alike = Taken(ReadIssue.CONTROL_ALIKE, {"controls": join(names), "control": first.name, "how": how})
+    return replace(first, taken=(*first.taken, alike))
 
 
 def _choose(
@@ -129,7 +156,9 @@ def _read(program: Program, dialect: Dialect, asked: Request, depth: Depth = Dep
     words = (word for answer in found for word in answer.claim.words.values())
     corners = ((word.span.line, word.span.column) for word in words if word.address in CORNERS_WITHOUT_COMMA)
     findings = frozenset(map(_told_of, result.diagnostics))
-    return _Reading(tuple(map(_outcome, found)), frozenset(corners), findings, result.has_errors)
+    errors = (each for each in result.diagnostics if each.is_error and isinstance(each.about, ArcIssue))
+    arcs = frozenset(each.span.line for each in errors)
+    return _Reading(tuple(map(_outcome, found)), frozenset(corners), findings, result.has_errors, arcs)
 
 
 def _told_of(finding: Diagnostic) -> Hashable:

@@ -280,6 +280,10 @@ class Recogniser:
             raise several_controls(shown, SeveralControlsError if shown.keys() <= {*fitting} else UnknownControlError)
         return None
 
+    def may_be(self, dialect: Dialect) -> bool:
+        """Whether the program may be for a control, for all that it shows."""
+        return self._fits(dialect) and not self._is_excluded(dialect.name)
+
     def _fits(self, dialect: Dialect) -> bool:
         """Whether it has all the words, and is for such a machine: a program for a mill that selects no plane has
         contours in X and Y."""
@@ -339,6 +343,32 @@ def recognise(blocks: Iterable[Block], name: str = "") -> Dialect | None:
         if recogniser.begun is not None:
             break
     return recogniser.find()
+
+
+def has_arcs(text: str) -> bool:
+    """Whether lines have a code of an arc."""
+    return _ARC_CODE.search(text) is not None
+
+
+def readers_of_arcs(program: Program) -> tuple[str, ...]:
+    """The controls for which a program in G codes may be that shows none, as far as its axes, the words of a kind of
+    machine and the word of a radius tell."""
+    if not has_arcs(program.text):
+        return ()
+    recogniser = Recogniser(program.name)
+    for line in in_passages(program.blocks):
+        recogniser.look(line)
+    has_radius = _RADIUS.search(ISO.comment.sub(" ", program.text)) is not None
+    return tuple(
+        name
+        for name, each in DIALECTS.items()
+        if each.modes.arcs is not None and each.modes.arcs.read is None and recogniser.may_be(each)
+        if not has_radius or each.modes.radius == "R"
+    )
+
+
+_ARC_CODE = late_pattern(r"(?<![A-Z_$])G0*[23](?!\d)", re.IGNORECASE)
+_RADIUS = late_pattern(r"(?<![A-Z_$\[,])R\s*[-+.\d]", re.IGNORECASE)
 
 
 def turned_with_corners(blocks: Iterable[Block]) -> tuple[str, ...]:

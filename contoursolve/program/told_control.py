@@ -12,6 +12,7 @@ from contoursolve.program.recognise import (
     TURNED_AXES,
     Recogniser,
     UnknownControlError,
+    has_arcs,
     may_make_corner,
     shown_by,
     shown_of_machine,
@@ -108,7 +109,7 @@ class ToldControl:
     def _concludes_otherwise(self, changed: Sequence[str]) -> bool:
         """Whether something else may be concluded about the control, now that these lines are gone or have come."""
         if self.dialect is None:
-            return any(map(may_make_corner, changed))
+            return any(map(may_make_corner, changed)) or has_arcs(self._lines.text)
         syntax = self.dialect.modes.syntax
         is_alike = any(each.about is ReadIssue.CONTROL_ALIKE for each in self.dialect.taken)
         return is_alike or any(shown_of_machine(line, syntax) - TURNED_AXES for line in changed)
