@@ -57,7 +57,7 @@ class _Reading(Struct, frozen=True):
     """The place, the kind and the severity of each finding, and the first fix of an error, if that was looked for."""
     has_errors: bool
     arcs: frozenset[int] = frozenset()
-    """The lines with an error about an arc."""
+    """The lines with a finding about an arc."""
 
 
 def choose_alike(
@@ -109,8 +109,8 @@ def choose_alike(
 
 
 def _by_arcs(program: Program, asked: Request, own: Mapping[str, str]) -> Dialect | None:
-    """The first control of those for which a program without a contour may be, where none of them can run an arc of it;
-    None where one of them finds nothing wrong."""
+    """The first control of those for which a program without a contour may be, where all of them tell something of an
+    arc; None where one of them does not."""
     names, common = readers_of_arcs(program), frozenset[int]()
     findings = set[frozenset[Hashable]]()
     for name in names:
@@ -156,8 +156,7 @@ def _read(program: Program, dialect: Dialect, asked: Request, depth: Depth = Dep
     words = (word for answer in found for word in answer.claim.words.values())
     corners = ((word.span.line, word.span.column) for word in words if word.address in CORNERS_WITHOUT_COMMA)
     findings = frozenset(map(_told_of, result.diagnostics))
-    errors = (each for each in result.diagnostics if each.is_error and isinstance(each.about, ArcIssue))
-    arcs = frozenset(each.span.line for each in errors)
+    arcs = frozenset(each.span.line for each in result.diagnostics if isinstance(each.about, ArcIssue))
     return _Reading(tuple(map(_outcome, found)), frozenset(corners), findings, result.has_errors, arcs)
 
 
