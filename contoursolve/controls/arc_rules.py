@@ -11,7 +11,7 @@ from msgspec import Struct
 from contoursolve.controls.control_settings import setting
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import ArcIssue, ArcTable, Beyond, BothStated, Dialect, Rule, Setting
+from contoursolve.reading import CENTRES, ArcIssue, ArcTable, Beyond, BothStated, Dialect, Rule, Setting
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 _APART = "{words}: the centre is {radius} from the start of the arc and {distance} from its end; "
@@ -284,7 +284,7 @@ def off_arc_setting(source: Source) -> Setting:
 def centres_setting(source: Source) -> Setting:
     """The setting of from where the words of a centre count."""
     return setting(
-        "arc-centre",
+        CENTRES,
         "from where I, J and K of an arc count",
         {"start": "from where the arc begins", "origin": "they are coordinates of the centre"},
         source,

@@ -12,10 +12,12 @@ from contoursolve.diagnosis.wording import join, length_limit, length_text, limi
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, LineChange, Span
 from contoursolve.gcode import Block, Word, parse_block, spell
 from contoursolve.reading import (
+    CENTRES,
     ArcFault,
     ArcIssue,
     ArcWord,
     Beyond,
+    Dialect,
     Modes,
     PlainArc,
     State,
@@ -46,10 +48,18 @@ class _Mended(Struct, frozen=True):
     rounding: str = ""
 
 
-def explain_arc(context: Context, arc: PlainArc, before: State, modes: Modes) -> Iterator[Diagnostic]:
+def explain_arc(context: Context, dialect: Dialect, arc: PlainArc, before: State) -> Iterator[Diagnostic]:
     """Findings about the arc that a block states by itself, if something is wrong with it."""
     for fault in faults_of(arc):
-        yield replace(_told(context, arc, fault), fixes=tuple(_fixes(arc, fault, before, modes))[:MOST_FIXES])
+        fixes = tuple(_fixes(arc, fault, before, dialect.modes))[:MOST_FIXES]
+        told = replace(_told(context, arc, fault), fixes=fixes)
+        is_open = any(each.name == CENTRES for each in dialect.settings)
+        if is_open and fault.issue in _COMPARED and any(each.is_slip for each in _from_origin(arc)):
+            words = join([each.word.text.strip() for each in arc.centers if each is not None])
+            setting = f"--set {dialect.name}.{CENTRES}=origin"
+            note = f"{words} fit as coordinates of the centre; if the control reads them so, state {setting}"
+            told = replace(told, notes=(*told.notes, note))
+        yield told
 
 
 def _told(context: Context, arc: PlainArc, fault: ArcFault) -> Diagnostic:
@@ -146,21 +156,29 @@ def _of_center(arc: PlainArc) -> Iterator[_Mended]:
     for signs in ((-1, 1), (1, -1), (-1, -1)):
         turned = [(word, signs[at] * spoke[at]) for at, word in centers]
         yield _slip(arc, turned, (spoke[0] * signs[0], spoke[1] * signs[1]))
-    starts = [_start_of(arc, at) for at in (0, 1)]
-    shifts = [way]
-    if starts[0] is not None and starts[1] is not None:
-        origin = (-starts[0], -starts[1])
-        shifts += [origin] if not arc.table.counts_from_origin and arc.center_text == "" else []
-    for shift in shifts:
-        counted = spoke[0] + shift[0], spoke[1] + shift[1]
-        if len(centers) == len(way):
-            yield _slip(arc, [(word, counted[at]) for at, word in centers], counted)
+    yield from _counted_from(arc, way)
+    yield from _from_origin(arc)
     radius = hypot(*spoke)
     for at, word in enumerate(arc.ends):
         rest = radius * radius - (way[1 - at] - spoke[1 - at]) ** 2
         if word is not None and rest >= 0:
             value = min((spoke[at] + sign * sqrt(rest) for sign in (-1, 1)), key=lambda each: abs(each - way[at]))
             yield _Mended(((word, value),), abs(value - way[at]))
+
+
+def _from_origin(arc: PlainArc) -> Iterator[_Mended]:
+    """A centre whose coordinates are written."""
+    first, second = (_start_of(arc, at) for at in (0, 1))
+    if first is not None and second is not None and not arc.table.counts_from_origin and not arc.center_text:
+        yield from _counted_from(arc, (-first, -second))
+
+
+def _counted_from(arc: PlainArc, place: tuple[float, float]) -> Iterator[_Mended]:
+    """A centre that is counted from another place than where the arc begins."""
+    spoke, centers = arc.spoke, [each for each in arc.centers if each is not None]
+    if spoke is not None and len(centers) == len(spoke):
+        counted = spoke[0] + place[0], spoke[1] + place[1]
+        yield _slip(arc, [(word, counted[at]) for at, word in enumerate(centers)], counted)
 
 
 def _slip(arc: PlainArc, words: Sequence[tuple[ArcWord, float]], spoke: tuple[float, float]) -> _Mended:

@@ -318,24 +318,24 @@ def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
         return step
     modes, context, found = dialect.modes, Context(asked.rules, asked.unit), list[Diagnostic]()
     for block in () if any(map(_is_of_shape, step.findings)) else step.blocks:
-        found += _elsewhere(context, block, _explain_arc(context, block, step.before, modes))
+        found += _elsewhere(context, block, _explain_arc(context, dialect, block, step.before))
     if step.passage is not None:
         passage = step.passage
         for index in suspected(passage, step.before, modes):
             before = advance_plainly(step.before, passage.part(0, index), modes) if index else step.before
             line = passage.lines[index].rstrip("\r\n")
-            found += _explain_arc(context, parse_block(line, passage.line + index, passage.syntax), before, modes)
+            found += _explain_arc(context, dialect, parse_block(line, passage.line + index, passage.syntax), before)
     if asked.policy is Policy.WARN:
         found = [replace(each, severity=Severity.WARNING) if each.is_error else each for each in found]
     return replace(step, findings=(*step.findings, *found)) if found else step
 
 
-def _explain_arc(context: Context, block: Block, before: State, modes: Modes) -> Iterator[Diagnostic]:
-    arc = arc_of(block, before, modes)
+def _explain_arc(context: Context, dialect: Dialect, block: Block, before: State) -> Iterator[Diagnostic]:
+    arc = arc_of(block, before, dialect.modes)
     if arc is not None:
         from contoursolve.diagnosis import explain_arc  # noqa: PLC0415 - many programs have none
 
-        yield from explain_arc(context, arc, before, modes)
+        yield from explain_arc(context, dialect, arc, before)
 
 
 def _is_of_shape(finding: Diagnostic) -> bool:

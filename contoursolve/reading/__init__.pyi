@@ -1,4 +1,5 @@
 from .arc_table import (
+    CENTRES as CENTRES,
     ArcIssue as ArcIssue,
     ArcTable as ArcTable,
     Beyond as Beyond,

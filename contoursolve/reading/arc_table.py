@@ -118,3 +118,6 @@ _NUMBERS: Mapping[str, tuple[str, float]] = {
     "centre-shift-share": ("shift_share", 0.01),
 }
 """The fields that settings with a number state, each with what 1 of the number is."""
+
+CENTRES = "arc-centre"
+"""The setting of from where the words of a centre count."""

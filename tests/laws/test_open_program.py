@@ -83,6 +83,22 @@ def test_a_program_with_variables_is_examined_again_for_another_control() -> Non
         compare(program, text, control)
 
 
+@pytest.mark.parametrize("plane", ["G17 ", "G18 ", ""])
+def test_without_a_contour_arcs_alone_tell_the_control(plane: str) -> None:
+    """An edit of any line may lead an arc elsewhere."""
+    text = f"G21 G90\n{plane}G00 X0 Y0\nG01 X20. F300.\nG02 X40. Y20. I20. J0.\n"
+    program = OpenProgram(text)
+    for line, before, now in ((3, "20.", "22."), (3, "22.", "20."), (4, "I20.", "I18."), (2, "Y0", "Z0")):
+        column = text.split("\n")[line - 1].index(before) + 1
+        place = (line, column), (line, column + len(before)), now
+        text = edited(text, *place)
+        program.edit(*place)
+        assert program.check()
+        compare(program, text, None)
+        if plane == "G17 ":
+            assert contoursolve.solve(text).has_errors == (now != "20." and now != "Z0")
+
+
 def edit_at_random(text: str, name: str, control: str | None, seed: int, edits: int) -> None:
     draw = random.Random(seed)
     program = OpenProgram(text, control=control)

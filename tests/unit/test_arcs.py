@@ -50,6 +50,20 @@ def test_a_finding_names_what_would_agree(text, control, code, fix):
     assert found[0].fixes[0].description.startswith(fix)
 
 
+@pytest.mark.parametrize(
+    ("arc", "found"),
+    [
+        ("G02 X30. Y20. I17. J0.", [("control-alike", 1), ("arc-radii-differ", 4)]),
+        ("G02 X30. Y20. I20. J0.", [("no-contour", 1)]),
+        ("G02 X30. Y20. R8.", [("control-alike", 1), ("arc-radius-small", 4)]),
+    ],
+)
+def test_without_a_contour_and_a_control_an_arc_is_told_that_none_runs(arc, found):
+    result = contoursolve.solve(MILL + arc + "\nM30")
+    assert [(each.code, each.span.line) for each in result.diagnostics] == found
+    assert result.has_errors == (len(found) > 1)
+
+
 def test_each_fix_makes_the_arc_right():
     text = MILL + "G02 X30. Y21. I17. J2."
     (finding,) = told(text)
@@ -112,3 +126,12 @@ def test_sinumerik_allows_more_of_a_larger_radius_and_isg_moves_a_centre():
     assert codes(moved.format("G164\nG165\n"), "isg") == [("arc-centre-moves", 5)]
     assert codes("G17 G90\nG0 X0 Y0\nG2 X60 Y10 I10 J0", "isg") == [("arc-radii-differ", 3)]
     assert codes("G17 G90\nG0 X5 Y0\nG161\nG0 X5 Y0\nG2 X25 Y0 I15 J0", "isg") == []
+
+
+def test_coordinates_of_a_centre_are_told_as_such():
+    """Fixes write them as the control reads them; the setting leaves them as they are."""
+    text = MILL + "G02 X30. Y20. I30. J0."
+    (finding,) = told(text)
+    assert "I30. and J0. fit as coordinates of the centre" in finding.notes[-1]
+    assert told(text, arc_centre="origin") == []
+    assert not told(MILL + "G02 X30. Y20. I17. J0.")[0].notes
