@@ -251,8 +251,15 @@ def eliminate(residuals: Sequence[Any], unknowns: Sequence[Any], wanted: Any) ->
     return None
 
 
+MOST_REPLACED = 4
+"""Unknowns that are replaced by what affine equations make of them."""
+
+
 def substitute_solution(expression: Any, residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:
-    """An expression with the unknowns replaced by what affine residuals make of them; None if they make nothing."""
+    """An expression with the unknowns replaced by what affine residuals make of them; None if they make nothing, and of
+    more than `MOST_REPLACED` unknowns: that takes seconds, and has more terms than anybody reads."""
     used = [unknown for unknown in unknowns if any(residual.has(unknown) for residual in residuals)]
+    if len(used) > MOST_REPLACED:
+        return None
     solution = sympy.solve(residuals, used, dict=True)
     return sympy.simplify(sympy.expand(expression.subs(solution[0]))) if solution else None
