@@ -18,7 +18,14 @@ from contoursolve.diagnosis.examine import (
 )
 from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import Length, Pick
-from contoursolve.solving import DECIMALS, Certificate, Contour, Proof, trace, up_to_one_digit
+from contoursolve.solving import (
+    DECIMALS,
+    Certificate,
+    Contour,
+    Proof,
+    trace,
+    up_to_one_digit,
+)
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
@@ -192,6 +199,12 @@ def printed_certificate(certificate: Certificate | None) -> Certificate | None:
     rounding = 0.5 * 10.0 ** -decimals_of(certificate)
     radius = up_to_one_digit(certificate.radius + rounding)
     return Certificate(certificate.proof, radius, certificate.reason, certificate.gap)
+
+
+def certificate_text(certificate: Certificate | None) -> str:
+    """A certificate of the numbers as they are printed, in one short sentence; empty if it is the usual one."""
+    printed = printed_certificate(certificate)
+    return "" if printed is None or printed.is_usual else str(printed)
 
 
 def decimals_of(certificate: Certificate | None, most: int = DECIMALS) -> int:

@@ -9,7 +9,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, count, rank, statuses_text
+from contoursolve.diagnosis import Answer, ContourState, count, rank, states_in, statuses_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
@@ -327,7 +327,7 @@ class Totals(Struct, frozen=True):
 
     def line(self, programs: int) -> str:
         """The counts as one line, for a number of programs."""
-        total, statuses = self.statuses.total(), statuses_text(self.statuses)
+        total, states = self.statuses.total(), states_in(self.statuses)
         found = ", ".join(count(self.severities[each], each.value) for each in Severity if self.severities[each])
         number = self.waiting.total()
         waiting = f"; {count(number, 'contour waits', 'contours wait')} for an end point" if number else ""
@@ -337,9 +337,12 @@ class Totals(Struct, frozen=True):
         if not total:
             own = " of its own" if self.elsewhere.total() else ""
             return f"{several}no contour{own} examined; {told}"
-        if len(+self.statuses) > 1:
-            return f"{several}{count(total, 'contour')}: {statuses}; {told}"
-        return f"{several}{count(total, 'contour')} {statuses.partition(' ')[2]}, {told}"
+        if len(states) > 1:
+            return f"{several}{count(total, 'contour')}: {statuses_text(self.statuses)}; {told}"
+        (state,) = states
+        if state in (ContourState.SOLVED, ContourState.CANNOT_BE_CUT):
+            return f"{several}{count(total, 'contour')} {state.value}, {told}"
+        return f"{several}{count(total, 'contour')}: {state.value}; {told}"
 
 
 def _is_nothing(finding: Diagnostic) -> bool:
