@@ -72,6 +72,7 @@ from .legality_table import (
 from .line_slips import (
     mend_line as mend_line,
 )
+from .names_in_program import named_in_program as named_in_program
 from .odd_points import has_odd_points as has_odd_points
 from .references import (
     compare_reference as compare_reference,

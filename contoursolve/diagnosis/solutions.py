@@ -144,9 +144,15 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
     if len(alternatives.items) == 1:
         return []
     if answer.claim.form.free.picking:
+        from contoursolve.diagnosis.names_in_program import block_numbers  # noqa: PLC0415 - few controls count so
+
         word, path = answer.claim.form.free.picking, answer.profile.figure.path
         picks = _picks_of(item, alternatives, answer)
-        return [f"{spell(word, str(each.number))} after {path[each.element - 1].name}" for each in picks]
+        numbered = {number: f"block {number}" for number in block_numbers(answer.claim.blocks).values()}
+        labels = [(each.number, path[each.element - 1].name) for each in picks]
+        return [
+            f"{spell(word, str(number))} after {numbered.get(name.partition(' ')[2], name)}" for number, name in labels
+        ]
     words = [
         selector.word
         for selector in answer.claim.selectors

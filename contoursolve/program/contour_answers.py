@@ -158,7 +158,12 @@ class Answers:
         """The same answer with what is wrong, or hardly meant, explained."""
         ahead = pending.ahead if self.looks_back else ()
         answer = explained(self.asked, self.dialect, answer, pending, ahead, self.parts)
-        return with_named_words(answer, self.asked)
+        answer = with_named_words(answer, self.asked)
+        if not answer.diagnostics or self.asked.depth in (Depth.VERDICT, Depth.TRIAL):
+            return answer
+        from contoursolve.diagnosis import named_in_program  # noqa: PLC0415 - most contours have no findings
+
+        return named_in_program(answer)
 
     def examine(self, found: ParsedContour, pending: Pending) -> Answer:
         """Both."""

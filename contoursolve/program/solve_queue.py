@@ -203,10 +203,10 @@ class Queue:
         """The answer with another finding about its start, and others."""
         context = context_of(answer.claim, self.dialect.rules)
         start = report(context, context.row(about), Basis.RULE, [], **fields)
-        return replace(
-            answer,
-            diagnostics=(*answer.diagnostics, start, *(each for each in others if each not in answer.diagnostics)),
-        )
+        # What is found from there says more.
+        again = {(each.code, each.span) for each in others}
+        kept = (each for each in answer.diagnostics if (each.code, each.span) not in again)
+        return replace(answer, diagnostics=(*kept, start, *others))
 
     def _end_of_fix(self, answer: Answer, state: State) -> End:
         """The end of a contour, mm: its own, or that with the first fix of its first error that leaves nothing open and

@@ -301,7 +301,7 @@ def test_random_blocks_of_every_status_are_drawn(seed):
                     "Z (inch)", "X (diameter, inch)", "given", "worked out"]),
         ("free", ["G111 (taper multiple cornering), program line 1: cannot be cut", "G111 X100. A180. K-30.", "Z",
                   "X (diameter)", "given", "worked out", "still free", "other values",
-                  "error: line 2 needs two of B, X or U, Z or W; the block gives X100."]),
+                  "error: the second straight needs two of B, X or U, Z or W; the block gives X100."]),
         ("ambiguous", ["circle-line (circular-linear intersection), program lines 2 to 3: not enough given",
                        "G3 X-50 Y0 R50", "G1 X-50 Y42.857 ,A171.87", "X", "Y", "given", "worked out",
                        "one of several solutions", "error: 2 contours fit the block, and no word chooses one"]),

@@ -61,9 +61,9 @@ def test_a_page_is_told_all_that_it_shows_of_a_program_and_later_only_what_chang
     page = opened(text)
     block, fixes = "G111 X100. A180. K-30. B120. {}Q5.", []
     for title, word in (
-        (f"write P6. for P60. (a zero too many) -> {ENDS}, corner 1 with radius 6.000 mm", "P6. "),
-        (f"write P51.961 for P60. -> {ENDS}, corner 1 with radius 51.961 mm", "P51.961 "),
-        (f"delete P60. -> {ENDS}, without corner 1", ""),
+        (f"write P6. for P60. (a zero too many) -> {ENDS}, the first corner with radius 6.000 mm", "P6. "),
+        (f"write P51.961 for P60. -> {ENDS}, the first corner with radius 51.961 mm", "P51.961 "),
+        (f"delete P60. -> {ENDS}, without the first corner", ""),
     ):
         fixes.append({"title": title, **FIX, "lines": [{"line": 3, "text": block.format(word)}]})
     shown = {
@@ -87,8 +87,9 @@ def test_a_page_is_told_all_that_it_shows_of_a_program_and_later_only_what_chang
         "code": "g111-corner-too-large",
         **FOUND,
         "fixes": fixes,
-        "message": "corner 1 does not fit: P60. is 60.000 mm, at most 51.961 mm fits on line 1",
-        "notes": ["line 1 is 30.000 mm long; corner 1 takes 34.641 mm of it"],
+        "message": "the rounding P60. does not fit: P60. is 60.000 mm, "
+        "at most 51.961 mm fits on the diameter X40 from Z0 to Z-30",
+        "notes": ["the diameter X40 from Z0 to Z-30 is 30.000 mm long; the rounding P60. takes 34.641 mm of it"],
         "help": "write at most 51.961 mm, or make the lines longer",
         "labels": [{"line": 3, "from": 29, "to": 33, "text": "at most 51.961 mm"}],
     }
@@ -97,7 +98,7 @@ def test_a_page_is_told_all_that_it_shows_of_a_program_and_later_only_what_chang
         **FOUND,
         "fixes": [],
         "notes": [],
-        "message": "P60. and Q5. overlap on line 2: they need 37.528 mm, the line has 34.641 mm",
+        "message": "P60. and Q5. overlap on the second straight: they need 37.528 mm, the line has 34.641 mm",
         "help": "write at most 51.961 mm for P60.",
         "labels": [{"line": 3, "from": 29, "to": 33, "text": "at most 51.961 mm beside Q5."}],
     }
