@@ -3,7 +3,7 @@
 Facts, and the JSON's points and elements, have the names of the figure."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, partial
 
 from msgspec.structs import replace
@@ -20,10 +20,8 @@ _FACT = r"\([^()]*contoursolve[^()]*\)"
 _LINES = r"\bprogram lines? \d+(?:(?:, \d+)* and \d+| to \d+)?"
 
 
-def named_in_program(answer: Answer) -> Answer:
-    """The answer with findings that name each part of its contour by what stands in the program."""
-    if not answer.diagnostics:
-        return answer
+def named_in_program(findings: Iterable[Diagnostic], answer: Answer) -> tuple[Diagnostic, ...]:
+    """Findings about a contour that name each part of it by what stands in the program."""
     givens = (given.word for given in answer.profile.givens.values())
     facts = [word for word in (*answer.claim.words.values(), *givens) if word is not None and word.address == FACT]
     places = {*(word.span for word in facts), *(each.span for each in answer.claim.directives)}
@@ -66,12 +64,7 @@ def named_in_program(answer: Answer) -> Answer:
         )
 
     # A finding about a fact speaks as facts do.
-    return replace(
-        answer,
-        diagnostics=tuple(
-            each if each.span in places or each.span.line <= 0 else renamed(each) for each in answer.diagnostics
-        ),
-    )
+    return tuple(each if each.span in places or each.span.line <= 0 else renamed(each) for each in findings)
 
 
 def block_numbers(blocks: Sequence[Block]) -> Mapping[int, str]:

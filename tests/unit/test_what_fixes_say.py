@@ -34,6 +34,8 @@ def test_a_finding_names_every_line_that_its_first_fix_changes(slip):
         assert re.search(r"(?<!program )\b(?:line|arc|corner) \d", text) is None, text
         told = re.findall(r"program lines? ([\d, and]+)", text)
         lines |= {int(line) for each in told for line in re.findall(r"\d+", each)}
+        blocks = re.findall(r"\d+", " ".join(re.findall(r"\bblocks? ([\d, and]+)", text)))
+        lines |= {line for line, own in texts.items() if {*own.split()[:1]} & {*blocks}}
         for fix in finding.fixes[:1]:
             assert changes_of(fix, result.lines_of(finding), texts).keys() <= lines, (finding, fix)
 
