@@ -21,7 +21,7 @@ from contoursolve.cli.options import (
     tool_options,
 )
 from contoursolve.cli.printing import is_screen, say
-from contoursolve.diagnosis import Answer, count, status_text
+from contoursolve.diagnosis import Answer, count
 from contoursolve.diagnostics import importing
 from contoursolve.gcode import check_target, write_whole
 from contoursolve.output import Collected, beside_of, summary_line
@@ -197,7 +197,7 @@ def _pictures(
 
 
 def _about(answer: Answer) -> str:
-    return f"program line {answer.lines[0]}, {status_text(answer.status)}"
+    return f"program line {answer.lines[0]}, {answer.state}"
 
 
 def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -> list[Written]:

@@ -2,6 +2,7 @@
 
 import logging
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future, wait
 from contextlib import contextmanager
@@ -24,6 +25,7 @@ from contoursolve.cli.options import CouldNotRunError, check_toolless, format_op
 from contoursolve.cli.pictures import bytes_of, check_picture, theme_option
 from contoursolve.cli.printing import print_json, say
 from contoursolve.cli.progress import STOPPED, duration, leave_threads, progress, stoppable
+from contoursolve.diagnosis import state_of, states_in
 from contoursolve.diagnostics import need
 from contoursolve.families import (
     CUT,
@@ -46,7 +48,7 @@ from contoursolve.families import (
 from contoursolve.gcode import CannotWriteError, check_target, open_whole, write_whole
 from contoursolve.output import columns, premise_data, rest_lines
 from contoursolve.pictures import Theme, draw_sweep, sweep_title
-from contoursolve.solving import REASONS, StatusCode
+from contoursolve.solving import REASONS, Status, StatusCode
 from contoursolve.tool_radius import ToolSweep, sweep_tools
 
 PATIENCE = 1.0
@@ -397,11 +399,13 @@ def _kept(parts: Checkpoints) -> str:
 
 
 def _summary(counts: Any, failures: FailureSummary | None) -> list[str]:
-    """Lines with the number of contours of each status, and the reasons."""
+    """Lines with the number of contours in each state, and the reasons."""
     rows = [(f"{counts.sum():,}", "contour" if counts.sum() == 1 else "contours")]
-    for status, count, reasons in _counted(counts):
-        rows.append((f"{count:,}", status))
-        rows += [(f"{many:,}", f"  {reason}") for reason, many in reasons.items()]
+    counted = [(state_of(status), count, reasons) for status, count, reasons in _counted(counts)]
+    for state, number in states_in({Status(status): count for status, count, _ in _counted(counts)}).items():
+        rows.append((f"{number:,}", state.value))
+        reasons = sum((Counter(each) for its, _, each in counted if its is state), Counter())
+        rows += [(f"{many:,}", f"  {reason}") for reason, many in reasons.most_common()]
     lines = columns(rows, left=(1,), indent="")
     if failures is not None:
         values = ", ".join(f"{word}={value!r}" for word, value in failures.values.items())

@@ -593,8 +593,8 @@ def _check_path(of: ContourEvidence, ledger: Ledger) -> None:
         ledger.require("the branches are the sides that words choose", (), is_right or not of.own, remark)
         return
     its = status_text(claimed.status)
-    ledger.omit("the path", f"a contour that is {its} has none")
-    ledger.require("a contour with this status has no path", (), claimed.is_bare, f"it is {its}, with a path")
+    ledger.omit("the path", f"there is none: {its}")
+    ledger.require("a contour with this status has no path", (), claimed.is_bare, f"it has a path, and: {its}")
     given = (
         claimed.certificate.radius,
         claimed.certificate.double,
@@ -685,7 +685,7 @@ def _judge_path(of: ContourEvidence, rank: Rank, ledger: Ledger) -> None:
         ledger.omit("the status", f"whether {', '.join(words)} repeats others or chooses among the solutions")
     else:
         has = "overdetermined" if rank.surplus else "solved"
-        told = f"by the equations it is {status_text(has)}"
+        told = f"by the equations {'a word' if rank.surplus else 'no word'} is too many"
         ledger.require("the status is that of the equations", words, of.claimed.status == has, told)
 
 

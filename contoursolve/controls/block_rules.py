@@ -286,7 +286,7 @@ READING_RULES = (
     ),
     Rule(
         code="contour-waits",
-        message="not checked: it waits for the end point of program line {line}",
+        message="its path is not checked: it waits for the end point of program line {line}",
         help="mend program line {line} first",
         source=_READING,
         about=ReadIssue.CONTOUR_WAITS,

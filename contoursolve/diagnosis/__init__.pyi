@@ -72,6 +72,7 @@ from .legality_table import (
 from .line_slips import (
     mend_line as mend_line,
 )
+from .names_in_program import named_in_program as named_in_program
 from .odd_points import has_odd_points as has_odd_points
 from .references import (
     compare_reference as compare_reference,
@@ -87,6 +88,7 @@ from .slip_kinds import mistyped_codes as mistyped_codes
 from .solutions import (
     Listed as Listed,
     Listing as Listing,
+    certificate_text as certificate_text,
     decimals_of as decimals_of,
     list_solutions as list_solutions,
     printed_certificate as printed_certificate,
@@ -137,6 +139,7 @@ from .window import (
 from .wording import (
     DECIMALS as DECIMALS,
     NUMBERS as NUMBERS,
+    ContourState as ContourState,
     angle_text as angle_text,
     axis_labels as axis_labels,
     coordinate_texts as coordinate_texts,
@@ -155,6 +158,8 @@ from .wording import (
     measured as measured,
     place_text as place_text,
     short_name as short_name,
+    state_of as state_of,
+    states_in as states_in,
     status_text as status_text,
     statuses_text as statuses_text,
     unknowns_text as unknowns_text,

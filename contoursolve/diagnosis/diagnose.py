@@ -1,6 +1,5 @@
 """Adds to findings why they are so and what to write instead, and which checks a contour went through."""
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
 from msgspec import Struct
@@ -185,24 +184,8 @@ class _Diagnosed(Struct, frozen=True):
                 findings[main] = replace(
                     findings[main], notes=(*findings[main].notes[:1], _CUT, *findings[main].notes[1:])
                 )
-        findings = [replace(each, notes=(*each.notes, *_places_of_blocks(answer.claim, each))) for each in findings]
         cost = min((each.cost_of_edits for each in repairs.repairs), default=float("inf"))
         return cls(replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis), fixing, cost)
-
-
-def _places_of_blocks(claim: ParsedContour, finding: Diagnostic) -> Iterator[str]:
-    """The program lines of the elements that a finding names by the numbers of their blocks, if it names program lines,
-    too."""
-    told = " ".join((finding.message, finding.help, *finding.notes, *(each.description for each in finding.fixes)))
-    if "program line" not in told:
-        return
-    for block, names in zip(claim.blocks, claim.makes, strict=False):
-        number = block.find("N")
-        if number is None or number.number is None or number.number == block.line:
-            continue
-        for name in (f"{kind} {number.number:f}" for kind in ("line", "arc")):
-            if name in names and re.search(rf"(?<!program ){name}\b", told):
-                yield f"{name} is block {number.number:f}, in program line {block.line}"
 
 
 def _expected_first(finding: Diagnostic, repairs: tuple[Repair, ...], claim: ParsedContour) -> tuple[Repair, ...]:

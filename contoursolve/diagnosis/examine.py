@@ -42,6 +42,7 @@ from contoursolve.diagnosis.spelling import (
     tell_points,
     without_point,
 )
+from contoursolve.diagnosis.wording import ContourState, join, state_of
 from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Severity, Shown, Span
 from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, Start, System, Unit, assemble
 from contoursolve.reading import (
@@ -166,6 +167,17 @@ class Answer(Shown, Struct, frozen=True):
     """The lines of the blocks that call it, if it belongs to a subprogram."""
     mended: Answer | None = None
     """The answer with slips that are certain mended in thought, where something else is wrong as well."""
+
+    @property
+    def state(self) -> str:
+        """Its status as a reader sees it, after a colon: of a solved contour with the words that are too many."""
+        state = state_of(self.status, has_path=self.contour is not None)
+        if self.status is not Status.OVERDETERMINED or state is not ContourState.SOLVED:
+            return state.value
+        places = {each.span for each in self.diagnostics if each.about is NoteKind.WORDS_AGREE}
+        words = [word.text for word in self.claim.words.values() if word.span in places]
+        told = "are" if len(words) > 1 else "is one word"
+        return f"{state.value} ({join(words) or 'one'} {told} too many)"
 
     @property
     def system(self) -> EquationSystem:

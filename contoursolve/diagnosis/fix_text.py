@@ -246,7 +246,9 @@ def _features(profile: Profile, contour: Contour) -> dict[str, str]:
         length = each.radius if isinstance(each, ArcSegment) else each.length
         size = f"with radius {length_text(length, profile.unit)}" if isinstance(each, ArcSegment) else ""
         if each.name in corners:
-            found[each.name] = f"{each.name} {size or length_text(length, profile.unit) + ' long'}"
+            # The only one needs no name, and the word that names it may be another one now.
+            name = each.name if len(corners) > 1 else f"the {'rounding' if size else 'chamfer'}"
+            found[each.name] = f"{name} {size or length_text(length, profile.unit) + ' long'}"
         elif isinstance(each, ArcSegment):
             found[each.name] = f"{each.name} {each.turn.value} {size} to {_at(profile, each.end)}"
         else:

@@ -18,7 +18,14 @@ from contoursolve.diagnosis.examine import (
 )
 from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import Length, Pick
-from contoursolve.solving import DECIMALS, Certificate, Contour, Proof, trace, up_to_one_digit
+from contoursolve.solving import (
+    DECIMALS,
+    Certificate,
+    Contour,
+    Proof,
+    trace,
+    up_to_one_digit,
+)
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
@@ -137,9 +144,15 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
     if len(alternatives.items) == 1:
         return []
     if answer.claim.form.free.picking:
+        from contoursolve.diagnosis.names_in_program import block_numbers  # noqa: PLC0415 - few controls count so
+
         word, path = answer.claim.form.free.picking, answer.profile.figure.path
         picks = _picks_of(item, alternatives, answer)
-        return [f"{spell(word, str(each.number))} after {path[each.element - 1].name}" for each in picks]
+        numbered = {number: f"block {number}" for number in block_numbers(answer.claim.blocks).values()}
+        labels = [(each.number, path[each.element - 1].name) for each in picks]
+        return [
+            f"{spell(word, str(number))} after {numbered.get(name.partition(' ')[2], name)}" for number, name in labels
+        ]
     words = [
         selector.word
         for selector in answer.claim.selectors
@@ -192,6 +205,12 @@ def printed_certificate(certificate: Certificate | None) -> Certificate | None:
     rounding = 0.5 * 10.0 ** -decimals_of(certificate)
     radius = up_to_one_digit(certificate.radius + rounding)
     return Certificate(certificate.proof, radius, certificate.reason, certificate.gap)
+
+
+def certificate_text(certificate: Certificate | None) -> str:
+    """A certificate of the numbers as they are printed, in one short sentence; empty if it is the usual one."""
+    printed = printed_certificate(certificate)
+    return "" if printed is None or printed.is_usual else str(printed)
 
 
 def decimals_of(certificate: Certificate | None, most: int = DECIMALS) -> int:

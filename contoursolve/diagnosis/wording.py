@@ -1,7 +1,9 @@
 """Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+from enum import Enum
 from functools import lru_cache
 
 from contoursolve.diagnostics import Span
@@ -258,20 +260,48 @@ def count(number: int, noun: str, several: str = "") -> str:
     return f"{number} {noun if number == 1 else several or noun + 's'}"
 
 
-def statuses_text(statuses: Mapping[Status, int]) -> str:
-    """The number of contours with each status, the best first."""
-    return ", ".join(f"{statuses[each]} {status_text(each)}" for each in reversed(Status) if statuses.get(each))
+class ContourState(Enum):
+    """The state of a contour, as a reader sees it: after a colon. What is to be done differs between them, and between
+    statuses of one state as its findings say."""
+
+    SOLVED = "solved"
+    NOT_DECIDED = "not decided"
+    NOT_ENOUGH = "not enough given"
+    CANNOT_BE_CUT = "cannot be cut"
+
+
+_STATES = {
+    Status.SOLVED: ContourState.SOLVED,
+    Status.OVERDETERMINED: ContourState.SOLVED,
+    Status.UNDECIDED: ContourState.NOT_DECIDED,
+    Status.UNDERDETERMINED: ContourState.NOT_ENOUGH,
+    Status.AMBIGUOUS: ContourState.NOT_ENOUGH,
+    Status.REJECTED: ContourState.CANNOT_BE_CUT,
+    Status.CONFLICTING: ContourState.CANNOT_BE_CUT,
+    Status.NO_SOLUTION: ContourState.CANNOT_BE_CUT,
+}
+
+
+def state_of(status: Status | str, *, has_path: bool = True) -> ContourState:
+    """The state that a status, or its value in a record, stands for. Words may repeat others in a contour that has no
+    path for another reason."""
+    state = _STATES[Status(status)]
+    return ContourState.CANNOT_BE_CUT if state is ContourState.SOLVED and not has_path else state
 
 
 def status_text(status: Status | str) -> str:
-    """A status, or its value in a record, as a reader sees it: after "contour", after "is", or after a colon."""
-    return _STATUSES.get(Status(status), Status(status).value)
+    """A status, or its value in a record, as a reader sees it: after a colon."""
+    return state_of(status).value
 
 
-_STATUSES = {
-    Status.REJECTED: "refused",
-    Status.NO_SOLUTION: "without a solution",
-    Status.UNDERDETERMINED: "incomplete",
-    Status.OVERDETERMINED: "with too many words",
-}
-"""Words for a status that are not those of the records."""
+def states_in(statuses: Mapping[Status, int]) -> dict[ContourState, int]:
+    """The number of contours in each state, the best first, of those with each status."""
+    numbers = Counter[ContourState]()
+    for status, number in statuses.items():
+        numbers[state_of(status)] += number
+    return {state: numbers[state] for state in ContourState if numbers[state]}
+
+
+def statuses_text(statuses: Mapping[Status, int]) -> str:
+    """The number of contours in each state, the best first."""
+    return ", ".join(f"{number:,} {state.value}" for state, number in states_in(statuses).items())

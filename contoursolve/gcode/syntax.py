@@ -52,6 +52,8 @@ class Syntax:
     """Beginning of a block that a switch at the machine skips."""
     bare_number: re.Pattern[str] | None = None
     """A block with its number alone, where none may be left with that."""
+    counts_blocks: bool = False
+    """Whether whoever writes such programs counts by the numbers of blocks, not by lines."""
     plain: PlainSpelling = ISO_LINES
     """The lines that do nothing but move."""
 

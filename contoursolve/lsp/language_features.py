@@ -22,7 +22,6 @@ from contoursolve import (
     legal_blocks,
     path_table,
     stated_words,
-    status_text,
     tool_text,
     ways_to_complete,
     words_to_add,
@@ -138,7 +137,7 @@ def _about_plain_word(opened: Opened, word: Word) -> str:
 
 def _about_contour(answer: Answer, *, is_drawn: bool, beside: Sequence[ToolDrawing] = ()) -> str:
     end = end_text(answer)
-    lines = [f"**{_plain(form_text(answer))}**: {status_text(answer.status)}" + (f", ends at {end}" if end else "")]
+    lines = [f"**{_plain(form_text(answer))}**: {answer.state}" + (f", ends at {end}" if end else "")]
     if is_drawn:
         lines.append(f"![the contour]({image_of(answer, beside)})")
     if answer.contour is not None:
@@ -301,7 +300,7 @@ def symbols_of(opened: Opened) -> Iterator[types.DocumentSymbol]:
         answer, end = contour.answer, end_text(contour.answer)
         yield types.DocumentSymbol(
             name=f"{answer.claim.form.name}, program line {contour.first}",
-            detail=f"{status_text(answer.status)}{f', ends at {end}' if end else ''}",
+            detail=f"{answer.state}{f', ends at {end}' if end else ''}",
             kind=types.SymbolKind.Function if answer.status is Status.SOLVED else types.SymbolKind.Event,
             range=opened.places.whole(contour.first, contour.last),
             selection_range=opened.places.whole(contour.first, contour.first),

@@ -16,7 +16,6 @@ from contoursolve.diagnosis import (
     join,
     list_solutions,
     meaning_of,
-    status_text,
 )
 from contoursolve.diagnostics import Applicability, Diagnostic, Span
 from contoursolve.families import FamilyError, called, feasible
@@ -118,7 +117,7 @@ def _status(exploration: Exploration) -> Data:
     worst, answer = worst_of([each for _, each in exploration.findings]), exploration.answer
     if answer is None:
         return {"kind": worst, "text": "no contour"}
-    return {"kind": worst, "text": status_text(answer.status), "form": short(form_text(answer))}
+    return {"kind": worst, "text": answer.state, "form": short(form_text(answer))}
 
 
 def picture_of(answer: Answer, like: Picture | None = None, tool: ToolReport | None = None) -> Picture | None:

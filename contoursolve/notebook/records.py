@@ -6,7 +6,7 @@ from math import isnan
 from typing import Any
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count, join
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count, join, states_in
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block, Program, Word
@@ -160,19 +160,19 @@ def _family(family: Family) -> Iterator[str]:
 
 
 def family_tables(family: Family) -> tuple[Table, Table]:
-    """Tables of a family: the number and range of each free word's values, and the number of contours with each
-    status."""
+    """Tables of a family: the number and range of each free word's values, and the number of contours in each
+    state."""
     words = []
     for word, values in family.ranges.values.items():
         ends = (f"{values.min():.6g}", f"{values.max():.6g}") if values.size else ("", "")
         words.append((word, f"{values.size:,}", *ends))
-    counts = family.summary()
-    statuses = [
-        (status.value, f"{number:,}", f"{number / family['status'].size:.1%}") for status, number in counts.items()
+    states = [
+        (state.value, f"{number:,}", f"{number / family['status'].size:.1%}")
+        for state, number in states_in(family.summary()).items()
     ]
     return (
         Table("Free words", ("word", "values", "least", "largest"), words),
-        Table("What becomes of them", ("status", "contours", "share"), statuses),
+        Table("What becomes of them", ("state", "contours", "share"), states),
     )
 
 

@@ -7,7 +7,7 @@ import htpy as h
 from markupsafe import Markup
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join, status_text
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block
@@ -98,7 +98,7 @@ def _answer(answer: Answer) -> Iterator[h.Node]:
 
 def _contour_of(answer: Answer, result: Result) -> Iterator[h.Node]:
     """The picture, the path, what was given, and the findings of one contour."""
-    yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form_text(answer)}: {status_text(answer.status)}")]
+    yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form_text(answer)}: {answer.state}")]
     yield figure(answer)
     yield path_element(answer)
     yield from remarks(answer, result.control or "")
@@ -186,7 +186,7 @@ def _found(found: Found) -> Iterator[h.Node]:
     if found.remark:
         yield h.p[short(f"{found.remark}.")]
     if found.hits:
-        yield table_of(found_table(found))
+        yield table_of(found_table(found).without_empty())
     yield from (h.p[short(note)] for note in rest_lines(found))
 
 

@@ -11,6 +11,7 @@ from contoursolve.diagnosis import (
     Listed,
     Listing,
     axis_labels,
+    certificate_text,
     coordinate_texts,
     coordinates,
     count,
@@ -19,9 +20,7 @@ from contoursolve.diagnosis import (
     list_alternatives,
     list_solutions,
     meaning_of,
-    printed_certificate,
     short_name,
-    status_text,
     word_keys,
 )
 from contoursolve.diagnostics import Diagnosis, Verdict
@@ -51,7 +50,7 @@ def _called(answer: Answer) -> str:
 def title_line(answer: Answer, name: str) -> str:
     """The place, the form and the status of a contour of a program."""
     place = f"{printable(name)}:{answer.lines[0]}"
-    return f"{place}: {form_text(answer)}{_called(answer)}: {status_text(answer.status)}"
+    return f"{place}: {form_text(answer)}{_called(answer)}: {answer.state}"
 
 
 def explaining_lines(answer: Answer, system: "EquationSystem | None" = None) -> list[str]:
@@ -122,14 +121,15 @@ def small(mm: float) -> str:
 
 
 def _solution_lines(answer: Answer) -> list[str]:
-    """The certificate of the only solution, or all solutions with what selects each."""
+    """An unusual certificate of the only solution, or all solutions with what selects each."""
     listing = list_solutions(answer)
     if listing is None:
         return []
     if listing.is_single:
         searched = [] if listing.is_closed else [f"  {count_text(listing)}"]
-        certificate = [f"  certificate: {printed_certificate(answer.certificate)}"]
-        return ["", *searched, *certificate] if answer.contour else []
+        known = certificate_text(answer.certificate)
+        told = [*searched, *([f"  certificate: {known}"] if known else [])]
+        return ["", *told] if answer.contour and told else []
     lines = ["", f"  {count_text(listing)}"]
     lines += [f"  not decided: {doubt}" for doubt in listing.doubts]
     rows = [("->" if each.is_chosen else "", *row) for each, row in solution_rows(answer, listing)]
@@ -149,7 +149,7 @@ def count_text(listing: Listing) -> str:
 
 def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[str, str, str, str, str]]]:
     """Each solution with its name, whether it is no contour, where it differs from the others or why there is none,
-    what selects it, and its certificate."""
+    what selects it, and its certificate if it is not the usual one."""
     contours = [each.contour for each in listing.solutions if each.contour]
     points = contours[0].points if contours else ()
     differing = [point for point in points if len({contour.points[point] for contour in contours}) > 1]
@@ -167,7 +167,7 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
             label,
             where,
             selects,
-            str(printed_certificate(each.certificate)),
+            certificate_text(each.certificate),
         )
         rows.append((each, row))
     return rows

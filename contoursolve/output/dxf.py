@@ -18,10 +18,10 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
-from contoursolve.diagnosis import Answer, count, join, status_text
+from contoursolve.diagnosis import Answer, count, join
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.program import Result
-from contoursolve.solving import ArcSegment, Contour, Point, Segment, Status
+from contoursolve.solving import ArcSegment, Contour, Point, Segment
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
@@ -60,13 +60,13 @@ def drawing_for_cad(result: Result, tool: "ToolReport | None") -> tuple[bytes, s
 
 
 def _left_out(answers: Sequence[Answer]) -> Iterator[str]:
-    """The contours without a drawing by their lines, those of a status together."""
-    by_status: dict[Status, list[str]] = {}
+    """The contours without a drawing by their lines, those of a state together."""
+    by_state: dict[str, list[str]] = {}
     for answer in answers:
         if not answer.contour:
-            by_status.setdefault(answer.status, []).append(str(answer.lines[0]))
-    for status, lines in by_status.items():
-        yield f"left out: {count(len(lines), 'contour')} {status_text(status)} ({_program_lines(lines)})"
+            by_state.setdefault(answer.state, []).append(str(answer.lines[0]))
+    for state, lines in by_state.items():
+        yield f"left out, {state}: {count(len(lines), 'contour')} ({_program_lines(lines)})"
 
 
 def _program_lines(lines: Sequence[str]) -> str:

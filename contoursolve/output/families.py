@@ -8,6 +8,7 @@ from typing import Any
 from contoursolve.comparison import Unfollowed
 from contoursolve.diagnosis import (
     axis_labels,
+    certificate_text,
     count,
     length_in,
     limit_text,
@@ -235,7 +236,7 @@ def _hit_cells(hit: Hit, found: Found) -> tuple[str, str, str, str, str]:
     if hit.rounded_away is not None:
         off = "away" if found.goal.is_nearest else "off"
         rounding = f"rounded like this, the point is {length_in(hit.rounded_away, found.length)} {off}"
-    return written(hit.value, found.unit), at, str(printed_certificate(hit.certificate) or ""), hit.block, rounding
+    return written(hit.value, found.unit), at, certificate_text(hit.certificate), hit.block, rounding
 
 
 def found_data(found: Found) -> dict[str, Any]:

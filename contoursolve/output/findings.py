@@ -56,10 +56,14 @@ def finding_lines(
     *,
     is_explained: bool = False,
     explaining: str = EXPLAINING,
+    following: str = "",
 ) -> list[str]:
     """The lines of one finding, explained with all that is known about it; `sources` are the texts of the program's
-    lines by number, as far as they are known, `explaining` the command that explains it."""
-    lines = finding_pieces(finding, name, sources, is_explained=is_explained, explaining=explaining)
+    lines by number, as far as they are known, `explaining` the command that explains it; `following` says what follows
+    from it."""
+    lines = finding_pieces(
+        finding, name, sources, is_explained=is_explained, explaining=explaining, following=following
+    )
     return ["".join(style(text, role) if role else text for text, role in line) for line in lines]
 
 
@@ -70,6 +74,7 @@ def finding_pieces(
     *,
     is_explained: bool = True,
     explaining: str = EXPLAINING,
+    following: str = "",
 ) -> list[list[Piece]]:
     """The same lines, each as the pieces that a style may set apart."""
     role = finding.severity.value
@@ -116,8 +121,8 @@ def finding_pieces(
         lines.append([*foot, (f" {count(more, 'more fix', 'more fixes')}: {explaining} lists all", "")])
     if is_explained or finding.source.is_of_manual:
         lines.append([*foot, (f" source: {finding.source}", "")])
-    if finding.alarm:
-        lines.append([*foot, (f" control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})", "")])
+    alarm = finding.alarm and f"control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})"
+    lines += [[*foot, (f" {text}", "")] for text in (alarm, following) if text]
     # A message may quote what a fact says.
     return [*([(printable(text), kind) for text, kind in line] for line in lines), []]
 

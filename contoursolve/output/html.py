@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.diagnosis import Answer, list_solutions, printed_certificate
+from contoursolve.diagnosis import Answer, certificate_text, list_solutions
 from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.output.contours import (
     check_table,
@@ -150,7 +150,7 @@ def solutions_table(answer: Answer) -> Iterator[h.Node]:
         (name, "yes" if each.is_chosen else "", f"{label} {where}".strip(), selects, certificate)
         for each, (name, label, where, selects, certificate) in solution_rows(answer, listing)
     ]
-    yield table_of(Table("All solutions", header, rows, left=range(len(header))))
+    yield table_of(Table("All solutions", header, rows, left=range(len(header))).without_empty())
     yield h.p[short(f"{count_text(listing)}.")]
     yield from (h.p[short(f"Not decided: {doubt}.")] for doubt in listing.doubts)
 
@@ -167,7 +167,8 @@ def remarks(answer: Answer, control: str) -> Iterator[h.Element]:
         yield h.p[f"Filled in (the contour moves by {small(answer.filled.deviation)}):"]
         yield h.pre["\n".join(short(text.strip()) for text in answer.filled.blocks)]
     if answer.contour is not None:
-        yield h.p[short(f"Certificate: {printed_certificate(answer.certificate)}.")]
+        if known := certificate_text(answer.certificate):
+            yield h.p[short(f"Certificate: {known}.")]
         yield from (h.p[short(text)] for text in premise_texts(answer.premises, control))
 
 

@@ -9,7 +9,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, count, rank, statuses_text
+from contoursolve.diagnosis import Answer, ContourState, count, join, rank, states_in, statuses_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
@@ -96,14 +96,12 @@ def stream_findings(
     is_short = not (run.is_strict or is_explained)
     alike = Counter[tuple[Severity, str]]()
 
-    answers = list[Answer]()
+    answers, following = list[Answer](), Consequences()
 
     def items() -> Iterator[tuple[Any, Diagnostic]]:
         for item in _counted(run, tally, answers, is_explained=is_explained):
-            for finding in findings_of(item, is_explained=is_explained):
-                if finding.about is ReadIssue.CONTOUR_WAITS and not is_explained:
-                    # They are counted in one line.
-                    continue
+            findings = findings_of(item, is_explained=is_explained)
+            for finding in findings if is_explained else following.without(item, findings):
                 if is_alone or not is_short or not _is_nothing(finding):
                     yield (rank(finding), isinstance(item, Answer)), finding
 
@@ -113,8 +111,13 @@ def stream_findings(
             alike[kind] += 1
             if most is None or alike[kind] <= most:
                 yield finding
+            else:
+                following.beneath(finding)
 
-    yield from lines_of_findings(run.frame, shown(), style, is_explained=is_explained, is_short=is_short)
+    yield from lines_of_findings(
+        run.frame, shown(), style, is_explained=is_explained, is_short=is_short, following=following
+    )
+    yield from lines_of_findings(run.frame, following.left(), style)
     for (severity, code), number in alike.items():
         if most is not None and number > most:
             role = severity.value
@@ -155,11 +158,52 @@ def findings_of(item: Answer | Diagnostic, *, is_explained: bool = True) -> tupl
 def without_repeated(findings: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     """The findings about one contour without those that say what another one says."""
     errors = [each for each in findings if each.is_error]
-    waits = any(each.about in _WAITS for each in findings)
+    waits = any(each.about in WAITS for each in findings)
     return tuple(each for each in findings if not _is_repeated(each, errors, waits=waits))
 
 
-_WAITS = (ReadIssue.START_ASSUMED, ReadIssue.CONTOUR_WAITS)
+WAITS = {
+    ReadIssue.START_ASSUMED: ("is checked as if this were fixed", "are checked as if this were fixed"),
+    ReadIssue.CONTOUR_WAITS: ("waits for this end point", "wait for this end point"),
+}
+"""The findings about a contour that waits for another one, and what is said of it, or of several, beneath the error
+there."""
+
+
+class Consequences:
+    """The contours of a program that wait for another one, each to be told beneath the first error of that one."""
+
+    def __init__(self) -> None:
+        self._contours = dict[int, tuple[int, ...]]()
+        """The lines of the contour of each error, by its identity."""
+        self._waiting: dict[int, list[tuple[int, Diagnostic]]] = {}
+
+    def without(self, item: Answer | Diagnostic, findings: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+        """The findings about a contour, or another one, without what is told beneath an error."""
+        for finding in findings:
+            if finding.about not in WAITS:
+                yield finding
+            elif isinstance(item, Answer):
+                unknown = next(each for each in item.diagnostics if each.about is ReadIssue.POSITION_UNKNOWN)
+                for line in {label.span.line for label in unknown.labels} - {*item.lines}:
+                    self._waiting.setdefault(line, []).append((item.lines[0], finding))
+            if finding.is_error and isinstance(item, Answer):
+                self._contours[id(finding)] = item.lines
+
+    def beneath(self, error: Diagnostic) -> str:
+        """What follows from an error, in one line; empty if nothing does, or another error there has said it."""
+        found = [each for line in self._contours.pop(id(error), ()) for each in self._waiting.pop(line, ())]
+        told = []
+        for about, (one, several) in WAITS.items():
+            lines = [str(line) for line in sorted({line for line, waits in found if waits.about is about})]
+            named = f"program line{'s' * (len(lines) > 1)} {join(lines)}"
+            told += [f"{named} {several if len(lines) > 1 else one}"] if lines else []
+        return "; ".join(told)
+
+    def left(self) -> Iterator[Diagnostic]:
+        """The findings about contours that wait for one of which no error is told."""
+        while self._waiting:
+            yield from (waits for _, waits in self._waiting.pop(min(self._waiting)))
 
 
 def _is_repeated(finding: Diagnostic, errors: Sequence[Diagnostic], *, waits: bool) -> bool:
@@ -210,9 +254,13 @@ def _listing_lines(
     is_derived: bool = False,
 ) -> Iterator[str]:
     for item in items:
+        findings = findings_of(item, is_explained=is_explained)
         if isinstance(item, Answer):
             yield from contour_lines(item, result, is_explained=is_explained, is_derived=is_derived)
-        findings = findings_of(item, is_explained=is_explained)
+            if not is_explained:
+                # It stands beside its contour: one line is enough.
+                yield from (line for each in findings if each.about in WAITS for line in (f"  {each.message}", ""))
+                findings = tuple(each for each in findings if each.about not in WAITS)
         yield from lines_of_findings(result, findings, style, is_explained=is_explained, is_short=is_short)
 
 
@@ -224,6 +272,7 @@ def lines_of_findings(
     is_explained: bool = False,
     is_short: bool = False,
     explaining: str = EXPLAINING,
+    following: Consequences | None = None,
 ) -> Iterator[str]:
     """The lines of findings, each with the program's lines that it marks; `explaining` is the command that explains
     them. If it `is_short`, that there is nothing to solve is one line."""
@@ -238,7 +287,10 @@ def lines_of_findings(
         told = finding.fixes or told
         sources = sources_of(result, finding)
         name = result.program.name
-        yield from finding_lines(shown, name, sources, style, is_explained=is_explained, explaining=explaining)
+        beneath = following.beneath(finding) if following else ""
+        yield from finding_lines(
+            shown, name, sources, style, is_explained=is_explained, explaining=explaining, following=beneath
+        )
 
 
 def sources_of(result: Result, finding: Diagnostic) -> dict[int, str]:
@@ -305,7 +357,7 @@ class Totals(Struct, frozen=True):
         for each in findings_of(item, is_explained=is_explained):
             if _is_nothing(each):
                 continue
-            if each.about is not ReadIssue.CONTOUR_WAITS:
+            if each.about not in WAITS:
                 self.severities[each.severity] += 1
             self.elsewhere[each.code] += each.about in ELSEWHERE
             if each.about in UNEXAMINED and each.is_error:
@@ -327,7 +379,7 @@ class Totals(Struct, frozen=True):
 
     def line(self, programs: int) -> str:
         """The counts as one line, for a number of programs."""
-        total, statuses = self.statuses.total(), statuses_text(self.statuses)
+        total, states = self.statuses.total(), states_in(self.statuses)
         found = ", ".join(count(self.severities[each], each.value) for each in Severity if self.severities[each])
         number = self.waiting.total()
         waiting = f"; {count(number, 'contour waits', 'contours wait')} for an end point" if number else ""
@@ -337,9 +389,12 @@ class Totals(Struct, frozen=True):
         if not total:
             own = " of its own" if self.elsewhere.total() else ""
             return f"{several}no contour{own} examined; {told}"
-        if len(+self.statuses) > 1:
-            return f"{several}{count(total, 'contour')}: {statuses}; {told}"
-        return f"{several}{count(total, 'contour')} {statuses.partition(' ')[2]}, {told}"
+        if len(states) > 1:
+            return f"{several}{count(total, 'contour')}: {statuses_text(self.statuses)}; {told}"
+        (state,) = states
+        if state in (ContourState.SOLVED, ContourState.CANNOT_BE_CUT):
+            return f"{several}{count(total, 'contour')} {state.value}, {told}"
+        return f"{several}{count(total, 'contour')}: {state.value}; {told}"
 
 
 def _is_nothing(finding: Diagnostic) -> bool:

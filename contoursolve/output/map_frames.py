@@ -10,7 +10,7 @@ from typing import Any
 import numpy
 from msgspec import Struct
 
-from contoursolve.diagnosis import Answer, status_text
+from contoursolve.diagnosis import Answer
 from contoursolve.families import (
     Branches,
     CompiledSweep,
@@ -153,7 +153,7 @@ class LiveMap:
             if answer is None or answer.contour is None:
                 yield MapFrame(own, ": ".join(words_of(int(outcomes[number]))), None)
                 continue
-            text = f"{status_text(answer.status)}, end {end_text(answer)}"
+            text = f"{answer.state}, end {end_text(answer)}"
             if results is not None:
                 text += f"; {self.result} {results[number]:.3f} {self.result_unit}"
             yield MapFrame(own, text, answer.contour)

@@ -5,6 +5,7 @@ import unicodedata
 from collections.abc import Sequence
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 
 def columns(rows: Sequence[Sequence[str]], left: Sequence[int] = (0,), indent: str = "  ") -> list[str]:
@@ -62,6 +63,13 @@ class Table(Struct, frozen=True):
         """The rows as lines, below the header unless they explain themselves; nothing for no row."""
         rows = [self.header, *self.rows] if is_headed else self.rows
         return columns(rows, self.left, indent) if rows else []
+
+    def without_empty(self) -> "Table":
+        """The same without columns that say nothing."""
+        kept = [place for place in range(len(self.header)) if any(row[place] for row in self.rows)]
+        rows = [[row[place] for place in kept] for row in self.rows]
+        left = [number for number, place in enumerate(kept) if place in self.left]
+        return replace(self, header=[self.header[place] for place in kept], rows=rows, left=left)
 
     @property
     def numbers(self) -> list[int]:

@@ -55,7 +55,7 @@ _MEANINGS = {
 def receipt_lines(receipt: Receipt) -> Iterator[str]:
     """The lines of a receipt, in pure ASCII apart from the names of the inputs."""
     for contour in receipt.contours:
-        claimed = f"said to be {status_text(contour.status)}" if contour.status else "not in the result"
+        claimed = f"the result says {status_text(contour.status)}" if contour.status else "not in the result"
         place = f"{receipt.program.name}:{contour.line}: {_plain(contour.form)}: {claimed}"
         checks = count(len(contour.checks), "check")
         if contour.verdict is ReceiptVerdict.NOTHING_CHECKED:

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from msgspec import Struct
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, Policy, coordinates, count, status_text
+from contoursolve.diagnosis import Answer, Policy, coordinates, count
 from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
 from contoursolve.gcode import Block
 from contoursolve.output.contours import given_table, path_table
@@ -273,7 +273,7 @@ def _finding(
 
 def _status(answer: Answer) -> h.Element:
     """The status, in the colour of its worst finding."""
-    return h.span(class_=f"status {worst_of(answer.diagnostics)}")[status_text(answer.status)]
+    return h.span(class_=f"status {worst_of(answer.diagnostics)}")[answer.state]
 
 
 def _found(findings: tuple[Diagnostic, ...]) -> str:

@@ -122,7 +122,7 @@ def _beside(
     parts += _depths(each, stances)
     meanings = {Role.TRACK: f"path of the {'tip' if run.is_lathe else 'centre'}", Role.TOOL: title}
     meanings |= {Role.GHOST: f"comes out without G{run.side.code}"} if beside else {}
-    meanings |= {Role.CONFLICTING: "refused, or the tool does not fit"} if each.faults else {}
+    meanings |= {Role.CONFLICTING: "cannot be cut, or the tool does not fit"} if each.faults else {}
     closeups = []
     for place, stance in enumerate(stances):
         name = f"line {run.travels[stance.element].line}" if place or stance.fault or stance.rest else "start"

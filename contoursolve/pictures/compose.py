@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, list_solutions, status_text
+from contoursolve.diagnosis import Answer, list_solutions
 from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import SECOND, Turn
@@ -85,7 +85,7 @@ def title_of(answer: Answer) -> str:
     form = answer.claim.form
     lines = answer.lines
     where = f"program line {lines[0]}" if len(lines) == 1 else f"program lines {lines[0]} to {lines[-1]}"
-    return f"{form.name} ({form.title}), {where}: {status_text(answer.status)}"
+    return f"{form.name} ({form.title}), {where}: {answer.state}"
 
 
 def _ghosts(subject: Subject) -> tuple[list[Trail], Others]:
@@ -206,7 +206,7 @@ def describe(answer: Answer) -> str:
     if answer.contour is not None:
         sentences += _path_in_words(answer, answer.contour)
     else:
-        sentences.append(f"There is no contour: {status_text(answer.status)}.")
+        sentences.append(f"There is no contour: {answer.state}.")
     for finding in [each for each in answer.diagnostics if each.severity is not Severity.INFO][:3]:
         sentences.append(f"{finding.severity.value}: {finding.message}.")
     return " ".join(sentences)

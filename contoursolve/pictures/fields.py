@@ -7,7 +7,7 @@ from math import floor
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis import status_text
+from contoursolve.diagnosis import state_of, status_text
 from contoursolve.families import Outcomes, is_contour
 from contoursolve.pictures.curves import Curve, near
 from contoursolve.pictures.levels import Levels
@@ -32,9 +32,11 @@ _MOST_RUNS = 9_000
 
 
 def words_of(outcome: int) -> list[str]:
-    """An outcome in words: its status, and the reason if there is one."""
+    """An outcome in words: its state, and the reason if there is one."""
     code, reason = StatusCode(outcome // len(REASONS)), REASONS[outcome % len(REASONS)]
-    return [status_text(code.status), *([reason.value.replace("-", " ")] if reason is not None else [])]
+    if reason is not None:
+        return [state_of(code.status, has_path=False).value, reason.value.replace("-", " ")]
+    return [status_text(code.status), *(["one word too many"] if code is StatusCode.OVERDETERMINED else [])]
 
 
 def role_of(outcome: int) -> Role:

@@ -7,7 +7,7 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis import status_text
+from contoursolve.diagnosis import statuses_text
 from contoursolve.families import (
     Boundary,
     Family,
@@ -50,10 +50,9 @@ Places = NDArray[numpy.int64]
 
 
 def map_title(statuses: Mapping[Status, int], words: Sequence[str], field: "ResultField | None" = None) -> str:
-    """The title of a map: its words, its result if it shows one, and the count of each status."""
+    """The title of a map: its words, its result if it shows one, and the count of each state."""
     named = " and ".join(words) + (f": {field.name}" if field is not None else "")
-    told = ", ".join(f"{number:,} {status_text(status)}" for status, number in statuses.items())
-    return f"{named}: {told}"
+    return f"{named}: {statuses_text(statuses)}"
 
 
 class MapPlane(Struct, frozen=True, eq=False):

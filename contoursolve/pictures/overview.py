@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from contoursolve.comparison import Motion, Travel, follow
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, status_text, statuses_text
+from contoursolve.diagnosis import Answer, statuses_text
 from contoursolve.geometry import SECOND, Length, Plane, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import TextRun, visible
@@ -139,8 +139,7 @@ def describe_overview(result: Result) -> str:
     for number, answer in enumerate(shown, 1):
         fault = "" if answer.contour is not None else _fault(answer)
         sentences.append(
-            f"Contour {number}, program line {answer.lines[0]}, {answer.claim.form.name}: "
-            f"{status_text(answer.status)}{fault}."
+            f"Contour {number}, program line {answer.lines[0]}, {answer.claim.form.name}: {answer.state}{fault}."
         )
     if len(result.answers) > len(shown):
         sentences.append(f"And {len(result.answers) - len(shown)} more contours.")
@@ -194,7 +193,7 @@ def _remarks(drawn: Sequence[DrawnContour], total: int) -> Iterator[tuple[TextRu
     """Remarks on the errors of contours without a path, and on contours that are not drawn."""
     refused = [each for each in drawn if each.answer.contour is None]
     for each in refused[:MOST_REFUSED]:
-        status = status_text(each.answer.status)
+        status = each.answer.state
         told = f"{each.number}, program line {each.answer.lines[0]}, {status}{_fault(each.answer)}"
         yield (TextRun(visible(told), Role.CONFLICTING),)
     if len(refused) > MOST_REFUSED:

@@ -64,7 +64,7 @@ MEANINGS: Mapping[Role, str] = {
     Role.GIVEN: "given",
     Role.DERIVED: "worked out",
     Role.IGNORED: "ignored",
-    Role.CONFLICTING: "conflicting or refused",
+    Role.CONFLICTING: "in conflict, or cannot be cut",
     Role.FREE: "still free",
     Role.DETERMINED: "determined",
     Role.SEVERAL: "one of several solutions",

@@ -106,7 +106,7 @@ def draw(answer: Answer) -> ContourDrawing:
     """The drawing of a solved contour. Raises ConversionError if it has no path."""
     contour, profile = answer.contour, answer.profile
     if contour is None:
-        raise ConversionError(f"a contour that is {status_text(answer.status)} has no path")
+        raise ConversionError(f"the contour has no path: {status_text(answer.status)}")
     cut = {each.name: each for each in contour.elements}
     corners = {each.before: each for each in profile.figure.corners if each.name in cut}
     places = {profile.figure.path[-1].head: contour.end, **contour.places, profile.figure.start: contour.start}

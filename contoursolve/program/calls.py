@@ -251,7 +251,7 @@ def _results(answers: Sequence[Answer]) -> str:
             if answer.calls
             else f"pass {len(told) + 1}"
         )
-        told.append(f"{called}: from {place} {errors[0] if errors else status_text(answer.status)}")
+        told.append(f"{called}: from {place}: {errors[0] if errors else status_text(answer.status)}")
     more = len(answers) - MOST_TOLD
     return "; ".join(told) + (f"; and {more} more" if more > 0 else "")
 

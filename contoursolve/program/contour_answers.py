@@ -1,7 +1,7 @@
 """The answer to one contour of a program: solved, with its findings explained as deeply as is asked."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import chain, islice
 from typing import TYPE_CHECKING
 
@@ -158,7 +158,15 @@ class Answers:
         """The same answer with what is wrong, or hardly meant, explained."""
         ahead = pending.ahead if self.looks_back else ()
         answer = explained(self.asked, self.dialect, answer, pending, ahead, self.parts)
-        return with_named_words(answer, self.asked)
+        answer = with_named_words(answer, self.asked)
+        return replace(answer, diagnostics=self._named(answer.diagnostics, answer)) if answer.diagnostics else answer
+
+    def _named(self, findings: Iterable[Diagnostic], answer: Answer) -> tuple[Diagnostic, ...]:
+        if self.asked.depth in (Depth.VERDICT, Depth.TRIAL):
+            return tuple(findings)
+        from contoursolve.diagnosis import named_in_program  # noqa: PLC0415 - most contours have no findings
+
+        return named_in_program(findings, answer)
 
     def examine(self, found: ParsedContour, pending: Pending) -> Answer:
         """Both."""
@@ -168,14 +176,14 @@ class Answers:
         """The findings about the block behind a contour, with what was meant there."""
         is_written = self.asked.depth is Depth.PATH and answer.contour is not None
         if is_written or self.asked.depth in (Depth.VERDICT, Depth.TRIAL):
-            return tuple(found)
+            return self._named(found, answer)
         from contoursolve.diagnosis import mend_behind  # noqa: PLC0415 - few contours need it
 
         lines = [each.span.line for each in found]
         behind = pending.view[pending.after : pending.after + NEAR]
         own = next((at for at, block in enumerate(behind, 1) if block.line in lines), 0)
         window = _window(self.dialect, answer, pending, pending.ahead, self.parts, own)
-        return tuple(mend_behind(answer, found, window))
+        return self._named(mend_behind(answer, found, window), answer)
 
 
 class TooFarError(Exception):

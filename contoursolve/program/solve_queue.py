@@ -20,7 +20,7 @@ from contoursolve.diagnosis import (
     report,
     report_behind,
 )
-from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Severity
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.lookahead import View
 from contoursolve.reading import (
@@ -160,7 +160,7 @@ class Queue:
         claim = each.contour
         if each.left is None:
             step, origin = each.step, _awaited(claim, answer) if answer.contour is None else None
-            told, tried = self._check_on(each, answer) if self.goes_on and origin else (answer, answer)
+            told, tried = self._check_on(each, answer, is_else_right=origin is not None)
             end = partial(self._end_of_fix, tried) if self.goes_on else _nowhere
             each.left = cache(partial(_after, claim, self.dialect.modes, answer, origin, end))
             behind = self._behind(each, claim.form.name, answer.contour, each.left)
@@ -175,32 +175,38 @@ class Queue:
     def _examine(self, claim: ParsedContour, each: Pending) -> Answer:
         return self.answers.explain(self.answers.solve(claim, each), each)
 
-    def _check_on(self, each: Pending, answer: Answer) -> tuple[Answer, Answer]:
-        """The answer to a contour whose start is not known, with what is found if it begins where the best fix of the
-        contour before ends; and the answer to it from there."""
+    def _check_on(self, each: Pending, answer: Answer, *, is_else_right: bool) -> tuple[Answer, Answer]:
+        """The answer to a contour, with what is found if it begins where the best fix of the contour before ends, if
+        it waits for that and `is_else_right`; and the answer to it from there. That it waits is no error of its own."""
+        if answer.contour is not None:
+            return answer, answer
         before = each.contour.before
         lost = {axis: before.axes[axis] for axis in before.plane.axes if before.axes[axis].value is None}
         lines = join([str(line) for line in dict.fromkeys(place.span.line for place in lost.values() if place.span)])
-        if not all(place.reason.startswith(WAITS) for place in lost.values()):
+        if not lost or not all(place.reason.startswith(WAITS) for place in lost.values()):
             return answer, answer
+        told = replace(answer, diagnostics=tuple(map(_as_following, answer.diagnostics)))
+        if not self.goes_on:
+            return told, answer
+        if not is_else_right:
+            return self._with_start(told, ReadIssue.CONTOUR_WAITS, (), line=lines), answer
         state = before.move({axis: Position(place.assumed, place.reason, place.span) for axis, place in lost.items()})
-        found = self.dialect.find(each.view, 0, state, self.dialect.modes) if state.start().is_known else None
-        if not isinstance(found, ParsedContour):
-            return self._with_start(answer, ReadIssue.CONTOUR_WAITS, (), line=lines), answer
-        tried = self._examine(found, each)
+        claim = self.dialect.find(each.view, 0, state, self.dialect.modes) if state.start().is_known else None
+        if not isinstance(claim, ParsedContour):
+            return self._with_start(told, ReadIssue.CONTOUR_WAITS, (), line=lines), answer
+        tried = self._examine(claim, each)
         first, second = (float(value or 0) for value in state.start().values)
-        place = measured((first, second), state.plane, found.after.unit)
-        told = self._with_start(answer, ReadIssue.START_ASSUMED, tried.diagnostics, line=lines, place=place)
-        return told, tried
+        place = measured((first, second), state.plane, claim.after.unit)
+        return self._with_start(told, ReadIssue.START_ASSUMED, tried.diagnostics, line=lines, place=place), tried
 
     def _with_start(self, answer: Answer, about: ReadIssue, others: tuple[Diagnostic, ...], **fields: Any) -> Answer:
         """The answer with another finding about its start, and others."""
         context = context_of(answer.claim, self.dialect.rules)
         start = report(context, context.row(about), Basis.RULE, [], **fields)
-        return replace(
-            answer,
-            diagnostics=(*answer.diagnostics, start, *(each for each in others if each not in answer.diagnostics)),
-        )
+        # What is found from there says more.
+        again = {(each.code, each.span) for each in others}
+        kept = (each for each in answer.diagnostics if (each.code, each.span) not in again)
+        return replace(answer, diagnostics=(*kept, start, *others))
 
     def _end_of_fix(self, answer: Answer, state: State) -> End:
         """The end of a contour, mm: its own, or that with the first fix of its first error that leaves nothing open and
@@ -272,6 +278,11 @@ def _refused(answer: Answer, lost: Diagnostic) -> Answer:
     """The answer to a contour that was read as it is meant, and is not what the control makes of its words."""
     found = (lost, *answer.diagnostics)
     return replace(answer, status=Status.REJECTED, contour=None, certificate=None, sides={}, diagnostics=found)
+
+
+def _as_following(finding: Diagnostic) -> Diagnostic:
+    """A finding; that the start is not known follows from another one, and is no error of its own."""
+    return replace(finding, severity=Severity.INFO) if finding.about is ReadIssue.POSITION_UNKNOWN else finding
 
 
 WAITS = "this contour waits for"

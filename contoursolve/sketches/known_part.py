@@ -127,7 +127,7 @@ class SketchAnswer(Struct, frozen=True):
         if self.missing or self.is_finished:
             return self.missing or "the contour is finished"
         errors = (each.message for each in self.findings if each.severity is Severity.ERROR)
-        return next(errors, f"the contour is {status_text(Status(self.status))}")
+        return next(errors, f"no contour: {status_text(self.status)}")
 
 
 def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchAnswer:

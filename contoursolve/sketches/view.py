@@ -22,7 +22,7 @@ from contoursolve.sketches.known_part import PartState, SketchAnswer, SketchFix,
 from contoursolve.sketches.sketch import ContourSketch
 from contoursolve.sketches.sketch_file import plain_element
 from contoursolve.sketches.terms import entry_text
-from contoursolve.solving import ArcSegment, LineSegment, Segment, Status, middle
+from contoursolve.solving import ArcSegment, LineSegment, Segment, middle
 
 _STATES = {
     PartState.KNOWN: (Role.INK, "known"),
@@ -59,7 +59,7 @@ def _title(found: SketchAnswer) -> str:
     if found.missing or found.is_finished:
         return found.said
     is_wrong = any(each.state is PartState.CONTRADICTING for each in found.elements)
-    return "some entries contradict the rest" if is_wrong else f"the contour is {status_text(Status(found.status))}"
+    return "some entries contradict the rest" if is_wrong else f"no contour: {status_text(found.status)}"
 
 
 def _drawn(found: SketchAnswer) -> Iterator[Part]:

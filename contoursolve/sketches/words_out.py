@@ -55,12 +55,12 @@ def _answer_of(contour: Answer | Result | ContourSketch) -> Answer:
         known = solve_sketch(contour)
         if known.answer is None or not known.is_finished:
             told = known.missing or "; ".join(each.message for each in known.findings)
-            raise UnfinishedError(f"the sketch is {known.status}: {told}")
+            raise UnfinishedError(f"the sketch is not finished: {told}")
         return known.answer
     if isinstance(contour, Result):
         if len(contour.answers) != 1:
             raise ValueError(f"one contour is written; the program has {len(contour.answers)}")
         contour = contour.answers[0]
     if contour.contour is None:
-        raise UnfinishedError(f"the contour is {status_text(contour.status)}: solve it first")
+        raise UnfinishedError(f"there is no contour to write: {status_text(contour.status)}; solve it first")
     return contour

@@ -245,7 +245,7 @@ def trace(profile: Profile, solution: Solution) -> Contour:
     """
     points, corners = solution.points, {corner.at: corner for corner in profile.figure.corners}
     if not points:
-        raise ValueError(f"a contour that is {solution.status.value} has no path")
+        raise ValueError(f"there is no path: {solution.status.value}")
     start = here = points[profile.figure.start]
     elements: list[Segment] = []
 

@@ -76,7 +76,8 @@ class Drawn(Shown):
             yield f"  {element.name}: from {_place(element.start)} to {_place(element.end)}{arc}"
         for asked in self.asked:
             yield f"  {asked}"
-        yield f"  certificate: {self.certificate}"
+        if not self.certificate.is_usual:
+            yield f"  certificate: {self.certificate}"
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -332,7 +332,7 @@ class RefusalKind(GeometricEventKind):
 
     SEARCH_UNFINISHED = GeometricEvent(
         "search-unfinished",
-        "undecided: the search found no {things} for {words}{together}, and did not prove that there is none",
+        "not decided: the search found no {things} for {words}{together}, and did not prove that there is none",
         "{advice}",
         status=Status.UNDECIDED,
         topic=Topic.SEARCH,
@@ -340,7 +340,7 @@ class RefusalKind(GeometricEventKind):
 
     COUNT_OPEN = GeometricEvent(
         "only-unproven",
-        "undecided: one contour fits the block{within}, and that no other one {does} is not proven",
+        "not decided: one contour fits the block{within}, and that no other one {does} is not proven",
         "{advice}; `contoursolve solve` lists what was found",
         status=Status.UNDECIDED,
     )

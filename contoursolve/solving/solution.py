@@ -7,6 +7,7 @@ from math import floor, inf, log10
 from msgspec import Struct, field
 
 from contoursolve.solving.events import NoteKind, RefusalKind, Status
+from contoursolve.tolerance import ERROR_BOUND_WARNING
 
 DECIMALS = 12
 """Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
@@ -41,17 +42,26 @@ class Certificate(Struct, frozen=True):
         """Whether two solutions have become one."""
         return self.gap is not None
 
+    @property
+    def is_usual(self) -> bool:
+        """Whether the solution is proven to be the only one near it, and known far better than words are exact to."""
+        return self.proof in _PROVEN and not self.is_double and self.radius <= ERROR_BOUND_WARNING
+
     def __str__(self) -> str:
+        why = f": {self.reason}" if self.reason else ""
         match self.proof:
             case Proof.EXACT:
                 known = "exact"
             case Proof.UNIQUE:
                 known = f"the only solution within {self.radius:.0e} mm, proven"
             case Proof.VERIFIED:
-                known = f"verified, known to {self.radius:.0e} mm"
+                known = f"checked to {self.radius:.0e} mm, not proven{why}"
             case Proof.UNKNOWN:
-                known = f"unknown ({self.reason})"
-        return f"double: touches; {known}" if self.is_double else known
+                known = f"not proven{why}"
+        return f"{known} (an element only touches)" if self.is_double else known
+
+
+_PROVEN = (Proof.EXACT, Proof.UNIQUE)
 
 
 def up_to_one_digit(value: float) -> float:

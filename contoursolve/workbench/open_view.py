@@ -14,7 +14,7 @@ from time import monotonic
 from msgspec import Struct, to_builtins
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, rank, status_text
+from contoursolve.diagnosis import Answer, rank
 from contoursolve.diagnostics import Diagnostic, Fix, Severity, Span, UserError
 from contoursolve.notebook import project_settings
 from contoursolve.output import effect_of
@@ -42,7 +42,7 @@ def contour_row(answer: Answer, first: int, last: int) -> Data:
         "line": first,
         "last": last,
         "status": answer.status.value,
-        "told": status_text(answer.status),
+        "told": answer.state,
         "title": answer.claim.form.name,
     }
 

@@ -142,4 +142,4 @@ def test_summary_of_several_files_tells_nothing_found_from_nothing_examined(save
     assert check(nothing).output == f"{nothing}: no contour block, nothing to solve; --explain says how one begins\n"
     assert check(clean, clean).output.splitlines()[-1] == "2 programs, 2 contours solved, no problems"
     last = check(clean, nothing, broken).output.splitlines()[-1]
-    assert last == "3 programs, 3 contours: 2 solved, 1 without a solution; 1 error, 1 warning"
+    assert last == "3 programs, 3 contours: 2 solved, 1 cannot be cut; 1 error, 1 warning"

@@ -120,7 +120,7 @@ def test_each_question_shows_the_line_before_and_after(answers, fitting, status)
     assert running.returncode == status
     assert asked.count(f"  - {TOO_LARGE}".encode()) == len(answers.split())
     assert f"  + {FITS}".encode() in asked
-    assert b"part.nc:2: error[g111-corner-too-large]: corner 1 does not fit" in asked
+    assert b"part.nc:2: error[g111-corner-too-large]: the rounding P" in asked
     lines = Path(name).read_text().splitlines()[1::2]
     assert lines == [FITS if fits == "1" else TOO_LARGE for fits in fitting]
 

@@ -86,7 +86,7 @@ def test_what_is_not_in_the_drawing_is_named_with_its_lines(tmp_path):
     block = "G00 X40. Z0.\nG111 X100. A180. K-30. B{}. P{}.\nG00 X150. Z10.\n"
     (tmp_path / "three.nc").write_text("".join(map(block.format, (120, 120, 180), (6, 60, 6))) + "M30\n")
     status, output = plot(tmp_path / "three.nc", "-o", tmp_path / "three.dxf")
-    left = "left out: 2 contours without a solution (program lines 5 and 8)"
+    left = "left out, cannot be cut: 2 contours (program lines 5 and 8)"
     assert (status, f"three.dxf: 3 elements of 1 contour; {left}\n" in output) == (1, True)
 
 

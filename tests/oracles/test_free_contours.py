@@ -63,8 +63,8 @@ def test_both_choices_of_fkexamp1_are_listed_and_chosen_by_their_numbers():
     assert listing.is_complete
     assert len(paths) == 6
     (chosen,) = (each for each in paths if each.is_chosen)
-    assert chosen.selects == ("FSELECT 1 after line 11", "FSELECT 2 after line 15")
-    opposite = [each.contour.points["P11"] for each in paths if each.selects[0] == "FSELECT 2 after line 11"]
+    assert chosen.selects == ("FSELECT 1 after block 11", "FSELECT 2 after block 15")
+    opposite = [each.contour.points["P11"] for each in paths if each.selects[0] == "FSELECT 2 after block 11"]
     assert opposite
     assert all(each == pytest.approx((-25.4078, -59.2849), abs=6e-5) for each in opposite)
 
@@ -106,12 +106,12 @@ def test_a_reference_to_a_block_that_it_cannot_mean_is_told(name, word):
 @pytest.mark.parametrize(
     ("blocks", "number", "element", "off"),
     [
-        (("FL AN+30", "FL AN+30", "FL X+80 Y+20"), "one", "line 3", None),
-        (("FL AN+30", "FLT", "FLT", "FL AN-30 X+80"), "one", "line 4", None),
-        (("FL AN+30", "FL AN+210", "FL X+80 Y+20"), "two", "line 2", None),
-        (("FC DR- R20 CCX+20 CCY+0", "FCT DR- R20", "FLT"), "two", "arc 3", None),
-        (("FL X+20 Y+0 LEN25", "FL AN+30", "FL AN+30", "FL X+80 Y+20"), "one", "line 4", "5.000 mm"),
-        (("FC DR- R20 CCX+25 CCY+0", "FCT DR- R20", "FLT"), "two", "arc 3", "5.000 mm"),
+        (("FL AN+30", "FL AN+30", "FL X+80 Y+20"), "one", "straight (block 3)", None),
+        (("FL AN+30", "FLT", "FLT", "FL AN-30 X+80"), "one", "straight (block 4)", None),
+        (("FL AN+30", "FL AN+210", "FL X+80 Y+20"), "two", "straight (block 2)", None),
+        (("FC DR- R20 CCX+20 CCY+0", "FCT DR- R20", "FLT"), "two", "arc (block 3)", None),
+        (("FL X+20 Y+0 LEN25", "FL AN+30", "FL AN+30", "FL X+80 Y+20"), "one", "straight (block 4)", "5.000 mm"),
+        (("FC DR- R20 CCX+25 CCY+0", "FCT DR- R20", "FLT"), "two", "arc (block 3)", "5.000 mm"),
     ],
 )
 def test_where_a_line_or_a_circle_is_cut_in_two_is_no_missing_word_and_a_contradiction_has_its_amount(
@@ -191,7 +191,7 @@ def test_a_circle_that_may_slide_lacks_one_word():
     answer = solved(text)
     assert answer.status.value == "underdetermined"
     (finding,) = answer.diagnostics
-    assert finding.message.startswith("one word is missing, so arc 3 and line 5 are open")
+    assert finding.message.startswith("one word is missing, so the arc (block 3) and the straight (block 5) are open")
 
 
 @pytest.mark.slow
@@ -303,12 +303,12 @@ def test_a_direction_of_an_arc_that_others_contradict_is_one_conflict_and_never_
 def test_no_word_is_offered_that_repeats_what_there_is(blocks, line, helping):
     answer = solved(chain(*blocks))
     (finding,) = (each for each in answer.diagnostics if each.code == "words-missing")
-    found = re.search(rf"((?:[A-Z0-9]+(?:, | or )?)+) in program line {line + 1}\b", finding.message)
+    found = re.search(rf"((?:[A-Z0-9]+(?:, | or )?)+) in block {line}\b", finding.message)
     assert found
     assert {*re.split(", | or ", found[1])} - {"IX", "IY"} == helping
     for fix in finding.fixes:
-        for word, at in re.findall(r"add ([A-Z]+)\? to program line (\d+)", fix.description):
-            assert int(at) != line + 1 or word in helping | {"IX", "IY"}
+        for word, at in re.findall(r"add ([A-Z]+)\? to block (\d+)", fix.description):
+            assert int(at) != line or word in helping | {"IX", "IY"}
 
 
 @pytest.mark.parametrize(
@@ -318,7 +318,7 @@ def test_no_word_is_offered_that_repeats_what_there_is(blocks, line, helping):
 def test_what_half_a_point_lacks_is_its_other_half(stated, lacking):
     missing, error = solved(chain("FL AN+60", f"FL X+80 Y+20 {stated}")).diagnostics
     assert (error.is_error, missing.code, missing.is_error) == (True, "words-missing", False)
-    assert missing.message.partition(": ")[2].startswith(f"{lacking} in program line 4, without which {stated[:3]}")
+    assert missing.message.partition(": ")[2].startswith(f"{lacking} in block 3, without which {stated[:3]}")
 
 
 def test_a_closing_line_in_the_wrong_direction_is_told_with_the_right_one():

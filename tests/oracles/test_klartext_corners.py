@@ -346,4 +346,4 @@ def test_a_size_that_is_asked_for_beside_a_full_circle_is_told_and_no_traceback(
     found = contoursolve.check(f"0 BEGIN PGM A MM\n{text}", control="heidenhain")
     (finding,) = (each for each in found if each.is_error)
     assert (finding.code, finding.span.line) == ("words-missing", 7)
-    assert finding.message == "one word is missing, so corner 5 is open: give RND R? a value"
+    assert finding.message == "one word is missing, so the rounding RND R? (block 6) is open: give RND R? a value"

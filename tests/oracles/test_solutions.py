@@ -894,7 +894,7 @@ def test_a_double_solution_is_one_whose_two_solutions_are_one_exactly() -> None:
     ):
         doubles = [drawn.certificate for drawn in lines_touching(things) if drawn.certificate.is_double]
         assert [(each.proof, each.gap) for each in doubles] == [(Proof.EXACT, 0.0)]
-        assert str(doubles[0]).startswith("double: touches")
+        assert str(doubles[0]).endswith("(an element only touches)")
     for step in LADDER:
         near = lines_touching((Circle(0, 0, 30), Circle(str(50 + step), 0, 20)))
         assert not any(drawn.certificate.is_double for drawn in near)

@@ -566,7 +566,7 @@ def widget():
 
 def test_the_widget_answers_each_action_by_its_number(widget):
     widget.action = {"do": "move", "values": {"P": 60}, "number": 1}
-    assert (widget.number, widget.view["status"]["text"], widget.view["trouble"]) == (1, "without a solution", "")
+    assert (widget.number, widget.view["status"]["text"], widget.view["trouble"]) == (1, "cannot be cut", "")
     assert widget.text == WHOLE.replace("P5.", "P60.")
     assert widget.result.answers[0].status is Status.NO_SOLUTION
     widget.action = {"do": "range", "key": "P", "number": 2}

@@ -50,21 +50,21 @@ OPEN = {
 
 
 TRAVEL = "the fact cannot be read: {} is larger than a control can travel"
-FITS = "corner {} does not fit: {} mm, at most {} mm fits on line {}"
+FITS = "the {} does not fit: {} mm, at most {} mm fits on the {}"
 REFUSED = [
     ("A180. B120. X100.", "length of line 1 = 1e999", "fact-unreadable", TRAVEL.format("1e999")),
     ("A180. B120. X100.", "length of line 1 = 1000001", "fact-unreadable", TRAVEL.format("1000001")),
     (
         *("A180. K-30. B120. X100. P?", "Z of begin of corner 1 = 29.9", "g111-corner-too-large"),
-        FITS.format(1, "P? is 103.750", "51.961", 1),
+        FITS.format("rounding P?", "P? is 103.750", "51.961", "diameter X40 from Z0 to Z-30"),
     ),
     (
         *("A180. K-30. B120. X100. C?", "Z of begin of corner 1 = -5", "g111-corner-too-large"),
-        FITS.format(1, "C? is 59.151", "30.000", 2),
+        FITS.format("chamfer C?", "C? is 59.151", "30.000", "second straight"),
     ),
     (
         *("A180. K-30. B120. X100. P2. D?", "straight part of line 2 = -5", "g111-corner-too-large"),
-        FITS.format(2, "D? is 33.330", "29.000", 2),
+        FITS.format("chamfer D?", "D? is 33.330", "29.000", "second straight"),
     ),
     (
         *("K-30. I0. B120. X100. P2.", "length of line 1 = 0", "fact-impossible"),

@@ -498,7 +498,7 @@ def test_tolerances_add_up_at_worst_and_in_squares():
     ("block", "message"),
     [
         (BLOCK.replace("P5.", "P500."), "the block has no contour: corner 1 does not fit"),
-        (BLOCK.replace("K-30.", ""), "line 1 needs two of A, I and K"),
+        (BLOCK.replace("K-30.", ""), "the first straight needs two of A, I and K"),
         ("G17 G41 G0 X50 Y0\nG3 I-50 J0\nG1 X-60 Y50 ,A180 Q-1", "no derivative exists"),
     ],
 )

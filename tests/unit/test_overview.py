@@ -26,9 +26,9 @@ def spots(stroke):
 
 def test_a_contour_without_a_path_has_its_message():
     picture = draw_result(contoursolve.solve_file(SHAFT.with_stem("shaft_broken")))
-    told = "without a solution: corner 1 does not fit: P4. is 4.000 mm, at most 2.500 mm fits on"
+    told = "cannot be cut: the rounding P4. does not fit: P4. is 4.000 mm, at most 2.500 mm fits on"
     assert f"3, program line 21, {told}" in "\n".join(labels(picture))
-    assert f"Contour 3, program line 21, G111: {told} line 2." in picture.description
+    assert f"Contour 3, program line 21, G111: {told} the face Z-75 from X60 to X66." in picture.description
     check(picture)
 
 

@@ -193,8 +193,8 @@ def test_verify_checks_forms_that_are_not_built_in(run, block, status):
     Path("r.json").write_text(result, encoding="utf-8")
     code, output = run("verify", "p.nc", "r.json", *theirs)
     told = "verified" if status == "solved" else "path verified, status not checked"
-    said = {"solved": "solved", "rejected": "refused"}[status]
-    assert (code, f"p.nc:2: their own: said to be {said}: {told} (" in output) == (0, True)
+    said = {"solved": "solved", "rejected": "cannot be cut"}[status]
+    assert (code, f"p.nc:2: their own: the result says {said}: {told} (" in output) == (0, True)
     other = "solved" if status == "rejected" else "no-solution"
     wrong = result.replace(f'"status": "{status}"', f'"status": "{other}"')
     for each in (wrong, *(result.replace(f'"{name}": [\n     3', f'"{name}": [\n     4') for name in ("end", "P1"))):

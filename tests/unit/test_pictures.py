@@ -299,15 +299,15 @@ def test_random_blocks_of_every_status_are_drawn(seed):
     [
         ("inches", ["G111 (taper multiple cornering), program line 2: solved", "G111 X4. A180. K-1. B120. P.2 Q.2",
                     "Z (inch)", "X (diameter, inch)", "given", "worked out"]),
-        ("free", ["G111 (taper multiple cornering), program line 1: refused", "G111 X100. A180. K-30.", "Z",
+        ("free", ["G111 (taper multiple cornering), program line 1: cannot be cut", "G111 X100. A180. K-30.", "Z",
                   "X (diameter)", "given", "worked out", "still free", "other values",
-                  "error: line 2 needs two of B, X or U, Z or W; the block gives X100."]),
-        ("ambiguous", ["circle-line (circular-linear intersection), program lines 2 to 3: ambiguous",
+                  "error: the second straight needs two of B, X or U, Z or W; the block gives X100."]),
+        ("ambiguous", ["circle-line (circular-linear intersection), program lines 2 to 3: not enough given",
                        "G3 X-50 Y0 R50", "G1 X-50 Y42.857 ,A171.87", "X", "Y", "given", "worked out",
                        "one of several solutions", "error: 2 contours fit the block, and no word chooses one"]),
-        ("an end too far", ["G111 (taper multiple cornering), program line 1: refused",
+        ("an end too far", ["G111 (taper multiple cornering), program line 1: cannot be cut",
                             "G111 A180. K-30. B120. X10000000000.", "Z", "X (diameter)", "given", "worked out",
-                            "conflicting or refused",
+                            "in conflict, or cannot be cut",
                             "error: X10000000000. is larger than a control can travel",
                             "no room for: X10000000000. dia"]),
     ],
@@ -328,7 +328,7 @@ def test_a_description_tells_the_path_or_what_prevents_one():
         "line: straight to X-50 Y42.857. P1 is at X40 Y30."
     )
     assert told["parallel"] == (
-        "Z to the right, X up as a diameter, in mm. There is no contour: without a solution. "
+        "Z to the right, X up as a diameter, in mm. There is no contour: cannot be cut. "
         "error: no V2 fits X100., A180. and B180.: the lines are parallel and 30.000 mm apart."
     )
 

@@ -116,7 +116,7 @@ def test_the_control_is_told_from_what_is_called_and_contours_there_are_found(ca
     main_program.write_text(text)
     for name, sub in files.items():
         (tmp_path / name).write_text(sub.format("2." if is_right else "200."))
-    told = "is solved" if is_right else "corner 1 does not fit"
+    told = "is solved" if is_right else "does not fit"
     status, output = run("check", main_program)
     assert (status, told in output, "no contour of its own examined" in output) == (not is_right, True, True), output
     _, output = run("expand", main_program)

@@ -168,7 +168,9 @@ def test_plain_lines_that_come_first_say_why(sketch: str, control: str, told: st
 
 def test_an_open_contour_has_no_words():
     open_ = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. B120.")
-    with pytest.raises(contoursolve.UnfinishedError, match="the contour is refused: solve it first"):
+    with pytest.raises(
+        contoursolve.UnfinishedError, match="there is no contour to write: cannot be cut; solve it first"
+    ):
         contoursolve.write(open_, "fanuc-lathe")
 
 

@@ -61,9 +61,9 @@ def test_a_page_is_told_all_that_it_shows_of_a_program_and_later_only_what_chang
     page = opened(text)
     block, fixes = "G111 X100. A180. K-30. B120. {}Q5.", []
     for title, word in (
-        (f"write P6. for P60. (a zero too many) -> {ENDS}, corner 1 with radius 6.000 mm", "P6. "),
-        (f"write P51.961 for P60. -> {ENDS}, corner 1 with radius 51.961 mm", "P51.961 "),
-        (f"delete P60. -> {ENDS}, without corner 1", ""),
+        (f"write P6. for P60. (a zero too many) -> {ENDS}, the first corner with radius 6.000 mm", "P6. "),
+        (f"write P51.961 for P60. -> {ENDS}, the first corner with radius 51.961 mm", "P51.961 "),
+        (f"delete P60. -> {ENDS}, without the first corner", ""),
     ):
         fixes.append({"title": title, **FIX, "lines": [{"line": 3, "text": block.format(word)}]})
     shown = {
@@ -87,8 +87,9 @@ def test_a_page_is_told_all_that_it_shows_of_a_program_and_later_only_what_chang
         "code": "g111-corner-too-large",
         **FOUND,
         "fixes": fixes,
-        "message": "corner 1 does not fit: P60. is 60.000 mm, at most 51.961 mm fits on line 1",
-        "notes": ["line 1 is 30.000 mm long; corner 1 takes 34.641 mm of it"],
+        "message": "the rounding P60. does not fit: P60. is 60.000 mm, "
+        "at most 51.961 mm fits on the diameter X40 from Z0 to Z-30",
+        "notes": ["the diameter X40 from Z0 to Z-30 is 30.000 mm long; the rounding P60. takes 34.641 mm of it"],
         "help": "write at most 51.961 mm, or make the lines longer",
         "labels": [{"line": 3, "from": 29, "to": 33, "text": "at most 51.961 mm"}],
     }
@@ -97,11 +98,11 @@ def test_a_page_is_told_all_that_it_shows_of_a_program_and_later_only_what_chang
         **FOUND,
         "fixes": [],
         "notes": [],
-        "message": "P60. and Q5. overlap on line 2: they need 37.528 mm, the line has 34.641 mm",
+        "message": "P60. and Q5. overlap on the second straight: they need 37.528 mm, the line has 34.641 mm",
         "help": "write at most 51.961 mm for P60.",
         "labels": [{"line": 3, "from": 29, "to": 33, "text": "at most 51.961 mm beside Q5."}],
     }
-    contour = {"line": 3, "last": 3, "status": "no-solution", "told": "without a solution", "title": "G111"}
+    contour = {"line": 3, "last": 3, "status": "no-solution", "told": "cannot be cut", "title": "G111"}
     lists = {"text": text, "findings": [first, second], "more_findings": 0, "contours": [contour]}
     assert page.ask("view") == {**shown, **lists}
     assert page.ask("go_on") == shown
@@ -324,14 +325,16 @@ def test_a_program_is_verified_without_the_solver_in_a_sentence():
     verified = page.ask("verify")
     told = "Checked again without the solver: the contour is as shown."
     assert (verified["verdict"], verified["message"], verified["name"]) == ("verified", told, "")
-    assert verified["details"].startswith("part.nc:2: G111: said to be solved: verified (64 checks, off by less than")
+    assert verified["details"].startswith(
+        "part.nc:2: G111: the result says solved: verified (64 checks, off by less than"
+    )
     again = "G00 X40. Z0.\nG111 A180. K-30. {}\n"
     mixed = opened(TAPER + again.format("") + again.format("B120. X100. P500.")).ask("verify")
     assert mixed["message"] == (
         "Checked again without the solver: 1 of 3 contours has a path that agrees with its words. "
-        "2 of 3 contours without a path to check: 1 without a solution, 1 refused."
+        "2 of 3 contours without a path to check: 2 cannot be cut."
     )
-    assert "\npart.nc:5: G111: said to be refused: not checked" in mixed["details"]
+    assert "\npart.nc:5: G111: the result says cannot be cut: not checked" in mixed["details"]
 
 
 def test_a_tool_is_shown_beside_the_contour_with_the_largest_that_fits():
@@ -380,7 +383,7 @@ def test_the_variables_of_a_subprogram_have_fields_and_their_values_show_what_it
     asked = page.ask("variables")
     fields = [("#1", 5, None, None), ("#2", 5, None, None), ("#5", 2, 2, 10.0), ("#10", 1, 1, 7.0)]
     assert [tuple(each[name] for name in ("name", "line", "set_on", "number")) for each in asked["fields"]] == fields
-    contour = {"line": 4, "last": 5, "status": "underdetermined", "told": "incomplete", "title": "corners"}
+    contour = {"line": 4, "last": 5, "status": "underdetermined", "told": "not enough given", "title": "corners"}
     assert asked["contours"] == [contour]
     assert ([each["fixes"] for each in asked["findings"]], asked["left_out"]) == ([[]], 0)
     given = page.ask("variables", values={"#1": 100.0, "#2": 120})

@@ -231,7 +231,7 @@ def test_variables_and_the_start_point_are_followed_while_they_are_typed(opened,
     page = opened("groove.nc")
     show(page, "Variables")
     contour = page.locator(".view.variables .contours button").first
-    page.locator(".view.variables .contours button", has_text="incomplete").wait_for()
+    page.locator(".view.variables .contours button", has_text="not enough given").wait_for()
     assert page.get_by_label("#18").get_attribute("placeholder") == "0.5"
     page.get_by_label("#24").fill("60")
     page.get_by_label("#4").fill("8,5")
@@ -309,7 +309,7 @@ def test_a_result_is_marked_after_an_edit_and_gives_way_to_a_failure(opened, fol
     page = opened("two.nc")
     do(page, "Drawing as DXF")
     result, older = page.locator(".result"), page.get_by_text("Of the program before the last change.")
-    expect(result.locator(".said")).to_contain_text("left out: 1 contour without a solution (program line 8)")
+    expect(result.locator(".said")).to_contain_text("left out, cannot be cut: 1 contour (program line 8)")
     expect(older).to_be_hidden()
     page.locator(".cm-content").focus()
     page.keyboard.press("Control+End")

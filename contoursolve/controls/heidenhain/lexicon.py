@@ -242,6 +242,7 @@ def spelling(name: str, words: PlaneWords, senses: str = OF_SENSES, corners: str
         remark=";{}",
         codes=_NAMES,
         parts=_parts,
+        counts_blocks=True,
         skip=re.compile(r"[ \t]*+/"),
         bare_number=re.compile(r"[ \t/]*+N?\d++[ \t]*+"),
     )

@@ -1,0 +1,172 @@
+"""The names of straights, arcs and corners in findings: by what stands in the program, for `line 2` is a program line.
+
+Facts, and the JSON's points and elements, have the names of the figure."""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache, partial
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import number_text
+from contoursolve.diagnostics import Diagnostic
+from contoursolve.gcode import FACT, Block
+from contoursolve.geometry import FIRST, SECOND, Arc, Coordinate, CornerShape, Heading, Line, Offset, Profile, Unit
+
+_NTH = ("first", "second", "third", "4th", "5th", "6th")
+_NAME = r"(?<!program )\b(?:line|arc|corner) \d+\b(?! = )"
+_FACT = r"\([^()]*contoursolve[^()]*\)"
+_LINES = r"\bprogram lines? \d+(?:(?:, \d+)* and \d+| to \d+)?"
+
+
+def named_in_program(findings: Iterable[Diagnostic], answer: Answer) -> tuple[Diagnostic, ...]:
+    """Findings about a contour that name each part of it by what stands in the program."""
+    givens = (given.word for given in answer.profile.givens.values())
+    facts = [word for word in (*answer.claim.words.values(), *givens) if word is not None and word.address == FACT]
+    places = {*(word.span for word in facts), *(each.span for each in answer.claim.directives)}
+    texts = {*(word.text for word in facts), *(each.text for each in answer.claim.directives)}
+    kept = (_FACT, *map(re.escape, sorted(texts, key=len, reverse=True)))
+    pattern = re.compile("|".join((*kept, f"(?P<name>{_NAME})", f"(?P<lines>{_LINES})")))
+    blocks = block_numbers(answer.claim.blocks)
+    names = cache(partial(names_of, answer.profile, answer.claim.blocks, blocks))
+
+    def renamed(finding: Diagnostic) -> Diagnostic:
+        told = set[str]()
+
+        def write(found: re.Match[str]) -> str:
+            if found["lines"]:
+                lines = [int(number) for number in re.findall(r"\d+", found["lines"])]
+                if not blocks or any(line not in blocks for line in lines):
+                    return found[0]
+                return re.sub(r"\d+", lambda line: blocks[int(line[0])], found[0].replace("program line", "block"))
+            if not found["name"] or found[0] not in names():
+                # A fact stays as it is written.
+                return found[0]
+            name, kind, place = names()[found[0]]
+            if " -> " in found.string[: found.start()]:
+                # Where it runs then is what is told of it.
+                return f"{kind} in {place}" if place else kind
+            is_new = found[0] not in told
+            told.add(found[0])
+            return f"{name} ({place})" if place and is_new else name
+
+        def rename(text: str) -> str:
+            return pattern.sub(write, text)
+
+        return replace(
+            finding,
+            message=rename(finding.message),
+            labels=tuple(replace(each, text=rename(each.text)) for each in finding.labels),
+            notes=tuple(map(rename, finding.notes)),
+            help=rename(finding.help),
+            fixes=tuple(replace(each, description=rename(each.description)) for each in finding.fixes),
+        )
+
+    # A finding about a fact speaks as facts do.
+    return tuple(each if each.span in places or each.span.line <= 0 else renamed(each) for each in findings)
+
+
+def block_numbers(blocks: Sequence[Block]) -> Mapping[int, str]:
+    """The number of each block by its line, where a program is counted by them; empty where one lacks it."""
+    if not blocks[0].syntax.counts_blocks:
+        return {}
+    numbers = [(block.line, word.number) for block in blocks if (word := block.find("N")) is not None]
+    found = {line: f"{number:f}" for line, number in numbers if number is not None}
+    return found if len({*found.values()}) == len(blocks) else {}
+
+
+def names_of(profile: Profile, blocks: Sequence[Block], numbers: Mapping[int, str]) -> dict[str, tuple[str, str, str]]:
+    """The name of each element and corner of a figure, its kind, and its place: from where to where it runs as far as
+    the program says it, and its line if the contour has several; `numbers` are those of its blocks, if they count."""
+    figure, names = profile.figure, dict[str, tuple[str, str, str]]()
+    lines = {number: line for line, number in numbers.items()}
+    own = {
+        each.name: lines.get(each.name.partition(" ")[2]) or _line_of(each, profile) or blocks[0].line
+        for each in figure.path
+    }
+    several, places = len({*own.values()}) > 1, _places(profile)
+    sizes = {name: given.word for name, given in profile.givens.items() if given.word is not None}
+    sizes |= {question.name: question.word for question in profile.questions}
+
+    def place_of(line: int) -> str:
+        told = f"block {numbers[line]}" if line in numbers else f"program line {line}"
+        return told if several else ""
+
+    for each in figure.path:
+        alike = [other for other in figure.path if own[other.name] == own[each.name] and type(other) is type(each)]
+        nth = f"{_NTH[alike.index(each)]} " if 1 < len(alike) <= len(_NTH) else ""
+        kind = f"the {nth}{'arc' if isinstance(each, Arc) else 'straight'}"
+        told = _way(each, places, profile)
+        names[each.name] = f"the {told}" if told else kind, kind, place_of(own[each.name])
+    for corner in figure.corners:
+        size = sizes.get(corner.size)
+        if size is None or corner.name in names:
+            before, _, place = names.get(corner.before, ("the contour", "", ""))
+            names[corner.name] = f"the corner at the end of {before}", "the corner", place
+        else:
+            kind = "the rounding" if corner.shape is CornerShape.FILLET else "the chamfer"
+            name, at = f"{kind} {size.text}", figure.corners.index(corner)
+            # A fix may write another size, or another shape.
+            is_counted = not several and 1 < len(figure.corners) <= len(_NTH)
+            names[corner.name] = name, f"the {_NTH[at]} corner" if is_counted else kind, place_of(size.span.line)
+    return names
+
+
+def _line_of(element: Line | Arc, profile: Profile) -> int:
+    """The line of the first word that says something of an element; 0 if none does."""
+    parts = {element.name, element.head, *((element.center, element.radius) if isinstance(element, Arc) else ())}
+    words = [
+        profile.givens[given].word
+        for fact in profile.facts
+        if (given := getattr(fact, "given", "")) in profile.givens
+        and parts.intersection(value for value in map(partial(getattr, fact), getattr(fact, "__struct_fields__", ())))
+    ]
+    return min((word.span.line for word in words if word is not None and word.address != FACT), default=0)
+
+
+Places = dict[str, list[float | None]]
+
+
+def _places(profile: Profile) -> Places:
+    """The coordinates of points as far as single words say them, and straight lines along an axis carry them on."""
+    figure, givens = profile.figure, profile.givens
+    places: Places = {name: [None, None] for name in figure.points}
+    places[figure.start] = [None if value is None else float(value) for value in profile.start.values]
+    for _ in figure.path:
+        for fact in profile.facts:
+            value = float(givens[fact.given].value) if getattr(fact, "given", "") in givens else 0.0
+            match fact:
+                case Coordinate():
+                    places[fact.point][fact.axis] = value
+                case Offset() if (origin := places[fact.origin][fact.axis]) is not None:
+                    places[fact.point][fact.axis] = origin + value
+                case Heading() if value % 90 == 0:
+                    across = SECOND if value % 180 == 0 else FIRST
+                    places[fact.head][across] = places[fact.tail][across]
+    return places
+
+
+def _way(element: Line | Arc, places: Places, profile: Profile) -> str:
+    """What an element is and from where to where it runs; empty where the program does not say both ends."""
+    begin, end = places[element.tail], places[element.head]
+    at, to = (
+        ["" if value is None else _text(value, axis, profile) for axis, value in enumerate(each)]
+        for each in (begin, end)
+    )
+    if not all((*at, *to)):
+        return ""
+    is_turned = any(profile.plane.diameters)
+    if isinstance(element, Arc):
+        return f"arc from {' '.join(at)} to {' '.join(to)}"
+    for axis in (FIRST, SECOND):
+        if at[axis] == to[axis] and at[1 - axis] != to[1 - axis]:
+            name = "straight" if not is_turned else "diameter" if profile.plane.diameters[axis] else "face"
+            return f"{name} {at[axis]} from {at[1 - axis]} to {to[1 - axis]}"
+    return f"straight from {' '.join(at)} to {' '.join(to)}"
+
+
+def _text(value: float, axis: int, profile: Profile) -> str:
+    """A coordinate as the program would have it, without decimals that say nothing: `X40`."""
+    shown = value * (2 if profile.plane.diameters[axis] else 1)
+    return f"{profile.plane.axes[axis]}{number_text(shown, Unit.MM, profile.unit).rstrip('.')}"
