@@ -34,12 +34,13 @@ from contoursolve.program.outside_contours import (
     with_slips,
 )
 from contoursolve.program.request import Request
-from contoursolve.program.solve_queue import WAITS, Ahead, Pending, Queue, Step, Together
+from contoursolve.program.solve_queue import Ahead, Pending, Queue, Step, Together
 from contoursolve.program.start_point import StartCount, compare_count, start_count, state_before
 from contoursolve.program.tape_markers import Marks
 from contoursolve.program.told_outside import Outside
 from contoursolve.program.windows import further, near
 from contoursolve.reading import (
+    WAITS,
     Dialect,
     ParsedContour,
     PlainLines,

@@ -24,6 +24,7 @@ from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.lookahead import View
 from contoursolve.reading import (
+    WAITS,
     Awaited,
     Dialect,
     End,
@@ -272,10 +273,6 @@ def _refused(answer: Answer, lost: Diagnostic) -> Answer:
     """The answer to a contour that was read as it is meant, and is not what the control makes of its words."""
     found = (lost, *answer.diagnostics)
     return replace(answer, status=Status.REJECTED, contour=None, certificate=None, sides={}, diagnostics=found)
-
-
-WAITS = "this contour waits for"
-"""The begin of the reason why the place behind a contour that is not solved is not known."""
 
 
 _MOST_FIXES = 3

@@ -80,6 +80,8 @@ from .modal_dependence import (
 )
 from .modal_state import (
     COMMENTED as COMMENTED,
+    FAULTY as FAULTY,
+    WAITS as WAITS,
     Awaited as Awaited,
     Mode as Mode,
     Modes as Modes,

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace as replace_fields
 from decimal import Decimal
 from enum import Enum
 from functools import cache, partial
@@ -66,6 +66,13 @@ class Position:
     """The axis word that set it, where one did."""
     assumed: Decimal | None = None
     """The place where it would be, mm, if the contour that lost it had its best fix."""
+    beyond: Decimal = Decimal(0)
+    """How far increments have led beyond the place that is not known, mm."""
+
+    def step(self, by: Decimal) -> "Position":
+        """An unknown place, some mm further."""
+        assumed = None if self.assumed is None else self.assumed + by
+        return replace_fields(self, beyond=self.beyond + by, assumed=assumed)
 
 
 class Awaited(Position):
@@ -125,6 +132,14 @@ class Awaited(Position):
     def assumed(self) -> Decimal | None:
         return self.found().assumed
 
+    @property
+    def beyond(self) -> Decimal:
+        return self.found().beyond
+
+    def step(self, by: Decimal) -> Position:
+        """Raises ValueError if its place is not found yet."""
+        return self.found().step(by)
+
 
 _DEEPEST = 50
 """Positions that each follow from the one before, of which none is looked at."""
@@ -181,6 +196,17 @@ class State(Struct, frozen=True):
     doubts: Mapping["Mode | str", str] = {}
     """The rest that is not known to be in force, as ways that meet do not agree on it, and why: modes, and by their
     address words that stay in force."""
+
+    def step_to(self, other: "State") -> complex | None:
+        """The way to where another state behind this one is, mm in the plane; None where it is not known."""
+        ways = list[float]()
+        for axis in self.plane.axes:
+            here, there = self.axes[axis], other.axes[axis]
+            if here.value is not None and there.value is not None:
+                ways.append(float(there.value - here.value))
+            elif here.value is None and there.value is None and (here.reason, here.span) == (there.reason, there.span):
+                ways.append(float(there.beyond - here.beyond))
+        return complex(*ways) if len(ways) == len(self.plane.axes) else None
 
     def start(self) -> Start:
         """The position in the plane."""
@@ -356,6 +382,11 @@ COMMENTED = "comment"
 """The name of what stays in force where lines are a comment."""
 
 
+WAITS, FAULTY = "this contour waits for", "the block has an error"
+"""The begins of the reasons why a place is not known that an error before it has: behind a contour that is not solved,
+and behind a word that cannot be read."""
+
+
 def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
     """The rows of a block's G codes; a code without a row is given as its word."""
     found: list[Code | Word] = []
@@ -525,7 +556,7 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         open_axes = tuple(row.axis for row in rows if row.follows_increments)
         state = state.lose(open_axes, f"what {preset.text} sets where increments are in force is not known", block.span)
     state = _lose_ends(state, block, modes)
-    return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
+    return state.move({axis: Position(None, FAULTY, span) for axis, span in lost.items()})
 
 
 def _moved(state: State, words: list[Word], block: Block, modes: Modes) -> State:
@@ -598,7 +629,7 @@ def _led(word: Word, before: Position | None, state: State, modes: Modes, is_ski
 def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Position:
     """The place where an increment leads, mm."""
     if before.value is None:
-        return before
+        return before.step(by)
     return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable, word)
 
 
