@@ -386,7 +386,7 @@ def _stated_end(claim: ParsedContour) -> tuple[Decimal | None, Decimal | None]:
                 point = tails.pop(point)
             else:
                 return None
-        first = profile.start.values[axis]
+        first = claim.before.start().values[axis]
         return None if first is None else total + first
 
     return along(FIRST), along(SECOND)
