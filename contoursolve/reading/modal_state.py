@@ -1,6 +1,7 @@
 """The modal state of a control, where the tool is and what is in force, followed through blocks and plain lines."""
 
 import re
+from cmath import rect
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace as replace_fields
@@ -8,6 +9,7 @@ from decimal import Decimal
 from enum import Enum
 from functools import cache, partial
 from itertools import groupby
+from math import radians
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -569,11 +571,36 @@ def _moved(state: State, words: list[Word], block: Block, modes: Modes) -> State
 def _lose_ends(state: State, block: Block, modes: Modes) -> State:
     """The state where the axes of the plane are not known whose end words state that are not read."""
     for word in block.words:
-        if modes.lexicon.bearing(word.address) is Bearing.END:
+        if modes.arcs is not None and word.address == modes.arcs.opening and state.motion in (2, _COUNTER_CLOCKWISE):
+            state = _opened(state, block, word, modes)
+        elif modes.lexicon.bearing(word.address) is Bearing.END:
             stated = {_axis(each, modes) for each in block.words}
             left = tuple(axis for axis in state.plane.axes if axis not in stated)
             state = state.lose(left, not_read(word.text), word.span)
     return state
+
+
+def _opened(state: State, block: Block, word: Word, modes: Modes) -> State:
+    """The state behind an arc by its opening angle: with a centre and without an end, it turns about that centre."""
+    plane, words = state.plane, modes.words(state)
+    centers = [block.find(each) for each in plane.centers]
+    if any(_axis(each, modes) in plane.axes for each in block.words):
+        return state
+    values = [Decimal(0) if each is None else words.value(each, state.unit) for each in centers]
+    first, second = (None if value is None else float(value) for value in values)
+    if not any(centers) or word.number is None or first is None or second is None or state.doubts:
+        return state.lose(plane.axes, not_read(word.text), word.span)
+    sign = 1 if state.motion == _COUNTER_CLOCKWISE else -1
+    turned = -complex(first, second) * rect(1, sign * radians(word.number))
+    moved = dict[str, Position]()
+    for axis, end in zip(plane.axes, (first + turned.real, second + turned.imag), strict=True):
+        before, by = state.axes[axis], Decimal(repr(end)).quantize(_EXACT)
+        lead = partial(_step, by=by, word=word, is_skippable=block.is_skippable)
+        moved[axis] = before.then(lead) if isinstance(before, Awaited) else lead(before)
+    return state.move(moved)
+
+
+_COUNTER_CLOCKWISE, _EXACT = 3, Decimal("1e-9")
 
 
 def not_read(text: str) -> str:
