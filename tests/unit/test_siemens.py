@@ -200,7 +200,8 @@ def test_where_a_corner_is_not_made_the_words_of_the_end_still_say_where_it_is()
     # An increment from a place that is not known leads to none.
     unknown = "G17 G90 G54\nG0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX100 Y100 ANG=120\nG1 X10 RND=2\nY10\nM30"
     first, second = solve(unknown, control="siemens-840d").answers
-    assert first.start.is_relative and second.start.is_relative
+    assert first.start.is_relative
+    assert second.start.is_relative
 
 
 def test_an_arc_by_its_opening_angle_is_read_and_the_next_contour_begins_behind_it():
