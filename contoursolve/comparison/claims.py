@@ -138,7 +138,8 @@ class ClaimedCount(Struct, frozen=True):
 
 
 class ClaimedContour(ClaimedPath, frozen=True):
-    """One contour of the result; the coordinates of `start` are None where the result does not know them."""
+    """One contour of the result; the coordinates of `start` are None where the result does not know them, and 0 where
+    its `place` is relative."""
 
     line: LineNumber
     lines: tuple[LineNumber, ...]
@@ -154,6 +155,7 @@ class ClaimedContour(ClaimedPath, frozen=True):
     solutions: tuple[ClaimedSolution, ...]
     count: ClaimedCount | None
     diagnosis: dict[str, Any] | None
+    place: Literal["relative"] | None = None
 
     @property
     def has_path(self) -> bool:

@@ -165,6 +165,8 @@ def _unlike(old: Travel, new: Travel) -> str:
     """In what two elements are of another kind; empty if in nothing."""
     if old.motion is not new.motion:
         return f"OLD is a {old.motion.value}, NEW is a {new.motion.value}"
+    if old.free != new.free:
+        return f"where it is on {' and '.join(sorted({*old.free} ^ {*new.free}))} is known in one program only"
     if old.is_skippable != new.is_skippable:
         return f"only {'OLD' if old.is_skippable else 'NEW'} can be skipped with /"
     if old.compensation != new.compensation:

@@ -26,6 +26,7 @@ from contoursolve.reading import (
     Effect,
     Lexicon,
     Plain,
+    Position,
     Reliance,
     State,
     WithoutPoint,
@@ -36,7 +37,7 @@ from contoursolve.reading import (
     leave,
     reliance,
 )
-from contoursolve.solving import ArcSegment, Segment, center_by_radius
+from contoursolve.solving import ArcSegment, Segment, center_by_radius, shifted
 from contoursolve.tolerance import LENGTH, REGULAR
 
 FINISHING, ROUGHING = ("G70",), ("G71", "G72", "G73")
@@ -45,6 +46,7 @@ _G70 = 70
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _NO_COMPENSATION = 40
 
+_NOWHERE = (None, None)
 _LINES = {0: Motion.RAPID, 1: Motion.FEED}
 _BESIDE = frozenset("NGFSTMDHEO")
 """Addresses that may stand beside the coordinates of a move and say nothing about its path."""
@@ -69,6 +71,17 @@ class ToolPath(Struct, frozen=True):
     def unfollowed(self) -> tuple[Unfollowed, ...]:
         """The parts that are not followed."""
         return tuple(step for step in self.steps if isinstance(step, Unfollowed))
+
+    def with_places(self) -> "ToolPath":
+        """The same without moves in a plane in which only their steps are known."""
+        return replace(self, steps=tuple(map(_with_place, self.steps)))
+
+
+def _with_place(step: Step) -> Step:
+    if isinstance(step, Unfollowed) or step.plane is None or {*step.plane.axes}.isdisjoint(step.free):
+        return step
+    reason = "where it begins is not known; state that with --start"
+    return Unfollowed(step.line, step.text, (f"step {step.text}",), reason, step.file)
 
 
 def follow(
@@ -107,6 +120,8 @@ class _Follower:
         self.centers = Centers.START
         self.state = dialect.initial_state(unit)
         self.axes = axes
+        self.bases = dict[str, object]()
+        """What made each axis unknown on which steps are followed since."""
         self.ran: list[Block] = []
         self.plain = dialect.writing.plain() if dialect.writing is not None else None
 
@@ -167,45 +182,59 @@ class _Follower:
         by_name = {name: part for part in parts[::-1] for name in part.names or ()}
         places = {block.line: len(self.ran) + number for number, block in enumerate(blocks)}
         self.ran += blocks
+        of_axes = zip(answer.plane.axes, answer.start.free, strict=True)
+        free = [
+            axis for axis, is_free in of_axes if is_free and self._steps_on(axis, self.state, self.state, is_new=True)
+        ]
+        begin = [float(self.state.axes[axis].beyond) if axis in free else 0.0 for axis in answer.plane.axes]
         for element in elements:
             part = by_name.get(element.name, parts[0])
             # Axes outside the plane move along.
             ends = self.state, left if element is elements[-1] else self.state
-            yield replace(self._segment(part, answer.plane, element, ends), number=places[part.block.line])
+            own = shifted(element, (begin[0], begin[1])) if any(begin) else element
+            step = self._segment(part, answer.plane, own, ends)
+            named = (*free, *step.free)
+            step = replace(step, free=tuple(axis for axis in self.axes if axis in named))
+            yield replace(step, number=places[part.block.line])
         if answer.contour is None:
             yield self._unfollowed(claim.blocks[0], reason)
         elif not elements and any(map(claim.beside_plane, claim.blocks)):
             motion = Motion.RAPID if parts[0].state.motion == 0 else Motion.FEED
-            ways = self._place(self.state), self._place(left)
-            yield self._travel(claim.blocks[0], parts[0].state, motion, ways, None)
+            yield self._between(claim.blocks[0], parts[0].state, motion, (self.state, left))
         self.state = left
 
     def _segment(self, part: ContourBlock, plane: Plane, segment: Segment, states: tuple[State, State]) -> Travel:
         """An element of a contour in space, where the other axes are as in the states before and after it."""
         is_rapid = self.plain.is_rapid(part.block) if self.plain else part.is_rapid
-        ends = self._place(states[0]), self._place(states[1])
-        travel = self._travel(part.block, part.state, Motion.RAPID if is_rapid else Motion.FEED, ends, None)
+        travel = self._between(part.block, part.state, Motion.RAPID if is_rapid else Motion.FEED, states)
         return along(replace(travel, plane=plane, element=segment.name), segment, self.axes)
 
     def _restated(self, plain: Plain, block: Block) -> Iterator[Step]:
         """The steps of a block that is not programmed in G codes."""
         before, here = self.state, apply_modes(self.state, block, self.modes)
         self.state = advance(before, block, self.modes)
-        said = plain.restate(block, before, self.state)
+        rows = (self.modes.lexicon.addresses.get(word.address) for word in block.words)
+        begin, finish, free = self._ends(before, self.state, [row.axis for row in rows if row])
+        said = plain.restate(block, _counted(before, free), self.state)
         others = [text for text in said.says.words if text[0] not in _BESIDE]
         if others or (said.reason and not said.ends):
             yield self._unfollowed(block, f"{others[0]} in a move" if others else said.reason)
             return
-        start = self._place(before)
-        end = tuple(said.ends.get(axis, at) for axis, at in zip(self.axes, start, strict=True))
+        if said.around is not None and free and not block.find(self.modes.radius):
+            yield self._unfollowed(block, "where it begins is not known, and its centre is a coordinate")
+            return
+        start = begin
+        end = tuple(
+            finish[place] if axis in free else said.ends.get(axis, start[place]) for place, axis in enumerate(self.axes)
+        )
         motion = Motion.RAPID if said.is_rapid else Motion.FEED
         ways = zip(start, end, strict=True)
         if said.around is not None:
             indices = self.axes.index(here.plane.axes[0]), self.axes.index(here.plane.axes[1])
             for begin, finish, bend in _turns(indices, said.around, start, end):
-                yield self._travel(block, here, motion, (begin, finish), bend)
+                yield replace(self._travel(block, here, motion, (begin, finish), bend), free=free)
         elif any(new is not None and (old is None or abs(new - old) > LENGTH) for old, new in ways):
-            yield self._travel(block, here, motion, (start, end), None)
+            yield replace(self._travel(block, here, motion, (start, end), None), free=free)
 
     def _switch(self, block: Block) -> Block:
         """A block without the codes that change how its words are read, which are in force now."""
@@ -254,9 +283,10 @@ class _Follower:
         turn = _TURNS.get(here.motion or 0)
         if not moved and (turn is None or is_preset or not has_center):
             return
-        lost = [self.state.axes[axis].reason for axis in moved if self.state.axes[axis].value is None]
         code = self.modes.codes.get(here.motion) if here.motion is not None else None
-        ends = self._place(here), self._place(self.state)
+        start, end, free = self._ends(here, self.state, moved)
+        places = [self.state.axes[axis] for axis in moved if axis not in free]
+        lost, ends = [place.reason for place in places if place.value is None], (start, end)
         if lost:
             yield self._unfollowed(block, lost[0])
         elif is_preset:
@@ -275,7 +305,7 @@ class _Follower:
             elif any(
                 new is not None and (old is None or abs(new - old) > LENGTH) for old, new in zip(*ends, strict=True)
             ):
-                yield self._travel(block, here, motion, ends, None)
+                yield replace(self._travel(block, here, motion, ends, None), free=free)
 
     def _is_plain(self, word: Word, more: tuple[str, ...] = ()) -> bool:
         row = self.modes.lexicon.addresses.get(word.address)
@@ -293,9 +323,10 @@ class _Follower:
         beside = [word for word in block.words if not self._is_plain(word, own)]
         if beside:
             return self._unfollowed(block, f"{beside[0].text.strip()} in an arc of {here.plane.code}")
-        ends = self._place(here), self._place(self.state)
+        rows = (self.modes.lexicon.addresses.get(word.address) for word in block.words)
+        begun, ended, free = self._ends(here, self.state, [row.axis for row in rows if row])
         indices = self.axes.index(here.plane.axes[0]), self.axes.index(here.plane.axes[1])
-        known = [place[index] for place in ends for index in indices]
+        known = [place[index] for place in (begun, ended) for index in indices]
         numbers = [value for value in known if value is not None]
         if len(numbers) != len(known):
             return self._unfollowed(block, "the start of the arc is not known")
@@ -303,12 +334,15 @@ class _Follower:
         values = self._values(block, here)
         if values is None:
             return self._unfollowed(block, "the centre or the radius of the arc is not known")
+        absolute = map(_ABSOLUTE.format, here.plane.centers)
         if "R" in values and len(values) > 1:
             return self._unfollowed(block, "the arc has a centre and a radius")
         if "R" in values:
             center = center_by_radius(start, end, values["R"], turn, self.modes.radius_difference)
             if center is None:
                 return self._unfollowed(block, "R is too small for the arc, or the arc ends where it starts")
+        elif free and (self.centers is not Centers.START or not {*absolute}.isdisjoint(values)):
+            return self._unfollowed(block, "the start of the arc is not known")
         else:
             base = start if self.centers is Centers.START else (0.0, 0.0)
             ways = zip(here.plane.centers, base, strict=True)
@@ -320,7 +354,7 @@ class _Follower:
             return self._unfollowed(
                 block, f"the radius of the arc is {one:.4f} {unit} at its start and {other:.4f} {unit} at its end"
             )
-        return self._travel(block, here, Motion.FEED, ends, bend)
+        return replace(self._travel(block, here, Motion.FEED, (begun, ended), bend), free=free)
 
     def _values(self, block: Block, here: State) -> dict[str, float] | None:
         """The centre or the radius that a block states, mm; None if it states none, or one that has no number."""
@@ -336,6 +370,34 @@ class _Follower:
                     return None
                 values["R" if word.address == self.modes.radius else word.address] = float(value)
         return values or None
+
+    def _between(self, block: Block, here: State, motion: Motion, states: tuple[State, State]) -> Travel:
+        """A move from one state to another."""
+        start, end, free = self._ends(*states)
+        return replace(self._travel(block, here, motion, (start, end), None), free=free)
+
+    def _ends(self, before: State, after: State, moved: Sequence[str] = ()) -> tuple[Place, Place, tuple[str, ...]]:
+        """Where a move along some axes begins and ends, and the axes on which only its step is known."""
+        start, end = [*self._place(before)], [*self._place(after)]
+        free = tuple(
+            axis
+            for axis, ends in zip(self.axes, zip(start, end, strict=True), strict=True)
+            if axis in after.axes and ends == _NOWHERE and self._steps_on(axis, before, after, is_new=axis in moved)
+        )
+        for place, axis in enumerate(self.axes):
+            if axis in free:
+                start[place], end[place] = float(before.axes[axis].beyond), float(after.axes[axis].beyond)
+        return tuple(start), tuple(end), free
+
+    def _steps_on(self, axis: str, before: State, after: State, *, is_new: bool) -> bool:
+        """Whether steps along an axis are followed from an unknown place; from a step that is new on."""
+        here, there = before.axes[axis], after.axes[axis]
+        base = here.reason, here.span
+        if (there.reason, there.span) != base:
+            return False
+        if is_new or here.beyond != there.beyond:
+            self.bases[axis] = base
+        return self.bases.get(axis) == base
 
     def _place(self, state: State) -> Place:
         values = (state.axes[axis].value if axis in state.axes else None for axis in self.axes)
@@ -392,6 +454,12 @@ class _Follower:
         counts = self.modes.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
         is_count = counts and not word.has_point and word.number and word.address not in _NAMES
         return f"{word.address}{word.number.normalize():f}{' increments' if is_count else ''}"
+
+
+def _counted(state: State, free: Iterable[str]) -> State:
+    """A state whose places count from where nobody knows along some axes."""
+    places = ((axis, state.axes[axis]) for axis in free)
+    return state.move({axis: Position(at.beyond, at.reason, at.span) for axis, at in places})
 
 
 def _named(code: Code) -> str:

@@ -119,7 +119,7 @@ def prepare(
     offences = () if rules == "off" or is_faulty else offences_of(claim, dialect.rules)
     plain = read(claim, frozenset(each.ignored for each in offences if each.ignored))
     profile, faults = apply_statements(plain, claim.directives, lambda: next_end)
-    profile = plain if faults else profile
+    profile = plain if faults else profile if claim.needs_place else profile.with_free_start()
     wrong = [*_unreadable(claim), *(fault.message for fault in faults)]
     is_strict = rules == "enforce" and not claim.directives and not any(word.is_asked for word in claim.words.values())
     for rule in (each.rule for each in offences if is_strict and not each.ignored):
@@ -557,7 +557,12 @@ def _check_block(of: ContourEvidence, ledger: Ledger) -> None:
     ):
         told, has = (" ".join(ascii(each)[1:60].strip("'") for each in texts) or "none" for texts in (own, its))
         ledger.require(name, (), told == has, f"the program has {told}, and the result has {has}")
-    for axis, known, value in zip(claim.before.plane.axes, claim.before.start().values, claimed.start, strict=True):
+    start, is_relative = of.case.profile.start, claimed.place is not None
+    if is_relative or start.is_relative:
+        whose = "the program's words alone" if start.is_relative else "the result's alone"
+        name, remark = "coordinates count from the start", f"{whose} make them count so"
+        ledger.require(name, (), is_relative is start.is_relative, remark)
+    for axis, known, value in zip(claim.before.plane.axes, start.values, claimed.start, strict=True):
         name = f"{axis} of the start is the program's position"
         if known is not None and value is not None:
             ledger.measure(name, (), value - float(known), RESIDUAL + ROUNDING * abs(float(known)))

@@ -63,6 +63,8 @@ class Travel(Struct, frozen=True):
     """The place of its block among those that run, from 0."""
     called_at: int = 0
     """The line of the main program that calls its file, if it has one."""
+    free: tuple[str, ...] = ()
+    """The axes on which only steps are known: its coordinates count from a place that nobody knows."""
 
     def at(self, fraction: float) -> Place:
         """The point that lies at a fraction of the way."""

@@ -199,5 +199,7 @@ def follow(
 def _distance(claimed: ClaimedContour, found: ParsedContour) -> float:
     """The distance between two starts, mm; a coordinate that one of them does not know counts as far."""
     here = (None if value is None else float(value) for value in found.before.start().values)
-    pairs = zip(claimed.start, here, strict=True)
+    # From an unknown place, a claimed path begins at 0.
+    of_axes = zip(claimed.start, here, strict=True)
+    pairs = ((None if b is None and claimed.place and a == 0 else a, b) for a, b in of_axes)
     return sum(abs(a - b) if a is not None and b is not None else FARTHEST * (a is not b) for a, b in pairs)

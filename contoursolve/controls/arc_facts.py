@@ -118,7 +118,7 @@ def _lathe(table: ArcTable) -> ArcTable:
 _SIEMENS = "SINUMERIK NC programming manual"
 _14040 = _alarm("14040 (error in the end point of a circle)")
 _SIEMENS_FACTS = ArcFacts(
-    ArcTable(share=0.001, both=BothStated.AGREES, beside=frozenset({"TURN"})),
+    ArcTable(share=0.001, both=BothStated.AGREES, opening="AR", through="CIP", beside=frozenset({"TURN"})),
     ArcRows(
         {
             ArcIssue.RADII_DIFFER: (printed("SINUMERIK alarm 14040", "machine data 21000 and 21010"), _14040),
@@ -128,8 +128,11 @@ _SIEMENS_FACTS = ArcFacts(
             ArcIssue.BOTH: (assumed(_SIEMENS, "a form with both is printed; no word on a clash"), None),
             ArcIssue.OUTSIDE_PLANE: (assumed(_SIEMENS, "G17, G18, G19"), None),
             ArcIssue.EMPTY: (assumed(_SIEMENS, "circular interpolation"), None),
+            ArcIssue.OPENING: (assumed(_SIEMENS, "AR, the opening angle: its range is recalled"), None),
+            ArcIssue.IN_LINE: (Source(_SIEMENS, "CIP: three points in line are on no circle", Evidence.DERIVED), None),
         },
         in_codes("G17 G90 G71\nG0 X0 Y0\nG1 X0 Y0 F200\n", "XY", "IJ", "CR="),
+        wrong={ArcIssue.OPENING: "G02 X20. Y0. AR=400.", ArcIssue.IN_LINE: "CIP X20. Y0. I1=10. J1=0."},
         is_by_agreement=True,
     ),
     (

@@ -76,6 +76,14 @@ _TEXTS: Mapping[ArcIssue, tuple[str, str]] = {
         "{words}: the arc has a radius of 0",
         "correct its centre or its radius",
     ),
+    ArcIssue.OPENING: (
+        "{words}: an opening angle is more than 0 deg and less than 360 deg",
+        "write the angle by which the arc turns",
+    ),
+    ArcIssue.IN_LINE: (
+        "{words}: the point between the ends lies in line with them, so that there is no arc",
+        "correct the point between the ends",
+    ),
 }
 _BOTH_DISAGREE = "{words}: the arc has a centre and a radius, and the centre is not that far from its start"
 _WARNINGS = (ArcIssue.SPIRAL, ArcIssue.CENTRE_MOVES, ArcIssue.MOVES_NOTHING, ArcIssue.RUNS_LINE)

@@ -268,6 +268,16 @@ READING_RULES = (
         slip={"start": ""},
     ),
     Rule(
+        code="start-relative",
+        message="the start point is not known in {axes}: {reason}; all words are increments, so {axes} {count} from "
+        "the start",
+        help="state where the tool is with --start, if the place matters",
+        source=_READING,
+        about=ReadIssue.START_RELATIVE,
+        severity=Severity.INFO,
+        slip={"wrong": "{steps}"},
+    ),
+    Rule(
         code="mode-unknown",
         message="{what} {are} not known here: {reason}",
         help="say it in this block, or between that place and this one",

@@ -60,6 +60,7 @@ G_CODES: Mapping[str, str] = {
     "nowhere": "GOTO 20\n",
     "jump": "IF[#1 EQ 1]GOTO5\nG20\nN5 ",
     "place": "{start_again}",
+    "steps": "G91\n{contour}",
     "call": "M98 P100",
     "subprogram": "\nM30\nO0100\n{contour}\nM99",
     "call_file": "M98 P200",

@@ -188,6 +188,8 @@ class Trial(Struct, frozen=True, dict=True):
             return self.made(contour, edits, replacement) if contour else None
         if answer.contour is None or not _is_settled(answer, edits):
             return None
+        if answer.start.is_relative and claim.before.start().is_known:
+            return None
         # No change of the block moves its start.
         findings = [each for each in problems(answer) if each.about is not ReadIssue.START_IN_INCREMENTS]
         rules = [each for each in findings if _is_crossing(each)]
@@ -385,7 +387,7 @@ class Trial(Struct, frozen=True, dict=True):
         a drawing that has no closed form. None if nothing is found."""
         found = self.find(sampled(edits))
         profile = self._stated(found) if found else None
-        if found is None or profile is None:
+        if found is None or profile is None or not profile.start.is_known:
             return None
         if profile.is_extended:
             system = assemble(profile)

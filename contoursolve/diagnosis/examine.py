@@ -187,6 +187,13 @@ class Answer(Shown, Struct, frozen=True):
         return EquationSystem(self.claim, self.profile)
 
     @property
+    def led(self) -> tuple[float, float]:
+        """How far steps have led before it where its place is not known, mm: from the place that was lost."""
+        of_axes = zip(self.plane.axes, self.start.free, strict=True)
+        first, second = (float(self.claim.before.axes[axis].beyond) if is_free else 0.0 for axis, is_free in of_axes)
+        return first, second
+
+    @property
     def assumptions(self) -> tuple[Assumption, ...]:
         """Assumptions on which the contour rests, of all that the control is taken to accept."""
         return self.claim.rests_on([AT_ITS_LIMIT] if self._has_bevel_at_its_limit() else [])
@@ -265,8 +272,8 @@ def examine(
         notebook.add(finding, Status.UNDERDETERMINED)
     # What rules refuse because nothing of it moves begins nowhere.
     is_still = is_whole and Status.REJECTED in notebook.statuses and not _says_where(claim)
-    if not profile.start.is_known and not is_still:
-        notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
+    if not (profile.start.is_known and not profile.start.is_relative) and not is_still:
+        notebook.add(explain_start(context, claim, profile.start), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
     left_out = (claim.words.get(offence.ignored) for offence in ignoring)
@@ -384,7 +391,8 @@ def _state_more(
         about = ReadIssue.FACT_IMPOSSIBLE if fault.is_readable else ReadIssue.FACT_UNREADABLE
         notebook.add(report(context, about, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
     # With a fact that cannot be used, the others may speak of what is not drawn.
-    return profile if faults else extended, not faults
+    stated = profile if faults else extended
+    return stated if claim.needs_place else stated.with_free_start(), not faults
 
 
 def problems(answer: Answer) -> list[Diagnostic]:

@@ -241,6 +241,7 @@ def _oddities_of(cutting: Sequence[Stretch]) -> Iterator[tuple[Feature, float]]:
     turned = next((each.turned for each in cutting if each.turned is not None), None)
     if turned is None:
         return
+    cutting = [each for each in cutting if each.turned is not None]
     along = 1 - turned
     began = cutting[0].start[along]
     steps = [each.end[along] - each.start[along] for each in cutting]

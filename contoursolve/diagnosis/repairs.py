@@ -44,7 +44,7 @@ from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block, FaultKind, number_of, spell
 from contoursolve.geometry import Given, Profile, Unit
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, check, read
+from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, check, read
 from contoursolve.solving import (
     AffineFacts,
     Circuit,
@@ -70,8 +70,31 @@ def find_repairs(
     """The repairs of a contour that was refused, or in which a word is ignored.
 
     A repair leaves no error and no warning. None of them contains another one. `following` are the next blocks,
-    `previous` those before it, of which it may be the end, with the state before them.
+    `previous` those before it, of which it may be the end, with the state before them. Where the start is not known,
+    G90 and G91 stay as they are, and if nothing else is wrong, a repair tells where it is.
     """
+    found, start = _find_repairs(answer, dialect, following, previous, window), answer.start
+    if start.is_known and not start.is_relative:
+        return found
+    is_lost = all(each.about is ReadIssue.POSITION_UNKNOWN for each in problems(answer))
+    rows = dialect.modes.codes.values()
+    codes = {code.text for code in rows if code.effect in (Effect.ABSOLUTE, Effect.INCREMENTAL)}
+    kept = tuple(
+        each
+        for each in found.repairs
+        if codes.isdisjoint(edit.old.strip() for edit in each.edits)
+        and (not is_lost or (each.contour is not None and not any(each.contour.free)))
+    )
+    return replace(found, repairs=kept, is_complete=False, is_cut=found.is_cut and not is_lost)
+
+
+def _find_repairs(
+    answer: Answer,
+    dialect: Dialect,
+    following: tuple[Block, ...],
+    previous: tuple[Sequence[Block], State] | None,
+    window: Window | None,
+) -> Repairs:
     answer = _alone(answer, dialect)
     claim = answer.claim
     # No change of words closes a comment, and what leaves a warning is no repair.

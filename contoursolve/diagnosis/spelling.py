@@ -27,7 +27,7 @@ from contoursolve.gcode import (
     number_of,
     spell,
 )
-from contoursolve.geometry import Arc, CornerShape, Given, Length, Unit
+from contoursolve.geometry import Arc, CornerShape, Given, Length, Start, Unit
 from contoursolve.reading import (
     Effect,
     Lexicon,
@@ -334,20 +334,23 @@ def explain_modes(context: Context, claim: ParsedContour) -> Iterator[Diagnostic
         yield report(context, ReadIssue.MODE_UNKNOWN, Basis.RULE, [], what=join(several), are=are, reason=why)
 
 
-def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:
+def explain_start(context: Context, claim: ParsedContour, start: Start) -> Diagnostic:
     """Findings about axes of the start point that are unknown, and the line that made them so."""
-    unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
+    of_axes = zip(claim.before.plane.axes, start.values, start.free, strict=True)
+    unknown = [axis for axis, at, is_free in of_axes if (is_free if start.is_known else at is None)]
     places = [claim.before.axes[axis] for axis in unknown]
     reasons = dict.fromkeys(f"{each.reason}{_on_line(each)}" for each in places)
-    if claim.before.is_incremental and any(each.span is None for each in places):
+    about = ReadIssue.START_RELATIVE if start.is_known else ReadIssue.POSITION_UNKNOWN
+    if not start.is_known and claim.before.is_incremental and any(each.span is None for each in places):
         reasons["G91 is active, and an increment from an unknown position gives none"] = None
     finding = report(
         context,
-        ReadIssue.POSITION_UNKNOWN,
+        about,
         Basis.RULE,
         [],
         axes=" and ".join(unknown),
         reason="; ".join(reasons),
+        count="counts" if len(unknown) == 1 else "count",
     )
     labels = (Label(each.span, "the position is lost here") for each in places if each.span)
     return replace(finding, labels=finding.labels + tuple(dict.fromkeys(labels)), addresses=tuple(unknown))

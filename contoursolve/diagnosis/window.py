@@ -36,8 +36,8 @@ class WindowPart(Struct, frozen=True):
 
 
 class Stretch(Struct, frozen=True):
-    """A stretch of the path in the plane, mm; `turned` is the axis that counts diameters, if one does. It begins and
-    ends in a direction, and turns by `sweep` between them, degrees."""
+    """A stretch of the path in the plane, mm; `turned` is the axis that counts diameters, if one does, and its place is
+    known. It begins and ends in a direction, and turns by `sweep` between them, degrees."""
 
     start: Point
     end: Point
@@ -60,6 +60,11 @@ class Seen(Struct, frozen=True):
     def keys(self) -> frozenset[tuple[str, int]]:
         """The problems by their code and line."""
         return frozenset((each.code, each.span.line) for each in self.problems)
+
+    @property
+    def placeless(self) -> frozenset[int]:
+        """The lines of contours that have a shape and no place."""
+        return frozenset(each.lines[0] for each in self.answers if each.start.is_relative)
 
     def has_code(self, code: str) -> bool:
         """Whether one of the problems has a code."""
@@ -166,6 +171,8 @@ class Window(Struct, frozen=True, dict=True):
         for it shows only then."""
         first, last = self.lines[0], self.lines[-1]
         old = self.before
+        if not seen.placeless <= old.placeless:
+            return False
         lost = self._waiting - seen.changed
         # The last blocks may belong to what is not seen any more.
         end = self.behind[-1].line if self.behind else last + 1
@@ -225,6 +232,7 @@ def _moves(part: WindowPart) -> Iterator[Stretch]:
 def moves_of(contour: Contour) -> Iterator[Stretch]:
     """The path of a contour."""
     turned = next((number for number, is_diameter in enumerate(contour.plane.diameters) if is_diameter), None)
+    turned = None if any(contour.free) else turned
     for each in contour.elements:
         if isinstance(each, ArcSegment):
             sweep = degrees(each.length / each.radius) * each.turn.sign if each.radius else 0.0

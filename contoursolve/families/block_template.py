@@ -96,7 +96,7 @@ class Template(Struct, frozen=True, eq=False):
         if not result.answers and result.has_errors:
             raise self.refused(values)
         answer = self.one_of(result)
-        if not answer.start.is_known:
+        if not answer.start.is_known or answer.start.is_relative:
             if any(not each.span.line for each in errors_of(result)):
                 raise self.refused(values)
             raise FamilyError('the start point is not known; state it as the start, such as "X40. Z0."')

@@ -6,6 +6,7 @@ from enum import Enum
 from functools import cached_property
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry.fact import Fact
@@ -83,9 +84,19 @@ class Question(Struct, frozen=True):
 
 
 class Start(Struct, frozen=True):
-    """The start point of a contour: a value in mm (X as radius) per axis, None where unknown."""
+    """The start point of a contour: a value in mm (X as radius) per axis, None where unknown.
+
+    On an axis that is `free` it is not known either, and nothing depends on it: coordinates count from the start, which
+    is 0 there.
+    """
 
     values: tuple[Decimal | None, Decimal | None]
+    free: tuple[bool, bool] = (False, False)
+
+    @property
+    def is_relative(self) -> bool:
+        """Whether coordinates count from it on an axis: the contour has a shape, and no place."""
+        return any(self.free)
 
     @property
     def is_known(self) -> bool:
@@ -190,6 +201,20 @@ class Profile(Struct, frozen=True, dict=True):
     def facts(self) -> tuple[Fact, ...]:
         """The facts that the words state, as far as the control uses them."""
         return self.layout.facts
+
+    def with_free_start(self) -> "Profile":
+        """The same with its start at 0 along each axis on which it is not known, if nothing is stated or asked of where
+        anything is; else with what is known."""
+        start = self.start
+        if start.is_known and not start.is_relative:
+            return self
+        facts = (*self.facts, *self.ignored, *(question.fact for question in self.questions))
+        is_placed = any(fact.placed is not None and not fact.placed.origin for fact in facts)
+        rest = None if is_placed or self.figure.places else Decimal(0)
+        unknown = [at is None or is_free for at, is_free in zip(start.values, start.free, strict=True)]
+        first, second = (rest if is_open else at for at, is_open in zip(start.values, unknown, strict=True))
+        free = (unknown[0] and rest is not None, unknown[1] and rest is not None)
+        return replace(self, start=Start((first, second), free))
 
 
 def least_increments(unit: Length, plane: Plane, givens: Mapping[str, Given]) -> dict[str, float]:

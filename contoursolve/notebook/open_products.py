@@ -154,7 +154,7 @@ def notebook_about(program: "OpenProgram", line: int) -> Product:
     answer, dialect = program.contour_at(line), program.dialect
     if answer is None or dialect is None:
         return Product(None, "there is no contour under the cursor")
-    if not answer.start.is_known:
+    if not answer.start.is_known or answer.start.is_relative:
         return Product(None, "the start point of this contour is not known")
     options: dict[str, Any] = {
         "control": dialect.name,

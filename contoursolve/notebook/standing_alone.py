@@ -43,7 +43,7 @@ def standing_alone(
     G00 Z0 X40.
     G111 X100. A180. K-30. B120. P5.
     """
-    if not answer.start.is_known:
+    if not answer.start.is_known or answer.start.is_relative:
         return ""
     dialect = control if isinstance(control, Dialect) else configure(find_dialect(control), settings)
     state, codes = answer.claim.before, dialect.modes.codes

@@ -181,9 +181,11 @@ def given_table(answer: Answer) -> Table:
     plane, unit, rows = answer.plane, short_name(answer.unit.value), []
     keys, names = word_keys(answer.claim.words.values()), list[Name]()
     starts = coordinate_texts([float(value or 0) for value in answer.start.values], plane, answer.unit)
-    for axis, value, text, is_diameter in zip(plane.axes, answer.start.values, starts, plane.diameters, strict=True):
+    of_axes = zip(plane.axes, answer.start.values, answer.start.free, starts, plane.diameters, strict=True)
+    for axis, value, is_free, text, is_diameter in of_axes:
         shown = ("unknown", "") if value is None else (text, unit)
-        rows.append((f"start {axis}", *shown, "where the contour begins" + (" (diameter)" if is_diameter else "")))
+        told = "where the contour begins" + ("; its place is not known" if is_free else "")
+        rows.append((f"start {axis}", *shown, told + (" (diameter)" if is_diameter else "")))
         names.append(("point", "start"))
     for each in stated_words(answer):
         names.append(NAMELESS if each.word.address == FACT else ("word", each.key))

@@ -97,6 +97,7 @@ def _step_lines(name: str, path: ToolPath, step: Step | None) -> Iterator[str]:
         return
     is_diameter = any(step.doubled)
     unit = ("in" if step.unit is Length.INCH else "mm") + (", X as diameter" if is_diameter else "")
+    unit += f", {' and '.join(step.free)} from an unknown place" if step.free else ""
     shape = "line" if step.bend is None else f"arc {_turn(step)}"
     yield f"      {step.motion.value}, {shape} [{unit}]"
     shown = {
@@ -200,6 +201,7 @@ def _step(step: Step | None) -> dict[str, Any] | None:
         "start": [_number(value) for value in step.start],
         "end": [_number(value) for value in step.end],
         **members(step, "compensation is_skippable"),
+        **({"relative": list(step.free)} if step.free else {}),
     }
     if step.bend:
         data |= {

@@ -191,6 +191,7 @@ def _contour(answer: Answer) -> dict[str, Any]:
         "status": answer.status.value,
         "plane": list(answer.plane.axes),
         "start": [None if value is None else _number(float(value)) for value in answer.start.values],
+        **({"place": "relative"} if answer.start.is_relative else {}),
         **_path(contour, decimals),
         "branch": ", ".join(side.value for side in answer.sides.values()) or None,
         "branches": plain(answer.sides),

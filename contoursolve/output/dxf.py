@@ -21,7 +21,7 @@ from ezdxf.layouts.layout import Modelspace
 from contoursolve.diagnosis import Answer, count, join
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.program import Result
-from contoursolve.solving import ArcSegment, Contour, Point, Segment
+from contoursolve.solving import ArcSegment, Contour, Point, Segment, shifted
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
@@ -54,6 +54,8 @@ def drawing_for_cad(result: Result, tool: "ToolReport | None") -> tuple[bytes, s
         return None
     elements = count(sum(len(contour.elements) for contour in contours), "element")
     told = [f"{elements} of {count(len(contours), 'contour')}{beside}", *_left_out(result.answers)]
+    if lines := [str(each.lines[0]) for each in result.answers if each.contour and each.start.is_relative]:
+        told.append(f"the place is not known of {count(len(lines), 'contour')} ({_program_lines(lines)})")
     if lines := [str(each.run.lines[0]) for each in runs if not each.path]:
         told.append(f"left out: {count(len(lines), 'path')} of the tool ({_program_lines(lines)})")
     return to_dxf(result.answers, paths), "; ".join(told)
@@ -162,10 +164,12 @@ def _draw(
     if contour is None:
         return
 
-    def place(at: Point) -> Point:
-        return at[0] / scale, at[1] / scale
+    first, second = answer.led
 
-    for element in contour.elements:
+    def place(at: Point) -> Point:
+        return (at[0] + first) / scale, (at[1] + second) / scale
+
+    for element in (shifted(each, answer.led) for each in contour.elements):
         color = _RED if isinstance(element, ArcSegment) else _BLACK
         _draw_element(document, page, element, layer_name(number, answer, element, is_split=is_split), scale, color)
     beside = {"layer": construction_name(answer, is_split=is_split)}

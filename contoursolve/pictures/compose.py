@@ -61,7 +61,7 @@ def compose(
         lines=tuple(_lines(subject)),
         remarks=tuple(remarks_of(answer.diagnostics)),
         meanings=_meanings(subject),
-        has_turning_axis=answer.plane.diameters[SECOND],
+        has_turning_axis=answer.plane.diameters[SECOND] and not answer.start.free[SECOND],
         is_one_contour=True,
         closeups=tuple(_corners(subject.trails)),
     )
@@ -177,17 +177,21 @@ def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
 
 
 def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[TextRun, ...]]:
-    """The first findings; of what is no error or warning, only that a word lacks its point."""
-    findings = [
-        (place, finding)
-        for place, finding in enumerate(diagnostics, 1)
-        if finding.severity is not Severity.INFO or finding.about is ReadIssue.POINT_MISSING
-    ]
+    """The first findings; of what is no error or warning, only that a word lacks its point, or the contour its
+    place."""
+    findings = [(place, finding) for place, finding in enumerate(diagnostics, 1) if _is_told(finding)]
     for place, finding in findings[:MOST_REMARKS]:
         role = _REMARKS[finding.severity]
         yield (TextRun(visible(f"{finding.severity.value}: {finding.message}"), role, About(finding=str(place))),)
     if len(findings) > MOST_REMARKS:
         yield (TextRun(f"... and {len(findings) - MOST_REMARKS} more findings", Role.MUTED),)
+
+
+def _is_told(finding: Diagnostic) -> bool:
+    return finding.severity is not Severity.INFO or finding.about in _TOLD
+
+
+_TOLD = (ReadIssue.POINT_MISSING, ReadIssue.START_RELATIVE)
 
 
 def told_of(beside: Sequence[ToolDrawing]) -> Iterator[str]:
@@ -207,7 +211,7 @@ def describe(answer: Answer) -> str:
         sentences += _path_in_words(answer, answer.contour)
     else:
         sentences.append(f"There is no contour: {answer.state}.")
-    for finding in [each for each in answer.diagnostics if each.severity is not Severity.INFO][:3]:
+    for finding in [*filter(_is_told, answer.diagnostics)][:3]:
         sentences.append(f"{finding.severity.value}: {finding.message}.")
     return " ".join(sentences)
 

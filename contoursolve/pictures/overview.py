@@ -18,7 +18,7 @@ from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.turned_part import crosses_axis, cylinders_of, turn_part
 from contoursolve.program import CycleProfile, Result
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, distance
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, distance, shifted
 from contoursolve.tolerance import LENGTH
 
 MOST_CONTOURS = 400
@@ -95,26 +95,28 @@ def compose_overview(
     for plane in dict.fromkeys(each.plane for each in everything):
         own = [(number, answer) for number, answer in enumerate(result.answers, 1) if answer.plane == plane]
         drawn = [
-            DrawnContour(number, answer, tuple(replace(each, line=answer.lines[0]) for each in _trails(answer)))
+            DrawnContour(number, answer, tuple(_in_overview(each, answer) for each in _trails(answer)))
             for number, answer in own[:MOST_CONTOURS]
         ]
         told = shown if not scenes else f"{plane.code}: {' and '.join(plane.axes)}"
         near = [each for each in moves if each.axes == plane.axes]
         more = [each for each in beside if each.plane == plane]
+        # Of what has no place on the axis across, it is not known how far from the turning axis it is.
+        is_turned = plane.diameters[SECOND] and not any(answer.start.free[SECOND] for _, answer in own)
         scene = Scene(
             told,
             axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
             (*_profile_parts(result.profiles, plane, near), *_move_trails(near), *_contour_parts(drawn)),
             remarks=tuple(_remarks(drawn, len(own))),
             meanings={Role.CONFLICTING: "no contour", **_meaning_of(near)},
-            has_turning_axis=plane.diameters[SECOND],
+            has_turning_axis=is_turned,
             closeups=tuple(_closeups(drawn)),
             scale_unit=unit,
         ).with_beside(more)
         between = [move.segment for move in near if move.is_between]
         known = {(segment.start, segment.end) for segment in between}
         between += [each for one in more for each in one.cut if (each.start, each.end) not in known]
-        scenes.append(_turned(scene, drawn, between, is_whole=is_whole) if plane.diameters[SECOND] else scene)
+        scenes.append(_turned(scene, drawn, between, is_whole=is_whole) if is_turned else scene)
     return scenes
 
 
@@ -191,6 +193,13 @@ def _contour_parts(drawn: Sequence[DrawnContour]) -> Iterator[Part]:
 
 def _remarks(drawn: Sequence[DrawnContour], total: int) -> Iterator[tuple[TextRun, ...]]:
     """Remarks on the errors of contours without a path, and on contours that are not drawn."""
+    placeless = [each for each in drawn if each.answer.start.is_relative]
+    if placeless:
+        axes = [axis for each in placeless for axis in _free_axes(each.answer)]
+        told = " and ".join(dict.fromkeys(axes))
+        numbers = ", ".join(str(each.number) for each in placeless[:MOST_REFUSED])
+        more = f" and {len(placeless) - MOST_REFUSED} more" if len(placeless) > MOST_REFUSED else ""
+        yield (TextRun(f"{numbers}{more}: the place on {told} is not known", Role.MUTED),)
     refused = [each for each in drawn if each.answer.contour is None]
     for each in refused[:MOST_REFUSED]:
         status = each.answer.state
@@ -213,6 +222,17 @@ def _closeups(drawn: Sequence[DrawnContour]) -> Iterator[Closeup]:
     for each in drawn:
         if each.trails and each.answer.contour is not None:
             yield Closeup(f"{each.number}  program line {each.answer.lines[0]}", each.segments, _READABLE)
+
+
+def _free_axes(answer: Answer) -> Iterator[str]:
+    """The axes on which the place of a contour is not known."""
+    return (axis for axis, is_free in zip(answer.plane.axes, answer.start.free, strict=True) if is_free)
+
+
+def _in_overview(trail: Trail, answer: Answer) -> Trail:
+    """A path of a contour as it lies to the others: one without a place is as far on as steps have led before it."""
+    segments = tuple(shifted(each, answer.led) for each in trail.segments) if any(answer.led) else trail.segments
+    return replace(trail, segments=segments, line=answer.lines[0])
 
 
 def _trails(answer: Answer) -> list[Trail]:

@@ -37,6 +37,8 @@ class Format:
     """The address of an arc's radius."""
     is_center_absolute: bool = False
     """Whether centres are coordinates, and not counted from where the arc begins."""
+    letters: tuple[str, ...] = ()
+    """The addresses of the plane's axes, where these are not their names."""
     mm: float = field(init=False)
     """Millimetres of one unit."""
     step: float = field(init=False)
@@ -163,7 +165,7 @@ class _Writer:
         off = hypot(exact[0] - end[0] * mm, exact[1] - end[1] * mm)
         if hypot(end[0] - here, end[1] - there) < self.step / 4 or self._is_turned_back(end):
             return MotionBlock(1, (), self._in_mm(self.here), off)
-        words = sorted((form.plane.axes[0] + first, form.plane.axes[1] + second))
+        words = sorted(spell(*each) for each in zip(form.letters or form.plane.axes, (first, second), strict=True))
         more: list[str] = []
         if isinstance(self.segment, LineSegment):
             code = 0 if is_rapid else 1

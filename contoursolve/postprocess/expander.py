@@ -30,7 +30,7 @@ from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, MotionBlock, emit, plane_of
 from contoursolve.postprocess.expansion_report import ExpansionOptions, FixedWords, Left, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
-from contoursolve.postprocess.post_processors import SAME, MachineKind, machine_of
+from contoursolve.postprocess.post_processors import SAME, Arcs, MachineKind, machine_of
 from contoursolve.postprocess.untranslatable import Watch
 from contoursolve.postprocess.written import Moves, translate
 from contoursolve.program import ELSEWHERE, Lines, Step, path_of
@@ -276,6 +276,8 @@ class Expander:
         is_open = any(answer.claim.before.axes[axis].is_skippable for axis in answer.plane.axes)
         if is_open and not answer.claim.blocks[0].is_skippable:
             return "it begins where a block with / leads: with that block skipped, it is another contour"
+        if answer.start.is_relative and None in {self._steps(part, answer) for part in self._parts(answer)}:
+            return "where it begins is not known, and the target has no words for increments here"
         miscounted = self._miscounted(answer)
         if miscounted:
             return miscounted
@@ -285,6 +287,20 @@ class Expander:
         if not beside or (len(answer.claim.blocks) == 1 and len(answer.contour.elements) <= 1):
             return ""
         return f"{beside[0]} moves an axis outside the plane: move it in a block of its own"
+
+    def _parts(self, answer: Answer) -> Iterator[ContourBlock]:
+        return blocks_of(answer.claim, answer.claim.before, self.modes)
+
+    def _steps(self, part: ContourBlock, answer: Answer) -> tuple[str, ...] | None:
+        """The addresses of increments along the axes of a contour that has no place; empty where the axes have them by
+        a code in force, None where the target has none."""
+        if part.state.is_incremental or not answer.start.is_relative:
+            return ()
+        modes = self.modes if self.options.post is SAME else self.options.post.modes
+        rows = modes.words(part.state).addresses.values() if modes is not None else ()
+        steps = {row.axis: row.address for row in reversed([*rows]) if row.is_increment}
+        found = tuple(steps[axis] for axis in answer.plane.axes if axis in steps)
+        return found if len(found) == len(answer.plane.axes) else None
 
     def _miscounted(self, answer: Answer) -> str:
         """The reason why the target would mistake X for a diameter or for a radius; empty if it reads X alike."""
@@ -341,7 +357,7 @@ class Expander:
             part = found
             state = part.state
             plane = state.plane if answer.plane is state.plane else plane_of(answer.plane, state)
-            form = self._format(replace(state, plane=plane))
+            form = self._format(replace(state, plane=plane), self._steps(part, answer) or ())
             moves: list[MotionBlock] = []
             if translated is not None:
                 moves = [move for name, each in translated.items() if part.makes(name) for move in each]
@@ -406,7 +422,8 @@ class Expander:
         if target is None:
             return None
         moves = None
-        if len({(part.state.is_incremental, part.is_rapid) for part in parts}) == 1:
+        is_alike = len({(part.state.is_incremental, part.is_rapid) for part in parts}) == 1
+        if is_alike and (parts[0].state.is_incremental or not answer.start.is_relative):
             form = self._format(replace(parts[0].state, plane=answer.plane))
             moves = translate(answer, target, here, form, is_rapid=parts[0].is_rapid)
         if moves is None:
@@ -420,8 +437,9 @@ class Expander:
         (first, second), (one, two) = answer.start.values, self.offsets.take(answer.plane.axes)
         return float(first or 0) + one, float(second or 0) + two
 
-    def _format(self, state: State) -> Format:
-        key = state.plane.axes, state.plane.diameters, state.unit is Length.INCH, state.is_incremental
+    def _format(self, state: State, letters: tuple[str, ...] = ()) -> Format:
+        """The format of the words of a block, with other `letters` of increments than its axes."""
+        key = state.plane.axes, state.plane.diameters, state.unit is Length.INCH, state.is_incremental, letters
         if key not in self.formats:
             numbers, post = self.modes.lexicon.numbers, self.options.post
             own, decimals = post.digits(state.unit, numbers), self.options.decimals
@@ -430,11 +448,13 @@ class Expander:
                 state.unit,
                 own if decimals is None else decimals,
                 post.writes_point(numbers),
-                self.options.arcs,
-                state.is_incremental,
+                # Without a place, an absolute centre has none either.
+                Arcs.RADIUS if letters and self.has_absolute_centers else self.options.arcs,
+                state.is_incremental or bool(letters),
                 own + self.center_decimals,
                 self._radius,
                 self.has_absolute_centers,
+                letters,
             )
         return self.formats[key]
 

@@ -138,6 +138,9 @@ class InGCodes(_Expander):
         reason = f"{steps[0]} moves an axis outside the plane: move it in a block of its own" if steps else ""
         return super()._obstacle(answer) or reason
 
+    def _steps(self, part: ContourBlock, answer: Answer) -> tuple[str, ...] | None:
+        return None if answer.start.is_relative else super()._steps(part, answer)
+
     def _is_rapid(self, part: ContourBlock) -> bool:
         return self.plain.is_rapid(part.block)
 

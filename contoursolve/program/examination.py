@@ -34,12 +34,13 @@ from contoursolve.program.outside_contours import (
     with_slips,
 )
 from contoursolve.program.request import Request
-from contoursolve.program.solve_queue import WAITS, Ahead, Pending, Queue, Step, Together
+from contoursolve.program.solve_queue import Ahead, Pending, Queue, Step, Together
 from contoursolve.program.start_point import StartCount, compare_count, start_count, state_before
 from contoursolve.program.tape_markers import Marks
 from contoursolve.program.told_outside import Outside
 from contoursolve.program.windows import further, near
 from contoursolve.reading import (
+    WAITS,
     Dialect,
     ParsedContour,
     PlainLines,
@@ -230,7 +231,7 @@ class Examination:
         behind = Cursor(states[1], here.marks, here.count, ahead, told)
         if lost is not None:
             findings = (self._explain_lost(lost, blocks[:1], here.state), *findings)
-            behind = replace(behind, state=_lost_at(states[1], lost))
+            behind = replace(behind, state=_lost_at(states[1], lost, modes.lexicon.addresses[lost.address].axis))
         return WalkStep(Step(blocks, here.state, findings=findings), len(blocks), lambda: behind)
 
     def pass_block(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> WalkStep | None:
@@ -350,11 +351,11 @@ class Examination:
             yield self.with_arcs(taken.step), view.reach, cursor
 
 
-def _lost_at(state: State, word: Word) -> State:
+def _lost_at(state: State, word: Word, axis: str) -> State:
     """A state whose place along an axis follows from a word that has lost its point."""
-    place = state.axes[word.address]
+    place = state.axes[axis]
     reason = f"{WAITS} program line {word.span.line}, where {word.text.strip()} has no decimal point"
-    return state.move({word.address: Position(None, reason, word.span, place.is_skippable, None, place.value)})
+    return state.move({axis: Position(None, reason, word.span, place.is_skippable, None, place.value)})
 
 
 class _OneByOne:

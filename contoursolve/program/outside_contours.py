@@ -50,6 +50,7 @@ from contoursolve.reading import (
     arc_of,
     codes_of,
     doubtful_words,
+    is_read_by_arcs,
     suspected,
 )
 from contoursolve.solving import RefusalKind
@@ -212,7 +213,7 @@ def _of_unread(
 ) -> Iterator[Diagnostic]:
     """That a block is not read, which is told once of several in a row."""
     unread = dialect.modes.unread(block, here)
-    if unread is None:
+    if unread is None or is_read_by_arcs(unread, block, here, dialect.modes):
         return
     last, is_needed = previous[0][-1].words if previous else (), bool(dialect.signs(block))
     is_first = unread in block.words and all(name_of(each) != name_of(unread) for each in last)

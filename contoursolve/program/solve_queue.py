@@ -24,6 +24,7 @@ from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Seve
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.lookahead import View
 from contoursolve.reading import (
+    WAITS,
     Awaited,
     Dialect,
     End,
@@ -283,10 +284,6 @@ def _refused(answer: Answer, lost: Diagnostic) -> Answer:
 def _as_following(finding: Diagnostic) -> Diagnostic:
     """A finding; that the start is not known follows from another one, and is no error of its own."""
     return replace(finding, severity=Severity.INFO) if finding.about is ReadIssue.POSITION_UNKNOWN else finding
-
-
-WAITS = "this contour waits for"
-"""The begin of the reason why the place behind a contour that is not solved is not known."""
 
 
 _MOST_FIXES = 3

@@ -80,6 +80,8 @@ from .modal_dependence import (
 )
 from .modal_state import (
     COMMENTED as COMMENTED,
+    FAULTY as FAULTY,
+    WAITS as WAITS,
     Awaited as Awaited,
     Mode as Mode,
     Modes as Modes,
@@ -128,6 +130,7 @@ from .plain_arcs import (
     PlainArc as PlainArc,
     arc_of as arc_of,
     faults_of as faults_of,
+    is_read_by_arcs as is_read_by_arcs,
     suspected as suspected,
     table_in as table_in,
 )

@@ -25,6 +25,8 @@ class ArcIssue(Enum):
     OUTSIDE_PLANE = "arc-outside-plane"
     OVER_HALF = "arc-over-half"
     EMPTY = "arc-empty-circle"
+    OPENING = "arc-opening-angle"
+    IN_LINE = "arc-in-line"
     PROFILE_ARC = "profile-begins-with-arc"
     PROFILE_CODE = "profile-begins-without-code"
 
@@ -76,6 +78,10 @@ class ArcTable:
     """Whether the words of a centre are its coordinates."""
     beside: frozenset[str] = frozenset()
     """Words beside an arc that change no radius, although contoursolve does not read them."""
+    opening: str = ""
+    """The address of an opening angle, by which an arc is made with its end or its centre."""
+    through: str = ""
+    """The code of an arc through a point between its ends, whose words are those of a centre with a 1 behind."""
     has_pitch: bool = False
     """Whether the word of a centre outside the plane is the pitch of a helix."""
     planes: frozenset[str] = frozenset()

@@ -8,7 +8,8 @@ from msgspec.structs import replace
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Given
 from contoursolve.reading.contour_form import ContourForm
-from contoursolve.reading.modal_state import Modes, State
+from contoursolve.reading.modal_state import FAULTY, WAITS, Modes, State
+from contoursolve.reading.moved_zero import is_along_axes
 from contoursolve.reading.parsed_contour import ParsedContour
 
 
@@ -76,7 +77,12 @@ class ContourBuilder:
     def build(self, form: ContourForm, before: State, after: State, **chosen: Any) -> ParsedContour:
         """The contour of a form, between two states; `chosen` are further fields of it, and those that the control sees
         otherwise."""
+        lost = [
+            at for at in map(before.axes.__getitem__, before.plane.axes) if at.value is None and at.span is not None
+        ]
+        is_turned = bool(lost) and not is_along_axes(before.zero, self.modes.zero.first)
         fields: dict[str, Any] = {
+            "needs_place": is_turned or any(at.reason.startswith((WAITS, FAULTY)) for at in lost),
             "lexicon": self.modes.words(after),
             "blocks": tuple(self.blocks),
             "words": self.words,

@@ -12,7 +12,7 @@ from contoursolve.execution import Machine
 from contoursolve.gcode import Block, Directive, Program, Word
 from contoursolve.reading.control_flow import Ahead, TakenBlocks, Ways
 from contoursolve.reading.lexicon import Effect
-from contoursolve.reading.modal_state import Modes, State, advance, apply_modes, codes_of
+from contoursolve.reading.modal_state import WAITS, Modes, State, advance, apply_modes, codes_of
 from contoursolve.reading.parsed_contour import ParsedContour, leave, next_place
 
 Finder = Callable[[Sequence[Block], int, State, Modes], ParsedContour | None]
@@ -42,7 +42,7 @@ def contours_of(
         if found is not None and found.form.is_contour:
             index += reach_of(found, blocks, index)
             yield found, index
-            state = leave(found, end_of(found), modes, "the contour before has no path")
+            state = leave(found, end_of(found), modes, f"{WAITS} one that has no path")
         else:
             state = advance(state, blocks[index], modes)
             index += 1
@@ -74,7 +74,7 @@ def contours_as_run(
         reach = reach_of(found, held, index)
         is_own = not block.file and (is_reached or block.line not in reached)
         met = (found, next_place(held[index + reach :], found, modes)) if is_own else None
-        return TakenBlocks(reach, leave(found, end_of(found), modes, "the contour before has no path"), met)
+        return TakenBlocks(reach, leave(found, end_of(found), modes, f"{WAITS} one that has no path"), met)
 
     ways = Ways(lambda: first, modes, take)
     if machine is None:

@@ -1,13 +1,15 @@
 """The modal state of a control, where the tool is and what is in force, followed through blocks and plain lines."""
 
 import re
+from cmath import rect
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace as replace_fields
 from decimal import Decimal
 from enum import Enum
 from functools import cache, partial
 from itertools import groupby
+from math import radians
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -66,6 +68,13 @@ class Position:
     """The axis word that set it, where one did."""
     assumed: Decimal | None = None
     """The place where it would be, mm, if the contour that lost it had its best fix."""
+    beyond: Decimal = Decimal(0)
+    """How far increments have led beyond the place that is not known, mm."""
+
+    def step(self, by: Decimal) -> "Position":
+        """An unknown place, some mm further."""
+        assumed = None if self.assumed is None else self.assumed + by
+        return replace_fields(self, beyond=self.beyond + by, assumed=assumed)
 
 
 class Awaited(Position):
@@ -125,6 +134,14 @@ class Awaited(Position):
     def assumed(self) -> Decimal | None:
         return self.found().assumed
 
+    @property
+    def beyond(self) -> Decimal:
+        return self.found().beyond
+
+    def step(self, by: Decimal) -> Position:
+        """Raises ValueError if its place is not found yet."""
+        return self.found().step(by)
+
 
 _DEEPEST = 50
 """Positions that each follow from the one before, of which none is looked at."""
@@ -181,6 +198,17 @@ class State(Struct, frozen=True):
     doubts: Mapping["Mode | str", str] = {}
     """The rest that is not known to be in force, as ways that meet do not agree on it, and why: modes, and by their
     address words that stay in force."""
+
+    def step_to(self, other: "State") -> complex | None:
+        """The way to where another state behind this one is, mm in the plane; None where it is not known."""
+        ways = list[float]()
+        for axis in self.plane.axes:
+            here, there = self.axes[axis], other.axes[axis]
+            if here.value is not None and there.value is not None:
+                ways.append(float(there.value - here.value))
+            elif here.value is None and there.value is None and (here.reason, here.span) == (there.reason, there.span):
+                ways.append(float(there.beyond - here.beyond))
+        return complex(*ways) if len(ways) == len(self.plane.axes) else None
 
     def start(self) -> Start:
         """The position in the plane."""
@@ -356,6 +384,11 @@ COMMENTED = "comment"
 """The name of what stays in force where lines are a comment."""
 
 
+WAITS, FAULTY = "this contour waits for", "the block has an error"
+"""The begins of the reasons why a place is not known that an error before it has: behind a contour that is not solved,
+and behind a word that cannot be read."""
+
+
 def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
     """The rows of a block's G codes; a code without a row is given as its word."""
     found: list[Code | Word] = []
@@ -525,7 +558,7 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         open_axes = tuple(row.axis for row in rows if row.follows_increments)
         state = state.lose(open_axes, f"what {preset.text} sets where increments are in force is not known", block.span)
     state = _lose_ends(state, block, modes)
-    return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
+    return state.move({axis: Position(None, FAULTY, span) for axis, span in lost.items()})
 
 
 def _moved(state: State, words: list[Word], block: Block, modes: Modes) -> State:
@@ -538,11 +571,36 @@ def _moved(state: State, words: list[Word], block: Block, modes: Modes) -> State
 def _lose_ends(state: State, block: Block, modes: Modes) -> State:
     """The state where the axes of the plane are not known whose end words state that are not read."""
     for word in block.words:
-        if modes.lexicon.bearing(word.address) is Bearing.END:
+        if modes.arcs is not None and word.address == modes.arcs.opening and state.motion in (2, _COUNTER_CLOCKWISE):
+            state = _opened(state, block, word, modes)
+        elif modes.lexicon.bearing(word.address) is Bearing.END:
             stated = {_axis(each, modes) for each in block.words}
             left = tuple(axis for axis in state.plane.axes if axis not in stated)
             state = state.lose(left, not_read(word.text), word.span)
     return state
+
+
+def _opened(state: State, block: Block, word: Word, modes: Modes) -> State:
+    """The state behind an arc by its opening angle: with a centre and without an end, it turns about that centre."""
+    plane, words = state.plane, modes.words(state)
+    centers = [block.find(each) for each in plane.centers]
+    if any(_axis(each, modes) in plane.axes for each in block.words):
+        return state
+    values = [Decimal(0) if each is None else words.value(each, state.unit) for each in centers]
+    first, second = (None if value is None else float(value) for value in values)
+    if not any(centers) or word.number is None or first is None or second is None or state.doubts:
+        return state.lose(plane.axes, not_read(word.text), word.span)
+    sign = 1 if state.motion == _COUNTER_CLOCKWISE else -1
+    turned = -complex(first, second) * rect(1, sign * radians(word.number))
+    moved = dict[str, Position]()
+    for axis, end in zip(plane.axes, (first + turned.real, second + turned.imag), strict=True):
+        before, by = state.axes[axis], Decimal(repr(end)).quantize(_EXACT)
+        lead = partial(_step, by=by, word=word, is_skippable=block.is_skippable)
+        moved[axis] = before.then(lead) if isinstance(before, Awaited) else lead(before)
+    return state.move(moved)
+
+
+_COUNTER_CLOCKWISE, _EXACT = 3, Decimal("1e-9")
 
 
 def not_read(text: str) -> str:
@@ -598,7 +656,7 @@ def _led(word: Word, before: Position | None, state: State, modes: Modes, is_ski
 def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Position:
     """The place where an increment leads, mm."""
     if before.value is None:
-        return before
+        return before.step(by)
     return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable, word)
 
 

@@ -57,6 +57,7 @@ class ReadIssue(Enum):
     CODE_MISTYPED = "code-mistyped"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
+    START_RELATIVE = "start-relative"
     MODE_UNKNOWN = "mode-unknown"
     START_ASSUMED = "start-assumed"
     CONTOUR_WAITS = "contour-waits"
@@ -156,6 +157,9 @@ class ParsedContour:
     """The places of the words that are said to be right."""
     doubts: Mapping[Mode | str, str] = field(default_factory=dict)
     """The modes that are not known to be in force in some of its blocks, and why (see `State`)."""
+    needs_place: bool = False
+    """Whether its shape alone is not looked at where its place is not known: an error before it is to be mended first,
+    or since that, the coordinate system may be turned, mirrored or scaled."""
 
     def beside_plane(self, block: Block) -> list[Word]:
         """The words of one of its blocks that move an axis outside the plane."""
@@ -227,7 +231,7 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
     asked = frozenset(name for name, word in claim.words.items() if word.is_asked)
     layout = lay_out(claim.form, names - ignored, sharp, asked)
     dropped = tuple(row.fact for row in claim.form.outline.facts if row.fact.given in ignored & names)
-    return Profile(
+    profile = Profile(
         form=claim.form.name,
         blocks=claim.blocks,
         plane=claim.after.plane,
@@ -243,6 +247,7 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
         is_extended=bool(asked or claim.directives or claim.form.is_general),
         travel=claim.before.travel,
     )
+    return profile if profile.start.is_known or claim.needs_place else profile.with_free_start()
 
 
 def offences_of(claim: ParsedContour, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
@@ -314,7 +319,8 @@ def _question(claim: ParsedContour, name: str, fact: Fact) -> Question:
 def leave(
     claim: ParsedContour, end: tuple[float, float] | None, modes: Modes, reason: str = "", cause: Span | None = None
 ) -> State:
-    """The modes of a contour's blocks, and the position where it ends, mm.
+    """The modes of a contour's blocks, and the position where it ends, mm; on an axis on which its start is not known,
+    it is so far from there.
 
     Where it has no end, for this reason, whose `cause` may lie in a line before it, what its words say of the end is
     still known.
@@ -324,7 +330,14 @@ def leave(
     is_skippable = any(block.is_skippable for block in claim.blocks) or any(before[axis].is_skippable for axis in axes)
     if end is not None:
         ends = zip(axes, end, strict=True)
-        state = state.move({axis: end_of_contour(value, last.span, is_skippable=is_skippable) for axis, value in ends})
+        state = state.move(
+            {
+                axis: before[axis].step(Decimal(value))
+                if before[axis].value is None
+                else end_of_contour(value, last.span, is_skippable=is_skippable)
+                for axis, value in ends
+            }
+        )
         return _move_beside(state, claim, modes)
     lost = state.lose(axes, reason, cause or last.span)
     if last.faults or any(word in last.words for word in claim.unread):
@@ -373,7 +386,7 @@ def _stated_end(claim: ParsedContour) -> tuple[Decimal | None, Decimal | None]:
                 point = tails.pop(point)
             else:
                 return None
-        first = profile.start.values[axis]
+        first = claim.before.start().values[axis]
         return None if first is None else total + first
 
     return along(FIRST), along(SECOND)

@@ -50,11 +50,17 @@ class PlainArc(Struct, frozen=True):
     """Whether there is no word beside them that may shape it."""
     center_text: str = ""
     """The line that states its centre, where that is not its block."""
+    opening: Word | None = None
+    """The word of its opening angle."""
+    between: Words = (None, None)
+    """The words of a point between its ends."""
 
     @property
     def words(self) -> tuple[Word, ...]:
         """The words of its end, centre and radius."""
-        return tuple(each.word for each in (*self.ends, *self.centers, self.radius) if each is not None)
+        shaping = (*self.ends, *self.centers, self.radius, *self.between)
+        own = tuple(each.word for each in shaping if each is not None)
+        return own if self.opening is None else (*own, self.opening)
 
     @property
     def way(self) -> Pair | None:
@@ -105,17 +111,37 @@ _OF_MOVES = frozenset({*_BESIDE, Effect.COMPENSATION, Effect.SHIFT, Effect.CANCE
 
 def _arc_of_codes(block: Block, before: State, modes: Modes) -> PlainArc | None:
     here = apply_modes(before, block, modes)
-    turn = None if here.motion is None else TURNS.get(here.motion)
-    if turn is None or any(mode in here.doubts for mode in _DOUBTED):
+    through, table = code_through(here, modes), table_in(here, modes)
+    is_arc = through is not None or here.motion in TURNS
+    if not is_arc or any(mode in here.doubts for mode in _DOUBTED):
         return None
-    codes, table = codes_of(block, modes), table_in(here, modes)
+    codes = [code for code in codes_of(block, modes) if code is not through]
     is_move = all(isinstance(code, Code) and code.effect in _OF_MOVES and code.is_read for code in codes)
     if not is_move or (table.planes and here.plane.code not in table.planes) or table.others & here.memory.keys():
         return None
     if any(modes.is_call(word) or modes.is_unread_call(word) for word in block.words):
         return None
     is_measured = here.doubts.keys().isdisjoint(_MEASURED)
-    return _Reading(block, here, modes, table, is_measured=is_measured).arc()
+    arc = _Reading(block, here, modes, table, is_measured=is_measured).arc()
+    if arc is None or (through is None) is (arc.between == (None, None)):
+        return arc
+    return None
+
+
+def code_through(state: State, modes: Modes) -> Code | None:
+    """The code in force of an arc through a point between its ends, if it is one."""
+    code = modes.codes.get(state.motion) if state.motion is not None else None
+    name = modes.arcs.through if modes.arcs is not None else ""
+    return code if code is not None and name and code.name == name else None
+
+
+def is_read_by_arcs(word: Word, block: Block, before: State, modes: Modes) -> bool:
+    """Whether a word shapes an arc by itself, and is read there, though it is not read in contours."""
+    table = modes.arcs
+    if table is None or word.address not in ("G", table.opening):
+        return False
+    arc = arc_of(block, before, modes)
+    return arc is not None and (arc.opening is word or (word.address == "G" and arc.between != (None, None)))
 
 
 class _Reading:
@@ -140,15 +166,21 @@ class _Reading:
             self._center(found[each], at) if each in found else None for at, each in enumerate(plane.centers)
         )
         shape = ArcWord(found[radius], self._value(found[radius])) if radius in found else None
+        points = [(found.get(f"{each}1"), at) for at, each in enumerate(plane.centers)]
+        between = tuple(None if word is None else self._between(word, at) for word, at in points)
+        beside -= {table.opening, *(f"{each}1" for each in plane.centers)}
         is_alone = not any((*ends, *centers, *beside))
         if not found or not beside <= _linear(self.modes) or (shape and is_alone and not table.needs_end):
             return None
         others = {word.address for word, kind in named if not kind} - {"G", *table.beside}
+        opening = found.get(table.opening) if table.opening else None
         # A word that the control has not may be meant for one that it has.
         is_whole = not any(each in rows or self.lexicon.bearing(each) in _SHAPING for each in others)
         outside = () if beside and table.has_pitch else outside
         return PlainArc(
-            self.block, self.here, table, self.lexicon, _pair(ends), _pair(centers), shape, outside, is_whole
+            *(self.block, self.here, table, self.lexicon, _pair(ends), _pair(centers), shape, outside, is_whole),
+            opening=opening,
+            between=_pair(between),
         )
 
     def _kind(self, word: Word) -> str:
@@ -157,6 +189,9 @@ class _Reading:
         row = self.lexicon.addresses.get(address)
         if row is not None and row.axis:
             return row.axis
+        table = self.table
+        if address and (address == table.opening or (table.through and address in _BETWEEN)):
+            return address
         name = address.removesuffix(_ABSOLUTE)
         return name if name in _CENTERS or address == self.modes.radius else ""
 
@@ -178,6 +213,13 @@ class _Reading:
         start = self._start(index)
         return ArcWord(word, None if value is None or start is None else value - start, start)
 
+    def _between(self, word: Word, index: int) -> ArcWord:
+        """A coordinate of a point between the ends; whether one is a diameter, no page says."""
+        start = 0.0 if self.here.is_incremental else self._start(index)
+        is_open = word.number is None or not self.is_measured or any(self.here.plane.diameters) or start is None
+        value = None if is_open or word.number is None else float(word.number * self.here.unit.in_mm) - (start or 0.0)
+        return ArcWord(word, value, start)
+
     def _center(self, word: Word, index: int) -> ArcWord:
         is_absolute = word.address.endswith(_ABSOLUTE)
         if is_absolute:
@@ -198,6 +240,8 @@ def _pair(words: tuple[ArcWord | None, ...]) -> Words:
 
 
 _CENTERS = ("I", "J", "K")
+_BETWEEN = frozenset(f"{each}1" for each in _CENTERS)
+_FULL = 360
 _ABSOLUTE = "=AC"
 _SHAPING = (None, Bearing.UNREAD, Bearing.END, Bearing.AXIS)
 
@@ -222,6 +266,14 @@ def faults_of(arc: PlainArc) -> Iterator[ArcFault]:
     if arc.outside:
         yield ArcFault(ArcIssue.OUTSIDE_PLANE)
         return
+    if arc.between != (None, None):
+        yield from _of_point_between(arc)
+        return
+    if arc.opening is not None:
+        angle = arc.opening.number
+        if angle is not None and not 0 < angle < _FULL:
+            yield ArcFault(ArcIssue.OPENING)
+        return
     has_center = arc.centers != (None, None)
     if has_center and arc.radius is not None:
         if table.both is BothStated.REFUSED:
@@ -242,6 +294,18 @@ def _disagree(arc: PlainArc) -> bool:
     """Whether the centre is not as far from where the arc begins as the radius says."""
     spoke, size = arc.spoke, arc.size
     return spoke is not None and size is not None and not arc.table.allows(abs(hypot(*spoke) - abs(size)), abs(size))
+
+
+def _of_point_between(arc: PlainArc) -> Iterator[ArcFault]:
+    """Whether the point between the ends lies in line with them: then there is no circle, or a full one."""
+    first, second = (0.0 if each is None else each.value for each in arc.between)
+    way = arc.way
+    if way is None or first is None or second is None:
+        return
+    length = hypot(*way)
+    aside = abs(way[0] * second - way[1] * first)
+    if aside <= LENGTH * length or hypot(first, second) <= LENGTH:
+        yield ArcFault(ArcIssue.IN_LINE)
 
 
 def _of_radius(arc: PlainArc) -> Iterator[ArcFault]:

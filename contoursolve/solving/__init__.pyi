@@ -73,6 +73,7 @@ from .contour import (
     dropped_corners as dropped_corners,
     extremes as extremes,
     is_on as is_on,
+    shifted as shifted,
     trace as trace,
     way_to as way_to,
 )

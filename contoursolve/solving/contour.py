@@ -6,6 +6,7 @@ from math import acos, asin, atan2, ceil, cos, degrees, dist, hypot, pi, radians
 from typing import Any, NamedTuple
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.diagnostics import Shown, plot_on
 from contoursolve.geometry import Corner, Line, Plane, Profile, Turn
@@ -78,6 +79,8 @@ class Contour(Shown):
     plane: Plane = field(compare=False)
     places: Mapping[str, Point] = field(default_factory=dict, compare=False, repr=False)
     """All points of its drawing, such as the centres of arcs and the virtual intersections at corners."""
+    free: tuple[bool, bool] = field(default=(False, False), compare=False, repr=False)
+    """The axes on which its coordinates count from its start, as its place is not known."""
 
     def table(self) -> list[dict[str, str | float | None]]:
         """A row for each element, as `pandas.DataFrame` takes them; None for what an element does not have.
@@ -135,7 +138,7 @@ class Contour(Shown):
         """The place where the path goes across the spindle axis, by more than the least increment; None where it does
         not, or the machine is no lathe. A path may begin on either side."""
         axis = next((number for number, is_diameter in enumerate(self.plane.diameters) if is_diameter), None)
-        if axis is None or self._keeps_one_side(axis):
+        if axis is None or self.free[axis] or self._keeps_one_side(axis):
             return None
         side, across = 0.0, None
         for element in self.elements:
@@ -274,7 +277,7 @@ def trace(profile: Profile, solution: Solution) -> Contour:
                 turn = Turn.CCW if built.turn > 0 else Turn.CW
                 here = add(ArcSegment(corner.name, here, built.end, built.center, built.radius, turn))
     shown = {name: points[name] for name in profile.figure.points if name in profile.intersections}
-    return Contour(start, here, shown, tuple(elements), profile.plane, points)
+    return Contour(start, here, shown, tuple(elements), profile.plane, points, profile.start.free)
 
 
 def dropped_corners(profile: Profile, solution: Solution) -> Iterator[tuple[Corner, float]]:
@@ -305,3 +308,9 @@ def center_by_radius(start: Point, end: Point, radius: float, turn: Turn, slack:
         return None
     height = sqrt(max(radius**2 - half**2, 0.0)) * turn.sign * (1 if radius > 0 else -1) / (2 * half)
     return (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height
+
+
+def shifted(segment: Segment, by: Point) -> Segment:
+    """A segment moved by a vector."""
+    places = {name: getattr(segment, name) for name in ("start", "end", "center") if hasattr(segment, name)}
+    return replace(segment, **{name: (at[0] + by[0], at[1] + by[1]) for name, at in places.items()})

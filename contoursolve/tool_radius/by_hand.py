@@ -7,9 +7,9 @@ from math import radians, tan
 from msgspec.structs import replace
 
 from contoursolve.geometry import Length
-from contoursolve.solving import ArcSegment, Point, Segment, along
+from contoursolve.solving import ArcSegment, Point, Segment, along, shifted
 from contoursolve.tool_radius.joint import TANGENT, direction, turn_of
-from contoursolve.tool_radius.offset import OffsetPath, shifted
+from contoursolve.tool_radius.offset import OffsetPath
 from contoursolve.tool_radius.runs import CuttingRun
 from contoursolve.tool_radius.tool import OutsideCorner
 from contoursolve.tool_radius.tool_settings import ToolSettings

@@ -31,7 +31,7 @@ from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment, along, minus, typed_limit
+from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment, along, minus, shifted, typed_limit
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of, within
 from contoursolve.tool_radius.clearance import gaps_below
@@ -45,7 +45,6 @@ from contoursolve.tool_radius.offset import (
     are_walls,
     fitting_radii,
     flank_faults,
-    shifted,
     stub,
     tip_faults,
     told_of_path,
@@ -325,7 +324,7 @@ def runs_beside(
     ToolError."""
     if (dialect := asked.dialect) is None:
         raise ToolError("no block shows the control, which says how moves are read; say which with --control")
-    path = follow(result, dialect, asked.unit, axes or dialect.modes.axes, finishes=True)
+    path = follow(result, dialect, asked.unit, axes or dialect.modes.axes, finishes=True).with_places()
     rules = ToolRules(path.axes, wanted.outside, TOOL_FACTS.get(dialect.name, ToolFacts()), settings_of(dialect))
     return dialect, path, rules, find_runs(path, wanted, dialect)
 

@@ -468,12 +468,6 @@ def without_short(pieces: Sequence[OffsetElement]) -> Iterator[OffsetElement]:
             yield replace(each, segment=part)
 
 
-def shifted(segment: Segment, by: Point) -> Segment:
-    """A segment moved by a vector."""
-    places = {name: getattr(segment, name) for name in ("start", "end", "center") if hasattr(segment, name)}
-    return replace(segment, **{name: (at[0] + by[0], at[1] + by[1]) for name, at in places.items()})
-
-
 def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
     """The elements from whose surface the tip of a tool points away, each with how deep the nose would lie."""
     for number, element in enumerate(elements):

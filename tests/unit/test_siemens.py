@@ -184,11 +184,11 @@ def heading(element: Element, at: complex) -> complex:
     return (at - element.center) / element.radius * (1j if element.turn == "ccw" else -1j)
 
 
-def test_an_increment_from_an_unknown_start_leads_nowhere():
+def test_an_increment_from_an_unknown_start_leads_to_no_place():
     text = "G17 G90 G0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX116 Y115.4 ANG=120\nG0 X5\nG1 Y94 RND=1\nX20"
     assert [(each.code, each.span.line) for each in siemens(text).diagnostics] == [
-        ("position-unknown", 2),
-        ("position-unknown", 5),
+        ("start-relative", 2),
+        ("start-relative", 5),
     ]
 
 
@@ -197,10 +197,20 @@ def test_where_a_corner_is_not_made_the_words_of_the_end_still_say_where_it_is()
     wrong, last = solve(head + tail, control="siemens-840d").answers
     assert wrong.contour is None
     assert last.start.values == (-40, 15)
-    # An increment of a line that has no start has no end, either.
+    # An increment from a place that is not known leads to none.
     unknown = "G17 G90 G54\nG0 X=R1 Y=R1\nG91 G1 ANG=30 RND=1\nX100 Y100 ANG=120\nG1 X10 RND=2\nY10\nM30"
     first, second = solve(unknown, control="siemens-840d").answers
-    assert first.start.values == second.start.values == (None, None)
+    assert first.start.is_relative
+    assert second.start.is_relative
+
+
+def test_an_arc_by_its_opening_angle_is_read_and_the_next_contour_begins_behind_it():
+    arcs = "G17 G90 G71\nG0 X0 Y0\nG2 I10 J0 AR=90\n{}\nG1 X30 RND=3\nY50"
+    result = siemens(arcs.format("CIP X20 Y20 I1=15 J1=19"))
+    assert result.answers[0].start.values == (20, 20)
+    assert not result.diagnostics
+    assert [each.code for each in siemens(arcs.format("G2 I5 AR=360")).diagnostics] == ["arc-opening-angle"]
+    assert [each.code for each in siemens(arcs.format("CIP X20 Y20 I1=15 J1=15")).diagnostics] == ["arc-in-line"]
 
 
 @pytest.mark.parametrize(

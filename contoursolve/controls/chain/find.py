@@ -472,11 +472,9 @@ def _ways_of(segment: Segment) -> _Ways:
 
 
 def _chord(member: Member, state: State, modes: Modes) -> complex | None:
-    """From where a block begins to where its words end, if both are known."""
-    ends = _ends(member, state, modes)
-    values = [(state.axes[axis].value, ends.get(axis, state.axes[axis]).value) for axis in member.here.plane.axes]
-    steps = [float(end - start) for start, end in values if start is not None and end is not None]
-    return complex(*steps) if len(steps) == len(values) else None
+    """From where a block begins to where its words end, if that is known."""
+    here = replace(member.here, axes=state.axes)
+    return here.step_to(here.move(_ends(member, state, modes)))
 
 
 def _ends(member: Member, state: State, modes: Modes) -> dict[str, Position]:

@@ -36,6 +36,7 @@ _GAPS = {
     "turned_back": "G1 X40",
     "beyond_axis": "G1 Z-40 X-10",
     "unfinished": "G1 A30",
+    "steps": "FERTIGTEIL\nG1 XI20 B2\nG1 ZI-40",
     "asked": "G1 X? {across} B0 {comment}\nG1 X90 Z-60",
     "across": "Z-30",
     "level": "Z0",

@@ -67,6 +67,7 @@ _TURNING = {
     "half_radius": "R9.9995",
     "opposite": "-30.",
     "start_again": "G00 X20. Z0.",
+    "steps": "{line} W-20. {corner}{size}\nU20. W-10.",
     "elsewhere": "G00 X20. Z-18.",
     "move": "G01 X50. Z-50.",
     "move_whole": "G01 X50 Z-50",

@@ -128,6 +128,9 @@ def claim_of(chain: ChainBlocks, before: State, modes: Modes) -> ParsedContour:
         conventions=tuple(_conventions(bool(picks), modes)),
         doubts={name: why for member in members for name, why in _doubts(member)},
     )
+    if not before.start().is_known and any(each.function in OF_CENTER and each.center_at is None for each in members):
+        # From a place that is known, CC may have one.
+        claim = replace_fields(claim, needs_place=True)
     if chain.is_cut and _has_free(members) and _is_open(read(claim, frozenset())):
         return replace_fields(claim, circumstances=claim.circumstances | {f"{len(members)}:{CUT}"})
     return claim

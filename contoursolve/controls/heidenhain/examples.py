@@ -42,6 +42,7 @@ _GAPS = {
     "nowhere": "2 FN 9: IF +0 EQU +0 GOTO LBL 20\n",
     "call": "2 CALL LBL 1",
     "start_again": "3 L X+0 Y+0",
+    "steps": "0 BEGIN PGM A MM\n2 L IX+40\n3 {corner}{size}\n4 L IY+30{tail}",
     "elsewhere": "3 L X+38 Y+0",
     "subprogram": "\n5 M30\n6 LBL 1\n7 L X+40 Y+0\n8 RND R5\n9 L X+40 Y+30\n10 LBL 0{tail}",
     "call_file": "2 CALL PGM O200.H{tail}",

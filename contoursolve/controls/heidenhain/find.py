@@ -55,8 +55,9 @@ def find(
         # A chain may begin with where it begins.
         is_begun = is_known or not begins_chain(function, block, words.axes)
     elif function in MOVES:
-        # What touches a move from an unknown place cannot be found.
-        joins = (*OF_CORNERS, *TANGENT) if is_known else tuple(OF_CORNERS)
+        # What touches a move from an unknown place to a coordinate cannot be found.
+        is_step = any(map(block.find, words.increments)) and not any(map(block.find, words.axes))
+        joins = (*OF_CORNERS, *TANGENT) if is_known or is_step else tuple(OF_CORNERS)
         is_begun = is_in_plane(block) and not is_of_machine(block) and _next_function(blocks, index) in joins
     elif function == POLE:
         # A pole is read where it stands; one with a coordinate missing is none for the chain behind it.

@@ -22,6 +22,7 @@ from contoursolve.diagnostics import Span
 from contoursolve.gcode import Block, Word, late_pattern
 from contoursolve.geometry import Length
 from contoursolve.reading import (
+    FAULTY,
     Mode,
     Modes,
     Position,
@@ -59,7 +60,7 @@ def follow(state: State, block: Block, modes: Modes) -> State:
     state, function = apply_modes(state, block, modes), function_of(block)
     state = keep_joint(state, block, function)
     if block.faults:
-        return state.lose(modes.axes, "the block has an error", block.span)
+        return state.lose(modes.axes, FAULTY, block.span)
     if not function or function in _UNMOVED:
         moved = state
     elif function in (CENTER, POLE):
@@ -293,55 +294,49 @@ def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tupl
     for index, block in enumerate(blocks):
         function, before = function_of(block), state
         state = follow(state, block, modes)
-        start, end = _place(before), _place(state)
+        way = before.step_to(state)
         if function in ("RND", "CHF", "CC", "FPOL", "FSELECT", "") or block.macro is not None:
             continue
-        if start is None or end is None or abs(end - start) <= LENGTH:
+        if way is None or abs(way) <= LENGTH:
             direction = None
         elif function in ("FC", "FCT"):
             # Where a free arc ends is still to be found.
             direction = None
         elif function in STRAIGHT:
-            direction = (end - start) / abs(end - start)
+            direction = way / abs(way)
         elif function in ("CT", "CTP"):
-            chord = (end - start) / abs(end - start)
-            turned = direction and chord / direction
+            turned = direction and way / abs(way) / direction
             if turned:
                 yield index, 1 if turned.imag > 0 else -1
             direction = direction * turned**2 if direction and turned else None
         else:
-            direction = _behind_arc(block, before, start, end)
+            direction = _behind_arc(block, before, way)
 
 
 def full_circles(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[int]:
     """The indices of arcs about CC that end where they begin, as far as that is known."""
     for index, block in enumerate(blocks):
-        start, state = _place(state), follow(state, block, modes)
-        end = _place(state)
-        is_closed = start is not None and end is not None and abs(end - start) <= LENGTH
-        if is_closed and function_of(block) in ABOUT_CENTER:
+        before, state = state, follow(state, block, modes)
+        way = before.step_to(state)
+        if way is not None and abs(way) <= LENGTH and function_of(block) in ABOUT_CENTER:
             yield index
 
 
-def _place(state: State) -> complex | None:
-    first, second = state.start().values
-    return None if first is None or second is None else complex(float(first), float(second))
-
-
-def _behind_arc(block: Block, before: State, start: complex, end: complex) -> complex | None:
+def _behind_arc(block: Block, before: State, way: complex) -> complex | None:
     """The direction in which an arc about a centre or with a radius ends."""
     sense, radius, pole = block.find("DR"), block.find("R"), pole_of(before, CENTER)
     if sense is None or not sense.number:
         return None
     sign = 1 if sense.number > 0 else -1
     size = LEXICON.value(radius, before.unit) if radius is not None else None
+    first, second = before.start().values
     if size is not None:
-        half = (end - start) / 2
+        half = way / 2
         height = max(float(size) ** 2 - abs(half) ** 2, 0.0) ** 0.5
-        center = start + half + sign * (1 if size > 0 else -1) * 1j * half / abs(half) * height
-    elif pole is not None:
-        center = complex(float(pole[0]), float(pole[1]))
+        center = half + sign * (1 if size > 0 else -1) * 1j * half / abs(half) * height
+    elif pole is not None and first is not None and second is not None:
+        center = complex(float(pole[0] - first), float(pole[1] - second))
     else:
         return None
-    spoke = end - center
+    spoke = way - center
     return sign * 1j * spoke / abs(spoke) if spoke else None

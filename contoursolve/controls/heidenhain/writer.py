@@ -87,7 +87,7 @@ class _Own:
     def _move(self, code: int, words: Sequence[str]) -> Iterator[list[str]]:
         parts = [_PARTS.fullmatch(word) for word in words]
         numbers = {part["address"]: _signed(part["number"]) for part in parts if part}
-        ends = [axis + numbers[axis] for axis in ("X", "Y", "Z", "IZ") if axis in numbers]
+        ends = [axis + numbers[axis] for axis in ("X", "Y", "IX", "IY", "Z", "IZ") if axis in numbers]
         sense = {2: "DR-", 3: "DR+"}.get(code)
         if sense is None:
             yield ["L", *ends]

@@ -13,6 +13,7 @@ _GAPS = {
     "start_whole": "G00 X40 Z0\n",
     "start_again": "G00 X40. Z0.",
     "elsewhere": "G00 X130. Z0.",
+    "steps": "G111 A180. K-30. B120. U60.",
     "move": "G01 X120. Z-80.",
     "move_whole": "G01 X120 Z-80",
     "foreign": "R5.",

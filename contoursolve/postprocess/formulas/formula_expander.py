@@ -161,6 +161,8 @@ class FormulaExpander(Expander):
         return Reader(self.dialect, self.policy, tuple(step.blocks), macros, answer.claim.before, axes, free)
 
     def _formulas(self, step: Step, answer: Answer) -> Iterator[str]:
+        if answer.start.is_relative and not all(part.state.is_incremental for part in self._parts(answer)):
+            raise FormulaError("where it begins is not known")
         self.writer.plane, reader = answer.plane, self._reader(step, answer)
         parts = {each.block.line: each for each in blocks_of(answer.claim, step.before, self.modes)}
 
@@ -241,7 +243,7 @@ class FormulaExpander(Expander):
         for axis, term, at_end, scale in rows:
             name = f"end of program line {answer.lines[-1]} on {axis}"
             names = names_of(term)
-            if not names:
+            if not names or answer.start.is_relative:
                 self.axes.pop(axis, None)
                 continue
             value = at_end * scale
