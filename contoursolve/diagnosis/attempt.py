@@ -2,8 +2,9 @@
 
 import dataclasses
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from decimal import Decimal
+from enum import Enum
 from functools import cached_property, lru_cache
 from itertools import pairwise
 
@@ -20,7 +21,7 @@ from contoursolve.diagnosis.edits import (
     edited,
     read_edited,
 )
-from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
+from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Depth, Policy, count_choices, examine, problems
 from contoursolve.diagnosis.examples import MOST_OPEN, numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
@@ -37,22 +38,27 @@ from contoursolve.diagnosis.slips_around import (
     Marked,
     Prices,
 )
+from contoursolve.diagnosis.spelling import torn_codes
+from contoursolve.diagnosis.stated_values import Geometry
+from contoursolve.diagnosis.subsets import blamed_spans
 from contoursolve.diagnosis.window import Window, agrees
 from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Severity, Span
 from contoursolve.gcode import Block, parse_block, spell
-from contoursolve.geometry import Profile, Unit, assemble
+from contoursolve.geometry import FIRST, SECOND, Profile, Unit, assemble, scalar
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
 from contoursolve.solving import (
     Contour,
     LineSegment,
     NoteKind,
     Point,
+    RefusalKind,
     Segment,
     Status,
     affine_facts,
     analyse,
     groups_of,
     is_closed,
+    is_given_up,
 )
 from contoursolve.tolerance import AGREEMENT
 
@@ -119,45 +125,111 @@ class Repairs(Struct, frozen=True):
 
 
 class Trial(Struct, frozen=True, dict=True):
-    """The contour that edits are tried on, as it is before: its codes, its path if there is one, and where the next
-    block's line ends."""
+    """A contour on which edits are tried: as it is answered, with the blocks around it (`window`), those after it, of
+    which a corner needs one, and those before, of which it may be the end with its commas in place, with their state.
 
-    claim: ParsedContour
+    `about` has the places and the message of the finding that is to be mended, where it is not all that is wrong; it
+    `is_frequent` where each contour of a program may have the same: fewer slips are tried then.
+    """
+
+    answer: Answer
     dialect: Dialect
-    codes: frozenset[str]
-    contour: Contour | None
-    next_place: tuple[Decimal, Decimal] | None = None
-    following: tuple[Block, ...] = ()
-    """The blocks after it, of which a corner needs one."""
-    blamed: frozenset[Span] = frozenset()
-    """The words that findings are about."""
-    previous: tuple[Sequence[Block], State] | None = None
-    """The blocks before it, and the state before those: with its commas in place, it may be the end of it."""
-    is_redundant: bool = False
-    """Whether its words say something twice, and agree."""
-    reach: Reach | None = None
-    """The parts that edits leave as they are."""
     window: Window | None = None
-    """The blocks around it."""
+    following: tuple[Block, ...] = ()
+    previous: tuple[Sequence[Block], State] | None = None
+    about: tuple[frozenset[Span], str] | None = None
     is_frequent: bool = False
-    """Whether each contour of a program may have the same finding: fewer slips are tried then."""
-    is_searched: bool = False
-    """Whether several contours fit, which a search has found, or one was given up: each trial takes another one."""
-    is_open: bool = False
-    """Whether words are missing."""
-    is_round: bool = False
-    """Whether a finding is about a circle: any word of its block may place it wrongly."""
-    is_missed: bool = False
-    """Whether a circle is missed, so that its size may be wrong."""
-    is_crossing_curves: bool = False
-    """Whether it has points that are computed as those of two lines or circles."""
-    is_spare: bool = False
-    """Whether all that is wrong tells that a corner is one too many: the control leaves it out, or another one takes
-    exactly its room."""
-    prospects: Prospects | None = None
-    """The words and lines that slips must change to undo what is wrong."""
-    told: str = ""
-    """The messages of its findings, which may name a word to add."""
+
+    @property
+    def claim(self) -> ParsedContour:
+        """Its blocks as they are read."""
+        return self.answer.claim
+
+    @cached_property
+    def problems(self) -> list[Diagnostic]:
+        """What is to be mended; nothing where a finding is given."""
+        return [] if self.about else problems(self.answer)
+
+    @cached_property
+    def codes(self) -> frozenset[str]:
+        """The codes of its findings."""
+        return frozenset(each.code for each in self.answer.diagnostics)
+
+    @cached_property
+    def told(self) -> str:
+        """The messages of its findings, which may name a word to add."""
+        return self.about[1] if self.about else " ".join(each.message for each in self.problems)
+
+    @cached_property
+    def contour(self) -> Contour | None:
+        """Its path; of one that rules refuse, the path without them."""
+        answer = self.answer
+        is_refused = answer.contour is None and answer.start.is_known and not answer.profile.is_extended
+        if not is_refused or torn_codes(answer.claim) or count_choices(answer.profile) > MOST_CHOICES:
+            return answer.contour
+        return examine(answer.claim, self.dialect.rules, Policy.OFF).contour
+
+    @cached_property
+    def next_place(self) -> tuple[Decimal, Decimal] | None:
+        """The end of the line of the next block, if a fact is about it and it was known."""
+        profile = self.answer.profile
+        for line in profile.figure.lines if profile.is_extended else ():
+            names = scalar(line.head, FIRST), scalar(line.head, SECOND)
+            if line.name.endswith(".landing") and line.head and profile.givens.keys() >= {*names}:
+                return profile.givens[names[0]].value, profile.givens[names[1]].value
+        return None
+
+    @cached_property
+    def reach(self) -> Reach | None:
+        """The parts that edits leave as they are."""
+        return Reach(self.answer) if self.problems and self.answer.start.is_known else None
+
+    @cached_property
+    def geometry(self) -> Geometry:
+        """What its words fix of the drawing."""
+        return Geometry.of(self.claim)
+
+    @cached_property
+    def prospects(self) -> Prospects | None:
+        """The words and lines that slips must change to undo what is wrong."""
+        if not self.problems:
+            return None
+        is_plain = self.answer.start.is_known and not self.answer.profile.is_extended
+        conflicts = [each.facts for each in self.geometry.conflicts] if is_plain else ()
+        around = self.window.blocks if self.window is not None else ()
+        return Prospects.of(self.answer, self.dialect.rules, conflicts, self.reach, around)
+
+    def is_about(self, kinds: Container[Enum | None]) -> bool:
+        """Whether a problem is about one of some events."""
+        return any(each.about in kinds for each in self.problems)
+
+    @cached_property
+    def is_searched(self) -> bool:
+        """Whether several contours fit, which a search has found, or one was given up: each trial takes another one."""
+        answer = self.answer
+        several = answer.alternatives if answer.status in (Status.AMBIGUOUS, Status.UNDECIDED) else None
+        if several is not None and several.reach is not None:
+            return True
+        # Beside what is open, each trial gives up the same search again.
+        return answer.profile.is_extended and self.is_about(OPEN) and is_given_up(answer.profile)
+
+    @cached_property
+    def is_crossing_curves(self) -> bool:
+        """Whether it has points that are computed as those of two lines or circles."""
+        profile = self.answer.profile
+        return not self.about and not profile.is_extended and any(each[0] == "P" for each in profile.intersections)
+
+    @cached_property
+    def is_missed(self) -> bool:
+        """Whether a circle is missed, so that its size may be wrong."""
+        return not self.about and any(each.about is RefusalKind.CIRCLE_MISSED for each in self.answer.diagnostics)
+
+    @cached_property
+    def is_spare(self) -> bool:
+        """Whether all that is wrong tells that a corner is one too many: the control leaves it out, or another one
+        takes exactly its room."""
+        found = self.problems
+        return bool(found) and all(each.about is ReadIssue.CORNER_DROPPED or _is_filled(each) for each in found)
 
     def repair(self, edits: tuple[Edit, ...]) -> Repair | None:
         """The repair with the reasons for it, if it is one."""
@@ -207,17 +279,19 @@ class Trial(Struct, frozen=True, dict=True):
     @cached_property
     def marked(self) -> Marked:
         """The places that its findings mark: of an arc all its words, and where words are missing all of them."""
-        lines = frozenset(span.line for span in self.blamed)
+        blamed = self.about[0] if self.about else frozenset(blamed_spans(self.answer))
+        lines = frozenset(span.line for span in blamed)
         own = list[Block]()
-        if self.is_round:
+        if self.is_about(_OF_CIRCLES):
+            # Any word of its block may place a circle wrongly.
             sizes = (*"IJK", self.dialect.modes.radius)
             arcs = [block for block in self.claim.blocks if any(map(block.find, sizes))]
             own += [block for block in arcs if block.line in lines] or arcs
         if self.is_missed:
             own += [block for block in self.claim.blocks if block.find(self.dialect.modes.radius)]
-        own += self.claim.blocks if self.is_open and len(self.claim.blocks) <= SHORT else ()
+        own += self.claim.blocks if self.is_about(OPEN) and len(self.claim.blocks) <= SHORT else ()
         spans = {word.span for block in own for word in block.words}
-        return Marked(self.blamed | spans, lines | {block.line for block in own}, self.told)
+        return Marked(blamed | spans, lines | {block.line for block in own}, self.told)
 
     @cached_property
     def _prices(self) -> Prices | None:
@@ -310,7 +384,7 @@ class Trial(Struct, frozen=True, dict=True):
 
     def _now_agrees(self, finding: Diagnostic) -> bool:
         """Whether a finding that the block did not have before says only that a word now agrees."""
-        return finding.code not in self.codes and not self.is_redundant and agrees(finding)
+        return finding.code not in self.codes and self.answer.status is not Status.OVERDETERMINED and agrees(finding)
 
     def examine(self, edits: tuple[Edit, ...]) -> Answer | None:
         """The answer to the edited blocks; None where they are not read as the same contour any more."""
@@ -493,6 +567,15 @@ _USUAL_ANGLES = [Decimal(each) for each in (45, 135, 90, 30, 60, 120, 150, 0)]
 
 _MOST_NUMBERS = 8
 """Numbers that are tried for one placeholder, where none can be computed."""
+
+OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
+_OF_CIRCLES = tuple(kind for kind in RefusalKind if re.search("radius|circle", kind.event.code))
+
+
+def _is_filled(finding: Diagnostic) -> bool:
+    """Whether each of two corners alone takes exactly the room of the other one, which hardly happens by chance."""
+    return all(abs(finding.values.get(each, float("inf"))) <= AGREEMENT for each in ("limit_first", "limit_second"))
+
 
 _HALF = 2.4
 """By so much more plausible a word is that a point lacks, of which the other one is there."""

@@ -24,7 +24,7 @@ from contoursolve.diagnosis.slip_kinds import partners
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, spell
-from contoursolve.geometry import FIRST, SECOND, Fact, Line, Profile, Unit, assemble, both, scalar, word_of
+from contoursolve.geometry import Fact, Line, Profile, Unit, assemble, both, word_of
 from contoursolve.reading import ParsedContour, ReadIssue, check, read
 from contoursolve.solving import (
     Status,
@@ -108,16 +108,6 @@ def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         places = [lines[profile.figure.path[each.element - 1].name] for each in picks]
         texts = [f"\n{spell(word, str(each.number))}" for each in picks]
         yield tuple(Edit(EditKind.ADD, word, text=text, line=line) for text, line in zip(texts, places, strict=True))
-
-
-def next_place_of(profile: Profile) -> tuple[Decimal, Decimal] | None:
-    """The end of the line of the next block, if a fact is about it and it was known."""
-    landing = (line for line in profile.figure.lines if line.name.endswith(".landing") and line.head)
-    for line in landing:
-        names = scalar(line.head, FIRST), scalar(line.head, SECOND)
-        if profile.givens.keys() >= set(names):
-            return profile.givens[names[0]].value, profile.givens[names[1]].value
-    return None
 
 
 def _brackets(answer: Answer) -> Iterator[tuple[Edit, ...]]:

@@ -172,7 +172,7 @@ def _tried(
     answer: Answer, window: Window, drafts: Iterable[Candidate], is_better: Callable[[Seen], bool]
 ) -> Iterator[Repair]:
     """The repairs of drafts with which all is right and better than before."""
-    trial = Trial(answer.claim, window.dialect, frozenset(), answer.contour, window=window)
+    trial = Trial(answer, window.dialect, window)
     for draft in drafts:
         seen = window.after(draft.edits)
         if seen is None or not window.mends(seen):

@@ -9,7 +9,7 @@ from contoursolve.diagnosis.drafts import missing_points
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, mend
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.explain import Context, report, spans_of
-from contoursolve.diagnosis.slip_kinds import POINT_LOST, Speech, mistyped_codes, texts_of
+from contoursolve.diagnosis.slip_kinds import POINT_LOST, Speech, Typed, mistyped_codes, texts_of
 from contoursolve.diagnosis.spelling import meant_in
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
@@ -37,7 +37,7 @@ def point_slips(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     lacking = spans_of(answer.diagnostics, ReadIssue.POINT_MISSING)
     claim, speech = answer.claim, Speech.of(answer.claim)
     words = [word for word in claim.words.values() if word.span in lacking]
-    yield from ((change(word, text),) for word in words for text in texts_of(POINT_LOST, word, speech))
+    yield from ((change(word, text),) for word in words for text in texts_of(POINT_LOST, Typed.of(word, speech)))
 
 
 # Blocks that are a contour but for a slip: a comma that is missing, a letter that looks like a digit -------------
