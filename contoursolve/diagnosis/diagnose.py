@@ -39,7 +39,7 @@ from contoursolve.diagnostics import (
 )
 from contoursolve.gcode import FACT, Block, FaultKind
 from contoursolve.geometry import Profile, System, Unit, assemble
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, read
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue, read
 from contoursolve.solving import (
     AffineFacts,
     Circuit,
@@ -67,14 +67,12 @@ def diagnose(
     dialect: Dialect,
     policy: Policy,
     following: Iterable[Block] = (),
-    previous: tuple[Sequence[Block], State] | None = None,
     window: Window | None = None,
 ) -> Answer:
     """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. Slips that are
-    certain are mended in thought, so that what else is wrong is told as well. `following` are the next blocks,
-    `previous` those before it, of which it may be the end, with the state before them."""
+    certain are mended in thought, so that what else is wrong is told as well. `following` are the next blocks."""
     following = tuple(following)
-    known = _Diagnosed.of(answer, dialect, policy, following, previous, window)
+    known = _Diagnosed.of(answer, dialect, policy, window)
     edits = certain_slips(answer, window) if window is not None else ()
     if not edits or window is None:
         return known.answer
@@ -92,7 +90,7 @@ def diagnose(
     if not problems(mended) or any(each.about in _GRAMMAR for each in mended.diagnostics):
         return known.answer
     around = replace(window, own=joined.blocks, behind=window.behind[more:])
-    beside = _Diagnosed.of(mended, dialect, policy, following[more:], previous, around)
+    beside = _Diagnosed.of(mended, dialect, policy, around)
     if known.cost < float("inf") and known.cost <= beside.cost + _CERTAIN * len(edits):
         return known.answer
     return _with_both(known.answer, text, beside)
@@ -138,8 +136,6 @@ class _Diagnosed(Struct, frozen=True):
         answer: Answer,
         dialect: Dialect,
         policy: Policy,
-        following: tuple[Block, ...],
-        previous: tuple[Sequence[Block], State] | None,
         window: Window | None,
     ) -> "_Diagnosed":
         """The diagnosis of an answer as it is."""
@@ -154,7 +150,7 @@ class _Diagnosed(Struct, frozen=True):
         # What a contour needs and nobody reads here is no slip.
         repairs = Repairs((), is_complete=False)
         if not answer.claim.unread and all(each.about is not ReadIssue.NOT_READ for each in answer.diagnostics):
-            repairs = find_repairs(answer, dialect, following, previous, window)
+            repairs = find_repairs(answer, dialect, window)
         diagnosis = Diagnosis(
             layers=list_layers(answer, policy),
             freedoms=freedoms,

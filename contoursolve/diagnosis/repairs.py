@@ -1,7 +1,7 @@
 """Repairs: every smallest change of a block's words that the control accepts and that has a
 contour. Each one is applied to the text, read, checked and solved again before it is offered."""
 
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Set
 from decimal import ROUND_HALF_EVEN, Decimal
 from itertools import chain, combinations, pairwise, product
 from math import copysign, sqrt
@@ -16,13 +16,12 @@ from contoursolve.diagnosis.drafts import (
     has_faults,
     marked,
     mended_words,
-    missing_points,
     moving,
     unreadable,
 )
 from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, Why, add, change, drop, write_word
 from contoursolve.diagnosis.examine import Answer, Policy, examine, problems
-from contoursolve.diagnosis.explain import SINGULAR, spans_of
+from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.ranking import choose_repairs
 from contoursolve.diagnosis.slip_kinds import explained
 from contoursolve.diagnosis.spelling import torn_codes
@@ -37,12 +36,12 @@ from contoursolve.diagnosis.subsets import (
     smallest_changes,
     words_of,
 )
-from contoursolve.diagnosis.typo_fixes import other_codes, point_slips
-from contoursolve.diagnosis.window import Window
+from contoursolve.diagnosis.typo_fixes import point_slips
+from contoursolve.diagnosis.window import Window, alone
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import Block, FaultKind, number_of, spell
+from contoursolve.gcode import FaultKind, number_of, spell
 from contoursolve.geometry import Given, Unit
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, check
+from contoursolve.reading import Dialect, ParsedContour, check
 from contoursolve.solving import (
     Circuit,
     Status,
@@ -54,23 +53,20 @@ from contoursolve.solving import (
 def find_repairs(
     answer: Answer,
     dialect: Dialect,
-    following: tuple[Block, ...] = (),
-    previous: tuple[Sequence[Block], State] | None = None,
     window: Window | None = None,
 ) -> Repairs:
     """The repairs of a contour that was refused, or in which a word is ignored.
 
-    A repair leaves no error and no warning. None of them contains another one. `following` are the next blocks,
-    `previous` those before it, of which it may be the end, with the state before them.
+    A repair leaves no error and no warning. None of them contains another one. `window` are the blocks around.
     """
     answer = _alone(answer, dialect)
     # No change of words closes a comment, and what leaves a warning is no repair.
     is_open = any(each.kind is FaultKind.COMMENT_NOT_CLOSED for block in answer.claim.blocks for each in block.faults)
     if is_open or (not answer.start.is_known and _waits(answer)):
         return Repairs((), is_complete=False)
-    trial = Trial(answer, dialect, window, following, previous)
+    trial = Trial(answer, dialect, window or alone(answer, dialect))
     if answer.start.is_known and not problems(answer):
-        return choose_repairs(replace(trial, window=None), [point_slips(answer)])
+        return choose_repairs(trial, [point_slips(answer)])
     drop_sets = DropSets((), is_complete=False)
     stages: Iterable[Iterable[tuple[Edit, ...]]] = ()
     if torn_codes(answer.claim):
@@ -97,8 +93,9 @@ def _of_words(answer: Answer, trial: Trial, drop_sets: DropSets) -> Iterator[Ite
     # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
     first = chain.from_iterable(_legal_sets(answer, trial.dialect, whole, forced) for forced in unreadable(claim))
     then = _dropping(answer, alone)
-    yield from _valued(answer, whole, trial)
-    yield from (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
+    if answer.status in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED) and not whole.conflicts:
+        yield _of_circles(answer, trial)
+    yield from (commas(answer), marked(answer), fitting(answer))
     yield _lost_ends(answer)
     changes = (
         _values(answer, whole),
@@ -149,31 +146,6 @@ def _lost_ends(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         for axis in claim.before.plane.axes:
             if behind.find(axis) is None and any(map(behind.find, claim.before.plane.axes)):
                 yield (Edit(EditKind.ADD, axis, text=spell(axis, PLACEHOLDER), line=block.line),)
-
-
-def _valued(answer: Answer, whole: Geometry, trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
-    """Words with the values that the others leave them, and codes that others are like."""
-    claim = answer.claim
-    if all(each.about is ReadIssue.CORNER_DROPPED for each in problems(answer)):
-        # The path is as the words say: the corner is one too many.
-        return
-    against = whole.conflicts
-    if against and not any(each.about in SINGULAR for each in answer.diagnostics):
-        # One word that is wrong is in each contradiction, and the others tell its value.
-        names = frozenset.intersection(*(frozenset(fact.given or "" for fact in each.facts) for each in against))
-        yield chain.from_iterable(_agreeing(claim, name) for name in claim.words if name in names)
-        return
-    if answer.status not in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED):
-        yield other_codes(answer, trial.dialect.modes)
-        return
-    yield _of_circles(answer, trial)
-
-
-def _agreeing(claim: ParsedContour, name: str) -> Iterator[tuple[Edit, ...]]:
-    """A word as a slip explains it, with about the value that the others leave it."""
-    value = Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
-    if value is not None:
-        yield from ((change(claim.words[name], text),) for text in explained(claim.words[name], value, claim))
 
 
 def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[Edit, ...]]:
@@ -227,6 +199,21 @@ def _legal_sets(
         yield from ((*forced, *edits) for edits in _replacing(claim, dialect, whole.conflicts, names & extra, blocks))
 
 
+def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
+    """Each corner at fault as it is, without its word, or with the word for its other shape."""
+    options: list[list[tuple[Edit, ...]]] = []
+    for row in claim.form.outline.corners:
+        for name in (name for name in at_fault if name in row.shapes):
+            word = claim.words[name]
+            texts = (word.text.upper().replace(word.address, other, 1) for other in row.shapes if other != name)
+            others = [change(word, text) for text in texts]
+            options.append([(), (drop(word),), *((other,) for other in others)])
+    for choice in product(*options):
+        edits = tuple(edit for part in choice for edit in part)
+        if edits:
+            yield edits
+
+
 def _replacing(
     claim: ParsedContour, dialect: Dialect, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
 ) -> Iterator[tuple[Edit, ...]]:
@@ -273,21 +260,6 @@ def _additions(claim: ParsedContour, name: str, geometries: Iterable[Geometry]) 
             texts = [write_word(address, value, claim.lexicon, claim.after.unit)]
             break
     return [add(claim, name, text) for text in texts]
-
-
-def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
-    """Each corner at fault as it is, without its word, or with the word for its other shape."""
-    options: list[list[tuple[Edit, ...]]] = []
-    for row in claim.form.outline.corners:
-        for name in (name for name in at_fault if name in row.shapes):
-            word = claim.words[name]
-            texts = (word.text.upper().replace(word.address, other, 1) for other in row.shapes if other != name)
-            others = [change(word, text) for text in texts]
-            options.append([(), (drop(word),), *((other,) for other in others)])
-    for choice in product(*options):
-        edits = tuple(edit for part in choice for edit in part)
-        if edits:
-            yield edits
 
 
 def _values(answer: Answer, whole: Geometry) -> Iterator[tuple[Edit, ...]]:
