@@ -86,9 +86,12 @@ def diagnose(
     # With its comma, a corner joins the blocks behind.
     text = MendedText((*answer.claim.blocks, *following[:more]), edits, count)
     mended = examine(joined, dialect.rules, policy, depth=Depth.FINDINGS)
-    # Where something still cannot be read, nothing more is known.
     if not problems(mended) or any(each.about in _GRAMMAR for each in mended.diagnostics):
-        return known.answer
+        # Where something still cannot be read, nothing more is known.
+        if known.cost < float("inf"):
+            return known.answer
+        told, others = _certain(known.answer, text)
+        return replace(known.answer, diagnostics=tuple(sorted((*told, *others), key=rank)))
     around = replace(window, own=joined.blocks, behind=window.behind[more:])
     beside = _Diagnosed.of(mended, dialect, policy, around)
     if known.cost < float("inf") and known.cost <= beside.cost + _CERTAIN * len(edits):
@@ -103,18 +106,25 @@ _CERTAIN = 1.5
 """The cost of a slip that is certain beside another one: two are less likely than one."""
 
 
-def _with_both(answer: Answer, text: MendedText, beside: "_Diagnosed") -> Answer:
-    """An answer with what is certain, each with its fix, and with what is wrong beside it."""
-    findings, left = list[Diagnostic](), [*text.edits]
+def _certain(answer: Answer, text: MendedText, note: str = "") -> tuple[list[Diagnostic], list[Diagnostic]]:
+    """The findings about what is certain, each with its fix and with a note if there is one; and the others."""
+    told, others, left = list[Diagnostic](), list[Diagnostic](), [*text.edits]
     for finding in answer.diagnostics:
         own = tuple(edit for edit in about(finding, text.edits) if edit in left)
         if not own:
+            others.append(finding)
             continue
         left = [edit for edit in left if edit not in own]
         repair = Repair(own, edited(text.own, own), Applicability.CHANGES_CONTOUR, None, 0.0, slips=(None,) * len(own))
-        told = with_fixes(replace(finding, notes=()), answer, [repair])
-        note = f"the contour is checked as if {join([edit.text for edit in own])} stood there"
-        findings.append(replace(told, notes=(*told.notes, note)))
+        new = with_fixes(replace(finding, notes=()), answer, [repair])
+        notes = [note.format(join([edit.text for edit in own]))] if note else ()
+        told.append(replace(new, notes=(*new.notes, *notes)))
+    return told, others
+
+
+def _with_both(answer: Answer, text: MendedText, beside: "_Diagnosed") -> Answer:
+    """An answer with what is certain, each with its fix, and with what is wrong beside it."""
+    findings, _ = _certain(answer, text, "the contour is checked as if {} stood there")
     for number, finding in enumerate(beside.answer.diagnostics):
         fixes = fixes_of(beside.answer, beside.repairs.get(number, ()), text)
         findings.append(replace(text.told(finding), fixes=fixes))

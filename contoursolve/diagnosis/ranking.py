@@ -109,10 +109,11 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
 
 def _is_unexplained(found: Iterable[Repair]) -> bool:
     """Whether no slip explains what is wrong well."""
-    return min((each.cost for each in found), default=float("inf")) > _WELL
+    best = min(found, key=lambda each: each.cost, default=None)
+    return best is None or best.cost > _WELL or not any(best.slips)
 
 
-_WELL = 99.0
+_WELL = 5.0
 """The cost of a repair beside which two slips are not looked for."""
 
 

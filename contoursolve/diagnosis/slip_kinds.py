@@ -184,6 +184,8 @@ def _point_moved(typed: Typed) -> Iterator[str]:
         yield from typed.as_number(moved + (f".{tail}" if tail else point if typed.counts else ""))
     if len(whole) > 1 and whole[-1] != "0" and (point or typed.counts):
         yield from typed.as_number(f"{whole[:-1]}.{whole[-1]}{rest}")
+    elif whole.strip("0") and len(whole) == 1 and rest:
+        yield from typed.as_number(f"0.{whole}{rest}")
 
 
 def _zero_added(typed: Typed) -> Texts:

@@ -13,10 +13,10 @@ from contoursolve.diagnosis.slips_around import Candidate, Marked, drafts_around
 from contoursolve.diagnosis.window import Seen
 from contoursolve.diagnostics import Diagnostic
 
-MOST_FIRST, MOST_PAIRS = 24, 40
+MOST_FIRST, MOST_PAIRS = 60, 100
 """Slips of which each is looked at alone, and pairs that are tried."""
 
-SECOND = 1.5
+SECOND = 1.0
 """The cost of a second slip besides that of its kind: two are less likely than one."""
 
 
@@ -26,9 +26,11 @@ def two_slips(trial: Trial) -> list[Candidate]:
         return []
     found = dict[frozenset[Edit], Candidate]()
     drafts = dict[frozenset[tuple[str, int]], list[Candidate]]()
+    # What cannot be read is an error until an edit touches it.
+    torn = {each.span for block in trial.window.own for each in block.faults}
     for first in islice(_drafts(trial, trial.marked), MOST_FIRST):
         left = _left(trial, first.edits)
-        if not left:
+        if not left or (torn and not any(touches(edit, span) for edit in first.edits for span in torn)):
             continue
         key = frozenset((each.code, each.span.line) for each in left)
         if key not in drafts:
@@ -47,13 +49,15 @@ def _drafts(trial: Trial, marked: Marked) -> Iterator[Candidate]:
 
 
 def _left(trial: Trial, edits: tuple[Edit, ...]) -> list[Diagnostic]:
-    """What is left with edits that take some of what is wrong away; nothing where they take none."""
+    """What is left with edits that take some of what is wrong away, or that change what it is about; nothing where
+    they do neither."""
     window, seen = trial.window, trial.window.after(edits)
     if seen is None:
         return []
     old, new = (_own(trial, each) for each in (window.before, seen))
     gone = {(each.code, each.span.line) for each in old} - {(each.code, each.span.line) for each in new}
-    return window.left(seen) if gone else []
+    is_about = all(edit.span in trial.marked.spans for edit in edits)
+    return window.left(seen) if gone or is_about else []
 
 
 def _own(trial: Trial, seen: Seen) -> list[Diagnostic]:
