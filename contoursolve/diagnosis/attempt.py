@@ -91,6 +91,8 @@ class Repair(Struct, frozen=True):
     """The reason, in words, for which it is unlikely to be meant."""
     beside: tuple[LineChange, ...] = ()
     """The lines outside the contour that it changes, too."""
+    is_double: bool = False
+    """Whether it undoes two slips, of which none alone explains what is wrong."""
     evidence: tuple[tuple[Feature, float], ...] = ()
     """The features that tell how plausible it is, with the amount of each."""
 

@@ -88,7 +88,7 @@ def diagnose(
     mended = examine(joined, dialect.rules, policy, depth=Depth.FINDINGS)
     if not problems(mended) or any(each.about in _GRAMMAR for each in mended.diagnostics):
         # Where something still cannot be read, nothing more is known.
-        if known.cost < float("inf"):
+        if any(known.repairs.values()):
             return known.answer
         told, others = _certain(known.answer, text)
         return replace(known.answer, diagnostics=tuple(sorted((*told, *others), key=rank)))
@@ -134,7 +134,7 @@ def _with_both(answer: Answer, text: MendedText, beside: "_Diagnosed") -> Answer
 
 class _Diagnosed(Struct, frozen=True):
     """An answer with a diagnosis, and the repairs that its findings have, by their number; `cost` is that of the
-    edits of the best one."""
+    edits of the best one that undoes one slip."""
 
     answer: Answer
     repairs: Mapping[int, Sequence[Repair]]
@@ -192,7 +192,8 @@ class _Diagnosed(Struct, frozen=True):
                     findings[main], notes=(*findings[main].notes[:1], _CUT, *findings[main].notes[1:])
                 )
         findings = [replace(each, notes=(*each.notes, *_places_of_blocks(answer.claim, each))) for each in findings]
-        cost = min((each.cost_of_edits for each in repairs.repairs), default=float("inf"))
+        alone = (each.cost_of_edits for each in repairs.repairs if not each.is_double)
+        cost = min(alone, default=float("inf"))
         return cls(replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis), fixing, cost)
 
 

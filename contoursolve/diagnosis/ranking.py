@@ -86,7 +86,7 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     if not trial.is_frequent and not trial.is_searched and _is_unexplained(known.values()):
         from contoursolve.diagnosis.two_slips import two_slips  # noqa: PLC0415 - most have one slip
 
-        known |= {each.edits: each for each in _tried(trial, two_slips(trial))}
+        known |= {each.edits: replace(each, is_double=True) for each in _tried(trial, two_slips(trial))}
     found = [*known.values()]
     found = [
         each
@@ -96,6 +96,9 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     found = _usual_marked(_large_marked(found, trial.contour))
     found.sort(key=_order)
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
+    if found and not found[0].is_double:
+        # Beside one slip that explains it, two tell nothing.
+        found = [each for each in found if not each.is_double]
     farthest = found[0].cost + _FARTHEST if found else 0.0
     found = [each for at, each in enumerate(found) if at < _ENOUGH or each.cost <= farthest or not any(each.slips)]
     found = [
@@ -264,7 +267,7 @@ def repair_of(draft: Candidate, trial: Trial, is_better: Callable[[Seen], bool] 
     seen = trial.window.mended(draft.edits)
     if seen is None or not is_better(seen):
         return None
-    contour = path_of(seen, trial.lines)
+    contour = path_of(seen, trial.lines) if trial.window.has_contour(seen) else None
     within = [edit for edit in draft.edits if edit.place in trial.lines]
     replacement = edited(trial.claim.blocks, within)
     repair = Repair(draft.edits, replacement, Applicability.CHANGES_CONTOUR, None, 0.0)
