@@ -2,7 +2,7 @@
 
 import dataclasses
 import re
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Iterator
 from decimal import Decimal
 from enum import Enum
 from functools import cached_property, lru_cache
@@ -261,7 +261,8 @@ class Trial(Struct, frozen=True, dict=True):
         # Either sign makes the contour where two elements only touch.
         is_choice = all(edit.kind is EditKind.ADD and edit.address in _choices(self.claim) for edit in edits)
         seen = window.mended(edits, {NoteKind.TOUCHES} if is_choice else ())
-        if seen is None or not (window.has_contour(seen) or all(edit.span in self._read_words for edit in edits)):
+        is_parted = all(edit.kind is EditKind.DROP and edit.span in self._parting for edit in edits)
+        if seen is None or not (window.has_contour(seen) or is_parted):
             return None
         contour = path_of(seen, self.lines)
         if contour is None and any(part.after.motion in _ARCS for part in parts_of(seen, self.lines)):
@@ -283,9 +284,12 @@ class Trial(Struct, frozen=True, dict=True):
         return answer.contour if answer.status is Status.SOLVED and not problems(answer) else None
 
     @cached_property
-    def _read_words(self) -> frozenset[Span]:
-        """The words of the contour: without them, plain blocks may be left."""
-        return frozenset(word.span for word in self.claim.words.values())
+    def _parting(self) -> frozenset[Span]:
+        """The words of corners, and of the angles of lines whose ends are stated: without them, plain blocks may be
+        left."""
+        claim = self.claim
+        sizes = (name for name in claim.form.outline.shapes if name in claim.words)
+        return frozenset(claim.words[name].span for name in (*sizes, *_spare_angles(claim)))
 
     @cached_property
     def marked(self) -> Marked:
@@ -555,6 +559,18 @@ def _is_round(edit: Edit) -> bool:
 def _choices(claim: ParsedContour) -> set[str]:
     """The addresses of words of which only the sign counts."""
     return {claim.vocabulary[name][0] for name in claim.form.choices if name in claim.vocabulary}
+
+
+def _spare_angles(claim: ParsedContour) -> Iterator[str]:
+    """The angles of lines that have both coordinates of their end, and begin where the block before ends."""
+    prefixes = {role.prefixes[0] for role in claim.form.roles if role.name == "line"}
+    for row in claim.form.outline.facts:
+        given = row.fact.given or ""
+        prefix = given[: given.find(":") + 1]
+        if row.fact.heading and given in claim.words and prefix in prefixes:
+            ends = ((f"{prefix}{axis}", f"{prefix}{axis}-step") for axis in ("first", "second"))
+            if all(any(name in claim.words for name in names) for names in ends):
+                yield given
 
 
 def _does_more(edit: Edit, claim: ParsedContour) -> bool:
