@@ -148,7 +148,7 @@ class Trial(Struct, frozen=True, dict=True):
 
     @cached_property
     def problems(self) -> list[Diagnostic]:
-        """What is to be mended; nothing where a finding is given."""
+        """The findings that are to be mended; none where a finding is given."""
         return [] if self.about else problems(self.answer)
 
     @cached_property
@@ -192,7 +192,7 @@ class Trial(Struct, frozen=True, dict=True):
 
     @cached_property
     def geometry(self) -> Geometry:
-        """What its words fix of the drawing."""
+        """The values that its words fix of the drawing."""
         return Geometry.of(self.claim)
 
     @cached_property

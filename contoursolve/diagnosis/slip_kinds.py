@@ -354,7 +354,7 @@ def _increment(typed: Typed) -> Texts:
 
 
 class Changes(IntEnum):
-    """What a slip changes of a word."""
+    """The part of a word that a slip changes."""
 
     ADDRESS = 0
     SIGN = 1

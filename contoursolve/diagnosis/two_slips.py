@@ -49,8 +49,8 @@ def _drafts(trial: Trial, marked: Marked) -> Iterator[Candidate]:
 
 
 def _left(trial: Trial, edits: tuple[Edit, ...]) -> list[Diagnostic]:
-    """What is left with edits that take some of what is wrong away, or that change what it is about; nothing where
-    they do neither."""
+    """The findings that are left with edits that take some of what is wrong away, or that change what it is about; none
+    where they do neither."""
     window, seen = trial.window, trial.window.after(edits)
     if seen is None:
         return []

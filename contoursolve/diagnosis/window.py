@@ -199,8 +199,8 @@ class Window(Struct, frozen=True, dict=True):
         return not self.left(seen, meant)
 
     def left(self, seen: Seen, meant: Collection[Enum] = ()) -> list[Diagnostic]:
-        """What is wrong of its own then, or new elsewhere. What is wrong with contours that waited for it shows only
-        then."""
+        """The problems of its own blocks then, and new ones elsewhere. What is wrong with contours that waited for it
+        shows only then."""
         first, last = self.lines[0], self.lines[-1]
         old = self.before
         lost = self._waiting - seen.changed
