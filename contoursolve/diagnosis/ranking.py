@@ -43,7 +43,7 @@ from contoursolve.diagnosis.slips_around import (
     touches,
 )
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
-from contoursolve.diagnosis.window import Seen, moves_of, path_of
+from contoursolve.diagnosis.window import Seen, moves_of, parts_of, path_of
 from contoursolve.diagnostics import Applicability, NumberRange
 from contoursolve.solving import Contour
 from contoursolve.tolerance import AGREEMENT
@@ -267,7 +267,10 @@ def repair_of(draft: Candidate, trial: Trial, is_better: Callable[[Seen], bool] 
     seen = trial.window.mended(draft.edits)
     if seen is None or not is_better(seen):
         return None
-    contour = path_of(seen, trial.lines) if trial.window.has_contour(seen) else None
+    parts = (part.answer.contour for part in parts_of(seen, trial.window.lines) if part.answer is not None)
+    contour = next(parts, None)
+    # Parted by plain blocks, it ends with them.
+    contour = (path_of(seen, trial.lines) or contour) if contour is not None else None
     within = [edit for edit in draft.edits if edit.place in trial.lines]
     replacement = edited(trial.claim.blocks, within)
     repair = Repair(draft.edits, replacement, Applicability.CHANGES_CONTOUR, None, 0.0)

@@ -44,8 +44,9 @@ def two_slips(trial: Trial) -> list[Candidate]:
 
 
 def _drafts(trial: Trial, marked: Marked) -> Iterator[Candidate]:
-    """The slips of few texts around what is marked, the most plausible first."""
-    return iter(drafts_around(trial.window, marked, trial.claim, FEW))
+    """The slips of few texts around what is marked, each in one block, the most plausible first."""
+    drafts = drafts_around(trial.window, marked, trial.claim, FEW)
+    return (each for each in drafts if len({edit.place for edit in each.edits}) == 1)
 
 
 def _left(trial: Trial, edits: tuple[Edit, ...]) -> list[Diagnostic]:
