@@ -41,7 +41,7 @@ from contoursolve.diagnosis.slips_around import (
 from contoursolve.diagnosis.spelling import torn_codes
 from contoursolve.diagnosis.stated_values import Geometry
 from contoursolve.diagnosis.subsets import blamed_spans
-from contoursolve.diagnosis.window import Window, alone, parts_of, path_of
+from contoursolve.diagnosis.window import Seen, Window, alone, parts_of, path_of
 from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Span
 from contoursolve.gcode import Block, spell
 from contoursolve.geometry import FIRST, SECOND, Profile, Unit, assemble, scalar
@@ -262,7 +262,7 @@ class Trial(Struct, frozen=True, dict=True):
         is_choice = all(edit.kind is EditKind.ADD and edit.address in _choices(self.claim) for edit in edits)
         seen = window.mended(edits, {NoteKind.TOUCHES} if is_choice else ())
         is_parted = all(edit.kind is EditKind.DROP and edit.span in self._parting for edit in edits)
-        if seen is None or not (window.has_contour(seen) or is_parted):
+        if seen is None or not (is_parted or self._is_whole(seen)):
             return None
         contour = path_of(seen, self.lines)
         if contour is None and any(part.after.motion in _ARCS for part in parts_of(seen, self.lines)):
@@ -282,6 +282,11 @@ class Trial(Struct, frozen=True, dict=True):
         changed = dataclasses.replace(claim, words=words, givens=givens)
         answer = examine(changed, self.dialect.rules, Policy.ENFORCE)
         return answer.contour if answer.status is Status.SOLVED and not problems(answer) else None
+
+    def _is_whole(self, seen: Seen) -> bool:
+        """Whether its blocks are still one contour, or part of one."""
+        parts = parts_of(seen, self.lines)
+        return any(part.answer is not None and {block.line for block in part.blocks} >= self.lines for part in parts)
 
     @cached_property
     def _parting(self) -> frozenset[Span]:
