@@ -2,8 +2,9 @@
 
 import dataclasses
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator
 from decimal import Decimal
+from enum import Enum
 from functools import cached_property, lru_cache
 from itertools import pairwise
 
@@ -20,7 +21,7 @@ from contoursolve.diagnosis.edits import (
     edited,
     read_edited,
 )
-from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
+from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Depth, Policy, count_choices, examine, problems
 from contoursolve.diagnosis.examples import MOST_OPEN, numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
@@ -37,22 +38,24 @@ from contoursolve.diagnosis.slips_around import (
     Marked,
     Prices,
 )
-from contoursolve.diagnosis.window import Window, agrees
-from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Severity, Span
-from contoursolve.gcode import Block, parse_block, spell
-from contoursolve.geometry import Profile, Unit, assemble
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
+from contoursolve.diagnosis.spelling import torn_codes
+from contoursolve.diagnosis.stated_values import Geometry
+from contoursolve.diagnosis.subsets import blamed_spans
+from contoursolve.diagnosis.window import Seen, Window, alone, parts_of, path_of
+from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Span
+from contoursolve.gcode import Block, spell
+from contoursolve.geometry import FIRST, SECOND, Profile, Unit, assemble, scalar
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue, advance, read
 from contoursolve.solving import (
     Contour,
-    LineSegment,
     NoteKind,
-    Point,
-    Segment,
+    RefusalKind,
     Status,
     affine_facts,
     analyse,
     groups_of,
     is_closed,
+    is_given_up,
 )
 from contoursolve.tolerance import AGREEMENT
 
@@ -88,6 +91,8 @@ class Repair(Struct, frozen=True):
     """The reason, in words, for which it is unlikely to be meant."""
     beside: tuple[LineChange, ...] = ()
     """The lines outside the contour that it changes, too."""
+    is_double: bool = False
+    """Whether it undoes two slips, of which none alone explains what is wrong."""
     evidence: tuple[tuple[Feature, float], ...] = ()
     """The features that tell how plausible it is, with the amount of each."""
 
@@ -119,59 +124,131 @@ class Repairs(Struct, frozen=True):
 
 
 class Trial(Struct, frozen=True, dict=True):
-    """The contour that edits are tried on, as it is before: its codes, its path if there is one, and where the next
-    block's line ends."""
+    """A contour on which edits are tried: as it is answered, with the blocks around it (`window`).
 
-    claim: ParsedContour
+    `about` has the places and the message of the finding that is to be mended, where it is not all that is wrong; it
+    `is_frequent` where each contour of a program may have the same: fewer slips are tried then.
+    """
+
+    answer: Answer
     dialect: Dialect
-    codes: frozenset[str]
-    contour: Contour | None
-    next_place: tuple[Decimal, Decimal] | None = None
-    following: tuple[Block, ...] = ()
-    """The blocks after it, of which a corner needs one."""
-    blamed: frozenset[Span] = frozenset()
-    """The words that findings are about."""
-    previous: tuple[Sequence[Block], State] | None = None
-    """The blocks before it, and the state before those: with its commas in place, it may be the end of it."""
-    is_redundant: bool = False
-    """Whether its words say something twice, and agree."""
-    reach: Reach | None = None
-    """The parts that edits leave as they are."""
-    window: Window | None = None
-    """The blocks around it."""
+    window: Window
+    about: tuple[frozenset[Span], str] | None = None
     is_frequent: bool = False
-    """Whether each contour of a program may have the same finding: fewer slips are tried then."""
-    is_searched: bool = False
-    """Whether several contours fit, which a search has found, or one was given up: each trial takes another one."""
-    is_open: bool = False
-    """Whether words are missing."""
-    is_round: bool = False
-    """Whether a finding is about a circle: any word of its block may place it wrongly."""
-    is_missed: bool = False
-    """Whether a circle is missed, so that its size may be wrong."""
-    is_crossing_curves: bool = False
-    """Whether it has points that are computed as those of two lines or circles."""
-    is_spare: bool = False
-    """Whether all that is wrong tells that a corner is one too many: the control leaves it out, or another one takes
-    exactly its room."""
-    prospects: Prospects | None = None
-    """The words and lines that slips must change to undo what is wrong."""
-    told: str = ""
-    """The messages of its findings, which may name a word to add."""
 
-    def repair(self, edits: tuple[Edit, ...]) -> Repair | None:
+    @property
+    def claim(self) -> ParsedContour:
+        """Its blocks as they are read."""
+        return self.answer.claim
+
+    @cached_property
+    def lines(self) -> frozenset[int]:
+        """Those of its blocks."""
+        return frozenset(block.line for block in self.claim.blocks)
+
+    @cached_property
+    def problems(self) -> list[Diagnostic]:
+        """The findings that are to be mended; none where a finding is given."""
+        return [] if self.about else problems(self.answer)
+
+    @cached_property
+    def own(self) -> Window:
+        """Its blocks alone: a number that is still to be chosen says nothing of those behind."""
+        return alone(self.answer, self.dialect)
+
+    @cached_property
+    def codes(self) -> frozenset[str]:
+        """The codes of its findings."""
+        return frozenset(each.code for each in self.answer.diagnostics)
+
+    @cached_property
+    def told(self) -> str:
+        """The messages of its findings, which may name a word to add."""
+        return self.about[1] if self.about else " ".join(each.message for each in self.problems)
+
+    @cached_property
+    def contour(self) -> Contour | None:
+        """Its path; of one that rules refuse, the path without them."""
+        answer = self.answer
+        is_refused = answer.contour is None and answer.start.is_known and not answer.profile.is_extended
+        if not is_refused or torn_codes(answer.claim) or count_choices(answer.profile) > MOST_CHOICES:
+            return answer.contour
+        return examine(answer.claim, self.dialect.rules, Policy.OFF).contour
+
+    @cached_property
+    def next_place(self) -> tuple[Decimal, Decimal] | None:
+        """The end of the line of the next block, if a fact is about it and it was known."""
+        profile = self.answer.profile
+        for line in profile.figure.lines if profile.is_extended else ():
+            names = scalar(line.head, FIRST), scalar(line.head, SECOND)
+            if line.name.endswith(".landing") and line.head and profile.givens.keys() >= {*names}:
+                return profile.givens[names[0]].value, profile.givens[names[1]].value
+        return None
+
+    @cached_property
+    def reach(self) -> Reach | None:
+        """The parts that edits leave as they are."""
+        return Reach(self.answer) if self.problems and self.answer.start.is_known else None
+
+    @cached_property
+    def geometry(self) -> Geometry:
+        """The values that its words fix of the drawing."""
+        return Geometry.of(self.claim)
+
+    @cached_property
+    def prospects(self) -> Prospects | None:
+        """The words and lines that slips must change to undo what is wrong."""
+        if not self.problems:
+            return None
+        is_plain = self.answer.start.is_known and not self.answer.profile.is_extended
+        conflicts = [each.facts for each in self.geometry.conflicts] if is_plain else ()
+        return Prospects.of(self.answer, self.dialect.rules, conflicts, self.reach, self.window.blocks)
+
+    def is_about(self, kinds: Container[Enum | None]) -> bool:
+        """Whether a problem is about one of some events."""
+        return any(each.about in kinds for each in self.problems)
+
+    @cached_property
+    def is_searched(self) -> bool:
+        """Whether several contours fit, which a search has found, or one was given up: each trial takes another one."""
+        answer = self.answer
+        several = answer.alternatives if answer.status in (Status.AMBIGUOUS, Status.UNDECIDED) else None
+        if several is not None and several.reach is not None:
+            return True
+        # Beside what is open, each trial gives up the same search again.
+        return answer.profile.is_extended and self.is_about(OPEN) and is_given_up(answer.profile)
+
+    @cached_property
+    def is_crossing_curves(self) -> bool:
+        """Whether it has points that are computed as those of two lines or circles."""
+        profile = self.answer.profile
+        return not self.about and not profile.is_extended and any(each[0] == "P" for each in profile.intersections)
+
+    @cached_property
+    def is_missed(self) -> bool:
+        """Whether a circle is missed, so that its size may be wrong."""
+        return not self.about and any(each.about is RefusalKind.CIRCLE_MISSED for each in self.answer.diagnostics)
+
+    @cached_property
+    def is_spare(self) -> bool:
+        """Whether all that is wrong tells that a corner is one too many: the control leaves it out, or another one
+        takes exactly its room."""
+        found = self.problems
+        return bool(found) and all(each.about is ReadIssue.CORNER_DROPPED or _is_filled(each) for each in found)
+
+    def repair(self, edits: tuple[Edit, ...], window: Window | None = None) -> Repair | None:
         """The repair with the reasons for it, if it is one."""
         if any(edit.span in self.claim.trusted for edit in edits):
             return None
         if self.reach is not None and self.reach.leaves_a_problem(edits):
             return None
-        repair = self._solve(edits)
+        repair = self._solve(edits, window or self.window)
         if repair is None:
             return None
         found = tuple(recognise(edit, self.claim) or (ROUND if _is_round(edit) else None) for edit in edits)
         return replace(repair, slips=found)
 
-    def _solve(self, edits: tuple[Edit, ...]) -> Repair | None:
+    def _solve(self, edits: tuple[Edit, ...], window: Window) -> Repair | None:
         """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
         claim = self.claim
         texts = apply_edits(claim.blocks, edits)
@@ -181,60 +258,73 @@ class Trial(Struct, frozen=True, dict=True):
         if any(edit.is_placeholder for edit in edits):
             example, kind = self._example(edits) or self._example_around(edits), Applicability.PLACEHOLDER
             return Repair(edits, replacement, kind, None, 0.0, example=example) if example else None
-        answer = self.examine(edits)
-        if answer is None:
-            paths = (self._path_in_parts, self._path_beside_arcs) if _is_about_corners(edits, claim) else ()
-            contour = next(filter(None, (path(edits) for path in paths)), None)
-            return self.made(contour, edits, replacement) if contour else None
-        if answer.contour is None or not _is_settled(answer, edits):
+        # Either sign makes the contour where two elements only touch.
+        is_choice = all(edit.kind is EditKind.ADD and edit.address in _choices(self.claim) for edit in edits)
+        seen = window.mended(edits, {NoteKind.TOUCHES} if is_choice else ())
+        is_parted = all(edit.kind is EditKind.DROP and edit.span in self._parting for edit in edits)
+        if seen is None or not (is_parted or self._is_whole(seen)):
             return None
-        if answer.start.is_relative and claim.before.start().is_known:
+        contour = path_of(seen, self.lines)
+        if contour is None and any(part.after.motion in _ARCS for part in parts_of(seen, self.lines)):
+            contour = self._path_beside_arcs(edits)
+        if contour is None or (contour.crossing is not None and self.is_about({ReadIssue.AXIS_CROSSED})):
             return None
-        # No change of the block moves its start.
-        findings = [each for each in problems(answer) if each.about is not ReadIssue.START_IN_INCREMENTS]
-        rules = [each for each in findings if _is_crossing(each)]
-        if answer.profile.is_extended:
-            # Rules of the manual only warn where more is stated or asked than the control reads.
-            rules += [each for each in findings if each.about is None and each.severity is Severity.WARNING]
-        if all(edit.kind is EditKind.ADD and edit.address in _choices(claim) for edit in edits):
-            # Either sign makes the contour where two elements only touch.
-            rules += [each for each in findings if each.about is NoteKind.TOUCHES]
-        if not all(each in rules or self._now_agrees(each) for each in findings):
+        return self.made(contour, edits, replacement)
+
+    def _path_beside_arcs(self, edits: tuple[Edit, ...]) -> Contour | None:
+        """The path of the same elements, arcs among them that are none without a corner, without words that are
+        dropped."""
+        if any(edit.kind is not EditKind.DROP for edit in edits):
             return None
-        if answer.contour.crossing is not None and self.codes == {each.code for each in rules if _is_crossing(each)}:
-            return None
-        repair = self.made(answer.contour, edits, replacement)
-        return replace(repair, warnings=sum(each.code not in self.codes for each in rules))
+        claim, spans = self.claim, {edit.span for edit in edits}
+        words = {name: word for name, word in claim.words.items() if word.span not in spans}
+        givens = {name: each for name, each in claim.givens.items() if name in words or name not in claim.words}
+        changed = dataclasses.replace(claim, words=words, givens=givens)
+        answer = examine(changed, self.dialect.rules, Policy.ENFORCE)
+        return answer.contour if answer.status is Status.SOLVED and not problems(answer) else None
+
+    def _is_whole(self, seen: Seen) -> bool:
+        """Whether its blocks are still one contour, or part of one."""
+        parts = parts_of(seen, self.lines)
+        return any(part.answer is not None and {block.line for block in part.blocks} >= self.lines for part in parts)
+
+    @cached_property
+    def _parting(self) -> frozenset[Span]:
+        """The words of corners, and of the angles of lines whose ends are stated: without them, plain blocks may be
+        left."""
+        claim = self.claim
+        sizes = (name for name in claim.form.outline.shapes if name in claim.words)
+        return frozenset(claim.words[name].span for name in (*sizes, *_spare_angles(claim)))
 
     @cached_property
     def marked(self) -> Marked:
         """The places that its findings mark: of an arc all its words, and where words are missing all of them."""
-        lines = frozenset(span.line for span in self.blamed)
+        blamed = self.about[0] if self.about else frozenset(blamed_spans(self.answer))
+        lines = frozenset(span.line for span in blamed)
         own = list[Block]()
-        if self.is_round:
+        if self.is_about(_OF_CIRCLES):
+            # Any word of its block may place a circle wrongly.
             sizes = (*"IJK", self.dialect.modes.radius)
             arcs = [block for block in self.claim.blocks if any(map(block.find, sizes))]
             own += [block for block in arcs if block.line in lines] or arcs
         if self.is_missed:
             own += [block for block in self.claim.blocks if block.find(self.dialect.modes.radius)]
-        own += self.claim.blocks if self.is_open and len(self.claim.blocks) <= SHORT else ()
+        own += self.claim.blocks if self.is_about(OPEN) and len(self.claim.blocks) <= SHORT else ()
         spans = {word.span for block in own for word in block.words}
-        return Marked(self.blamed | spans, lines | {block.line for block in own}, self.told)
+        return Marked(blamed | spans, lines | {block.line for block in own}, self.told)
 
     @cached_property
-    def _prices(self) -> Prices | None:
-        return Prices.of(self.window, self.marked, self.claim) if self.window is not None else None
+    def _prices(self) -> Prices:
+        return Prices.of(self.window, self.marked, self.claim)
 
     def price(self, edit: Edit, slip: SlipKind | None) -> float:
         """The cost of an edit for what it undoes; of a slip, the same whichever way it is found."""
-        if slip is None or self._prices is None:
-            return cost_of(edit, slip)
-        return self._prices.price(edit, slip)
+        return cost_of(edit, slip) if slip is None else self._prices.price(edit, slip)
 
     @cached_property
     def numbers(self) -> NumbersAround:
         """The numbers of the blocks around."""
-        return numbers_of(self.window.blocks if self.window else self.claim.blocks)
+        return numbers_of(self.window.blocks)
 
     def drops_corner(self, edit: Edit) -> bool:
         """Whether an edit leaves out a corner that the control does not leave out: it stands on the drawing."""
@@ -252,7 +342,7 @@ class Trial(Struct, frozen=True, dict=True):
             return 0.0
         if edit.address == self.claim.form.free.picking:
             return -2.5
-        blocks = self.window.blocks if self.window else self.claim.blocks
+        blocks = self.window.blocks
         row, is_used = self.claim.lexicon.addresses.get(edit.address), any(block.find(edit.address) for block in blocks)
         is_named = re.search(rf"(?<![A-Z,#]){re.escape(edit.address)}(?![A-Z=])", self.told) is not None
         is_step = row is not None and (row.is_increment or "=" in edit.address)
@@ -274,45 +364,6 @@ class Trial(Struct, frozen=True, dict=True):
         return Repair(
             edits, replacement, applicability, contour, deviation, drawbacks=("across the spindle axis",) * is_across
         )
-
-    def _path_in_parts(self, edits: tuple[Edit, ...]) -> Contour | None:
-        """The path of blocks that are several contours, or plain lines, without the corners that are dropped. None
-        where one of them is not sound, or more than lines and contours is left."""
-        claim, dialect = self.claim, self.dialect
-        blocks = [
-            parse_block(text, block.line, block.syntax).with_points(block.pointed)
-            for text, block in zip(apply_edits(claim.blocks, edits), claim.blocks, strict=True)
-        ]
-        state, index, elements = claim.before, 0, list[Segment]()
-        start = here = _place(state)
-        while index < len(blocks) and here is not None:
-            part = dialect.find(blocks, index, state, dialect.modes)
-            if isinstance(part, ParsedContour):
-                answer = examine(part, dialect.rules, Policy.ENFORCE, lambda: None)
-                if not (part.form.is_contour and _is_sound(answer) and answer.contour):
-                    return None
-                elements += answer.contour.elements
-                state, index = leave(part, answer.contour.end, dialect.modes), index + len(part.blocks)
-            else:
-                state, index = advance(state, blocks[index], dialect.modes), index + 1
-                there = _place(state)
-                if there is None or state.motion != _LINE:
-                    return None
-                elements += [LineSegment(f"line {index}", here, there)] if there != here else []
-            here = _place(state)
-        return Contour(start, here, {}, tuple(elements), claim.before.plane) if start and here else None
-
-    def _path_beside_arcs(self, edits: tuple[Edit, ...]) -> Contour | None:
-        """The path of the same elements, arcs among them, without the words that are dropped, if it is sound."""
-        claim, spans = self.claim, {edit.span for edit in edits}
-        words = {name: word for name, word in claim.words.items() if word.span not in spans}
-        givens = {name: each for name, each in claim.givens.items() if name in words or name not in claim.words}
-        answer = examine(dataclasses.replace(claim, words=words, givens=givens), self.dialect.rules, Policy.ENFORCE)
-        return answer.contour if _is_sound(answer) else None
-
-    def _now_agrees(self, finding: Diagnostic) -> bool:
-        """Whether a finding that the block did not have before says only that a word now agrees."""
-        return finding.code not in self.codes and not self.is_redundant and agrees(finding)
 
     def examine(self, edits: tuple[Edit, ...]) -> Answer | None:
         """The answer to the edited blocks; None where they are not read as the same contour any more."""
@@ -362,17 +413,11 @@ class Trial(Struct, frozen=True, dict=True):
             state = advance(state, block, dialect.modes)
         apart = edit_facts([each for each in claim.directives if each.span.line < 0], edits)
         blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
-        is_about_commas = all(map(_is_comma, edits))
-        more = self.following if is_about_commas else ()
-        if is_about_commas and self.previous and self.previous[0][-1].line < blocks[0].line:
-            whole = dialect.find([*self.previous[0], *blocks, *more], 0, self.previous[1], dialect.modes)
-            if isinstance(whole, ParsedContour) and whole.blocks[-1].line >= blocks[-1].line:
-                return whole
-        found = dialect.find([*blocks, *more], 0, state, dialect.modes)
+        found = dialect.find(blocks, 0, state, dialect.modes)
         others = (dialect.find([*ahead, *behind], index, state, dialect.modes) for index in range(len(ahead + behind)))
         if not isinstance(found, ParsedContour) or any(isinstance(each, ParsedContour) for each in others):
             return None
-        return found if len(found.blocks) == len(blocks) or (more and len(found.blocks) > len(blocks)) else None
+        return found if len(found.blocks) == len(blocks) else None
 
     @cached_property
     def _blocks(self) -> list[Block]:
@@ -398,13 +443,13 @@ class Trial(Struct, frozen=True, dict=True):
         affine = affine_facts(profile, profile.facts)
         if affine is not None and affine.freedoms():
             return None
-        return next((each for each in propose(found, profile, edits) if self.repair(each)), None)
+        return next((each for each in propose(found, profile, edits) if self.repair(each, self.own)), None)
 
     def _example_around(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
         """The place of an axis that is added, halfway between those before and behind it, with which the blocks around
         are right: as several contours where the blocks were one. None for anything else."""
         window, row = self.window, self.claim.lexicon.addresses.get(edits[0].address)
-        if window is None or len(edits) > 1 or row is None or not row.axis or row.is_increment:
+        if len(edits) > 1 or row is None or not row.axis or row.is_increment:
             return None
         words = [word for block in window.blocks for word in block.words if word.address == edits[0].address]
         before = [word.number for word in words if word.number is not None and word.span.line < edits[0].line]
@@ -415,7 +460,7 @@ class Trial(Struct, frozen=True, dict=True):
         text = spell(edits[0].address, number if "." in number else f"{number}.")
         example = (dataclasses.replace(edits[0], text=text),)
         seen = window.after(example)
-        return example if seen is not None and seen.answers and window.mends(seen) else None
+        return example if seen is not None and any(seen.answers) and window.mends(seen) else None
 
     def with_numbers(self, repair: Repair, *, may_try: bool) -> Repair:
         """A repair with placeholders, with the numbers that they may be; where hardly one is left, with that. Where
@@ -438,7 +483,7 @@ class Trial(Struct, frozen=True, dict=True):
             return replace(repair, example=example, numbers=(replace(open_[0], example=text),))
 
         def is_accepted(edits: tuple[Edit, ...]) -> bool:
-            return self.repair(edits) is not None
+            return self.repair(edits, self.own) is not None
 
         numbers = [*numbers_for(found, profile, repair.edits, repair.example, is_accepted)]
         is_fixed = all(each.is_complete and width <= _FIXED for each, width in numbers)
@@ -456,7 +501,7 @@ class Trial(Struct, frozen=True, dict=True):
         row = self.claim.lexicon.addresses.get(edits[place].address)
         if row is None:
             return None
-        blocks = self.window.blocks if self.window else self.claim.blocks
+        blocks = self.window.blocks
         rows = self.claim.lexicon.addresses
         known = sorted(
             {
@@ -475,7 +520,7 @@ class Trial(Struct, frozen=True, dict=True):
         for number in numbers[:_MOST_NUMBERS]:
             edit = dataclasses.replace(edits[place], text=spell(edits[place].address, f"{number:f}"))
             tried = (*edits[:place], edit, *edits[place + 1 :])
-            if self._solve(tried) is not None:
+            if self._solve(tried, self.own) is not None:
                 return tried
         return None
 
@@ -496,6 +541,17 @@ _USUAL_ANGLES = [Decimal(each) for each in (45, 135, 90, 30, 60, 120, 150, 0)]
 _MOST_NUMBERS = 8
 """Numbers that are tried for one placeholder, where none can be computed."""
 
+_ARCS = (2, 3)
+"""Motions along arcs."""
+OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
+_OF_CIRCLES = tuple(kind for kind in RefusalKind if re.search("radius|circle", kind.event.code))
+
+
+def _is_filled(finding: Diagnostic) -> bool:
+    """Whether each of two corners alone takes exactly the room of the other one, which hardly happens by chance."""
+    return all(abs(finding.values.get(each, float("inf"))) <= AGREEMENT for each in ("limit_first", "limit_second"))
+
+
 _HALF = 2.4
 """By so much more plausible a word is that a point lacks, of which the other one is there."""
 
@@ -510,13 +566,6 @@ def _choices(claim: ParsedContour) -> set[str]:
     return {claim.vocabulary[name][0] for name in claim.form.choices if name in claim.vocabulary}
 
 
-def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:
-    """Whether all that is done is to leave out corners, and the angles of lines whose ends are stated."""
-    sizes = (name for name in claim.form.outline.shapes if name in claim.words)
-    spans = {claim.words[name].span for name in (*sizes, *_spare_angles(claim))}
-    return all(edit.kind is EditKind.DROP and edit.span in spans for edit in edits)
-
-
 def _spare_angles(claim: ParsedContour) -> Iterator[str]:
     """The angles of lines that have both coordinates of their end, and begin where the block before ends."""
     prefixes = {role.prefixes[0] for role in claim.form.roles if role.name == "line"}
@@ -529,20 +578,6 @@ def _spare_angles(claim: ParsedContour) -> Iterator[str]:
                 yield given
 
 
-def _is_sound(answer: Answer) -> bool:
-    return answer.status is Status.SOLVED and not problems(answer)
-
-
-_LINE = 1
-"""The motion code of a line."""
-
-
-def _place(state: State) -> Point | None:
-    """The place of the tool in the plane, mm, if that is known."""
-    first, second = state.start().values
-    return None if first is None or second is None else (float(first), float(second))
-
-
 def _does_more(edit: Edit, claim: ParsedContour) -> bool:
     """Whether a word is dropped that does something besides the contour, or one is dropped or written that moves an
     axis outside the plane: the contour is the same, what the machine does is not."""
@@ -550,28 +585,6 @@ def _does_more(edit: Edit, claim: ParsedContour) -> bool:
     rows = (claim.lexicon.addresses.get(each) for each in {edit.address, written[0].upper() if written else ""})
     is_beside = any(row is not None and row.axis and row.axis not in claim.before.plane.axes for row in rows)
     return is_beside or (edit.kind is EditKind.DROP and edit.errand is not None)
-
-
-def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
-    """Whether it is solved. A value that was corrected may then say what the others say."""
-    if answer.status is Status.OVERDETERMINED:
-        if answer.claim.form.is_general:
-            return True
-        return answer.profile.is_extended and any(edit.kind is EditKind.CHANGE for edit in edits)
-    return answer.status is Status.SOLVED
-
-
-def _is_crossing(finding: Diagnostic) -> bool:
-    """Whether the path crosses the spindle axis, which may be meant."""
-    return finding.about is ReadIssue.AXIS_CROSSED
-
-
-def _is_comma(edit: Edit) -> bool:
-    """Whether the address gets a comma or loses it, or becomes another one of several letters."""
-    if edit.kind is not EditKind.CHANGE or edit.text == edit.old:
-        return False
-    is_long = len(edit.address.lstrip(",")) > 1 and not edit.text.upper().startswith(edit.address)
-    return is_long or edit.text.strip(", ") == edit.old.strip(", ")
 
 
 def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], list[Block], list[Block]]:

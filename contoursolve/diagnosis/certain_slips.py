@@ -9,7 +9,8 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, edited, mend
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
-from contoursolve.diagnosis.slips_around import rewritten, touches
+from contoursolve.diagnosis.slips_around import touches
+from contoursolve.diagnosis.slips_of_blocks import rewritten
 from contoursolve.diagnosis.spelling import meant_words, respelled, torn_codes
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Diagnostic, Label, LineChange, Span

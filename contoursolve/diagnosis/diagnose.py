@@ -38,7 +38,7 @@ from contoursolve.diagnostics import (
 )
 from contoursolve.gcode import FACT, Block, FaultKind
 from contoursolve.geometry import Profile, System, Unit, assemble
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, read
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue, read
 from contoursolve.solving import (
     AffineFacts,
     Circuit,
@@ -66,14 +66,12 @@ def diagnose(
     dialect: Dialect,
     policy: Policy,
     following: Iterable[Block] = (),
-    previous: tuple[Sequence[Block], State] | None = None,
     window: Window | None = None,
 ) -> Answer:
     """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. Slips that are
-    certain are mended in thought, so that what else is wrong is told as well. `following` are the next blocks,
-    `previous` those before it, of which it may be the end, with the state before them."""
+    certain are mended in thought, so that what else is wrong is told as well. `following` are the next blocks."""
     following = tuple(following)
-    known = _Diagnosed.of(answer, dialect, policy, following, previous, window)
+    known = _Diagnosed.of(answer, dialect, policy, window)
     edits = certain_slips(answer, window) if window is not None else ()
     if not edits or window is None:
         return known.answer
@@ -87,11 +85,14 @@ def diagnose(
     # With its comma, a corner joins the blocks behind.
     text = MendedText((*answer.claim.blocks, *following[:more]), edits, count)
     mended = examine(joined, dialect.rules, policy, depth=Depth.FINDINGS)
-    # Where something still cannot be read, nothing more is known.
     if not problems(mended) or any(each.about in _GRAMMAR for each in mended.diagnostics):
-        return known.answer
+        # Where something still cannot be read, nothing more is known.
+        if any(known.repairs.values()):
+            return known.answer
+        told, others = _certain(known.answer, text)
+        return replace(known.answer, diagnostics=tuple(sorted((*told, *others), key=rank)))
     around = replace(window, own=joined.blocks, behind=window.behind[more:])
-    beside = _Diagnosed.of(mended, dialect, policy, following[more:], previous, around)
+    beside = _Diagnosed.of(mended, dialect, policy, around)
     if known.cost < float("inf") and known.cost <= beside.cost + _CERTAIN * len(edits):
         return known.answer
     return _with_both(known.answer, text, beside)
@@ -104,18 +105,25 @@ _CERTAIN = 1.5
 """The cost of a slip that is certain beside another one: two are less likely than one."""
 
 
-def _with_both(answer: Answer, text: MendedText, beside: "_Diagnosed") -> Answer:
-    """An answer with what is certain, each with its fix, and with what is wrong beside it."""
-    findings, left = list[Diagnostic](), [*text.edits]
+def _certain(answer: Answer, text: MendedText, note: str = "") -> tuple[list[Diagnostic], list[Diagnostic]]:
+    """The findings about what is certain, each with its fix and with a note if there is one; and the others."""
+    told, others, left = list[Diagnostic](), list[Diagnostic](), [*text.edits]
     for finding in answer.diagnostics:
         own = tuple(edit for edit in about(finding, text.edits) if edit in left)
         if not own:
+            others.append(finding)
             continue
         left = [edit for edit in left if edit not in own]
         repair = Repair(own, edited(text.own, own), Applicability.CHANGES_CONTOUR, None, 0.0, slips=(None,) * len(own))
-        told = with_fixes(replace(finding, notes=()), answer, [repair])
-        note = f"the contour is checked as if {join([edit.text for edit in own])} stood there"
-        findings.append(replace(told, notes=(*told.notes, note)))
+        new = with_fixes(replace(finding, notes=()), answer, [repair])
+        notes = [note.format(join([edit.text for edit in own]))] if note else ()
+        told.append(replace(new, notes=(*new.notes, *notes)))
+    return told, others
+
+
+def _with_both(answer: Answer, text: MendedText, beside: "_Diagnosed") -> Answer:
+    """An answer with what is certain, each with its fix, and with what is wrong beside it."""
+    findings, _ = _certain(answer, text, "the contour is checked as if {} stood there")
     for number, finding in enumerate(beside.answer.diagnostics):
         fixes = fixes_of(beside.answer, beside.repairs.get(number, ()), text)
         findings.append(replace(text.told(finding), fixes=fixes))
@@ -125,7 +133,7 @@ def _with_both(answer: Answer, text: MendedText, beside: "_Diagnosed") -> Answer
 
 class _Diagnosed(Struct, frozen=True):
     """An answer with a diagnosis, and the repairs that its findings have, by their number; `cost` is that of the
-    edits of the best one."""
+    edits of the best one that undoes one slip."""
 
     answer: Answer
     repairs: Mapping[int, Sequence[Repair]]
@@ -137,8 +145,6 @@ class _Diagnosed(Struct, frozen=True):
         answer: Answer,
         dialect: Dialect,
         policy: Policy,
-        following: tuple[Block, ...],
-        previous: tuple[Sequence[Block], State] | None,
         window: Window | None,
     ) -> "_Diagnosed":
         """The diagnosis of an answer as it is."""
@@ -153,7 +159,7 @@ class _Diagnosed(Struct, frozen=True):
         # What a contour needs and nobody reads here is no slip.
         repairs = Repairs((), is_complete=False)
         if not answer.claim.unread and all(each.about is not ReadIssue.NOT_READ for each in answer.diagnostics):
-            repairs = find_repairs(answer, dialect, following, previous, window)
+            repairs = find_repairs(answer, dialect, window)
         diagnosis = Diagnosis(
             layers=list_layers(answer, policy),
             freedoms=freedoms,
@@ -184,7 +190,8 @@ class _Diagnosed(Struct, frozen=True):
                 findings[main] = replace(
                     findings[main], notes=(*findings[main].notes[:1], _CUT, *findings[main].notes[1:])
                 )
-        cost = min((each.cost_of_edits for each in repairs.repairs), default=float("inf"))
+        alone = (each.cost_of_edits for each in repairs.repairs if not each.is_double)
+        cost = min(alone, default=float("inf"))
         return cls(replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis), fixing, cost)
 
 

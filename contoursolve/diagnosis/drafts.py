@@ -12,8 +12,7 @@ from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, unanswerable, with_comma
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at, number_of
-from contoursolve.geometry import Given, Length, Unit
-from contoursolve.reading import Lexicon, ParsedContour, ReadIssue
+from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.solving import RefusalKind
 from contoursolve.tolerance import INCREMENT
 
@@ -167,13 +166,3 @@ def unreadable(claim: ParsedContour) -> Iterator[tuple[Edit, ...]]:
 
 def _is_same(first: Word, word: Word) -> bool:
     return first.address == word.address and first.span.line == word.span.line and first.number != word.number
-
-
-def variants(word: Word, given: Given, lexicon: Lexicon, unit: Length) -> Iterator[str]:
-    """The word as it may have been meant: opposite or mirrored angle, other sign."""
-    value, row = float(given.value), lexicon.addresses[word.address]
-    if given.unit is Unit.DEGREE:
-        for angle in (value - 180 if value > 0 else value + 180, 180 - value, -value):
-            yield write_word(word.address, angle, lexicon, unit)
-    elif value and (row.is_increment or not row.axis):  # the sign of a coordinate depends on the origin
-        yield write_word(word.address, -value, lexicon, unit)

@@ -10,10 +10,7 @@ from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
     fitting,
     marked,
-    mended_words,
-    missing_points,
     unreadable,
-    variants,
 )
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Why, add, change, drop, rounded, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue, problems
@@ -21,10 +18,9 @@ from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, facts_at, spans_of
 from contoursolve.diagnosis.sample_drawing import sample_drawing
 from contoursolve.diagnosis.slip_kinds import partners
-from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, spell
-from contoursolve.geometry import FIRST, SECOND, Fact, Line, Profile, Unit, assemble, both, scalar, word_of
+from contoursolve.geometry import Fact, Line, Profile, Unit, assemble, both, word_of
 from contoursolve.reading import ParsedContour, ReadIssue, check, read
 from contoursolve.solving import (
     Status,
@@ -48,7 +44,6 @@ MOST_HELPING, MOST_SHOWN = 20, 12
 
 _NO_CORNERS = {*refusals_about(Topic.NO_CORNER), ReadIssue.CORNER_TWICE}
 _TWICE = SAID_AGAIN | refusals_about(Topic.RADII)
-_NOT_TOGETHER = {ReadIssue.FACTS_SINGULAR, *refusals_about(Topic.SINGULAR, Topic.SEARCH)}
 _USELESS = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 _VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
@@ -61,9 +56,7 @@ def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit
     findings = [each for each in problems(answer) if each.about is not None]
     if not findings:
         return
-    yield mended_words(answer)
     yield _picked(answer)
-    yield missing_points(answer)
     yield marked(answer)
     yield _brackets(answer)
     yield _decimal_commas(answer)
@@ -76,12 +69,9 @@ def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit
     yield _corrected(answer, twice, trial)
     yield fitting(answer)
     yield _without_corners(answer, findings)
-    yield _swapped(answer, findings)
-    yield _slips(answer, findings)
     nowhere = spans_of(findings, ReadIssue.CORNER_NOWHERE)
     # Corners after which nothing says where the path leads.
     yield [tuple(drop(word) for word in answer.claim.words.values() if word.span in nowhere)] if nowhere else ()
-    yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
 
 
 def _without_corners(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
@@ -108,16 +98,6 @@ def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         places = [lines[profile.figure.path[each.element - 1].name] for each in picks]
         texts = [f"\n{spell(word, str(each.number))}" for each in picks]
         yield tuple(Edit(EditKind.ADD, word, text=text, line=line) for text, line in zip(texts, places, strict=True))
-
-
-def next_place_of(profile: Profile) -> tuple[Decimal, Decimal] | None:
-    """The end of the line of the next block, if a fact is about it and it was known."""
-    landing = (line for line in profile.figure.lines if line.name.endswith(".landing") and line.head)
-    for line in landing:
-        names = scalar(line.head, FIRST), scalar(line.head, SECOND)
-        if profile.givens.keys() >= set(names):
-            return profile.givens[names[0]].value, profile.givens[names[1]].value
-    return None
 
 
 def _brackets(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -240,15 +220,6 @@ def _coordinate(fact: Fact) -> tuple[str, int] | None:
     return fact.placed[:2] if fact.placed and fact.given else None
 
 
-def _exchanged(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
-    """One of the words and facts that do not go together for a word that the form could have besides."""
-    spans = {label.span: None for each in findings for label in each.labels}
-    words = {given.word.span: given.word for given in answer.profile.givens.values() if given.word}
-    for span in spans:
-        if span in words:
-            yield from ((drop(words[span]), *added) for added in _additions(answer) if len(added) == 1)
-
-
 def _corrected(answer: Answer, twice: list[Diagnostic], trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """One word or fact of those that disagree with the value that the others give it: it is asked for instead."""
     for finding in twice if any(each.is_error for each in twice) else ():
@@ -306,33 +277,3 @@ def _is_lawful(edits: tuple[Edit, ...], trial: Trial) -> bool:
     """Whether no rule refuses the edited blocks."""
     found = trial.find(sampled(edits))
     return found is not None and not found.unknown and not check(trial.dialect.rules, found.form.roles, found.stated())
-
-
-def _swapped(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
-    """One word for another that is often mistaken for it, in the lines that findings are about and beside them."""
-    claim, near = answer.claim, lines_near(answer.claim, spans_of(findings))
-    for word in claim.words.values() if answer.status in _NO_CONTOUR else ():
-        other = claim.form.free.swaps.get(word.text.strip().upper())
-        if other and word.span.line in near:
-            yield (change(word, other),)
-
-
-_NO_CONTOUR = (Status.CONFLICTING, Status.NO_SOLUTION)
-
-
-def _slips(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
-    """One word or fact as it may have been meant, where nothing or no path satisfies them."""
-    if answer.status is not Status.NO_SOLUTION:
-        return
-    claim, profile, lexicon = answer.claim, answer.profile, answer.claim.lexicon
-    spans = spans_of(findings)
-    for given in profile.givens.values():
-        word = given.word
-        if word is None or given.unit is Unit.SIGN or word.span not in spans:
-            continue
-        if word.address != FACT:
-            texts = variants(word, given, lexicon, claim.after.unit) if word.number is not None else iter(())
-        else:
-            turned = (given.value + 180, 180 - given.value, -given.value) if given.unit is Unit.DEGREE else ()
-            texts = (_with_value(word, f"{value:f}") for value in turned)
-        yield from ((change(word, text),) for text in dict.fromkeys(texts) if text and text != word.text)

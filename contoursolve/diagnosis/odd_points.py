@@ -16,6 +16,7 @@ from contoursolve.diagnosis.slip_kinds import (
     SIGN_ADDED,
     SIGN_LOST,
     ZERO_LOST,
+    Changes,
     SlipKind,
     explained,
     recognise,
@@ -169,6 +170,6 @@ def _explained(
         yield edit, SHIFTED
 
 
-_OF_NUMBERS = tuple(kind for kind in FEW if kind.is_of_numbers)
+_OF_NUMBERS = tuple(kind for kind in FEW if kind.changes is not Changes.ADDRESS)
 _AS_ROUND = 0.3
 """By so much less round the number of a corner may be than that of where it begins."""

@@ -39,7 +39,6 @@ class Feature(Enum):
     LONG = "long"
     SAME = "same"
     WARNING = "warning"
-    SEEN = "seen"
 
 
 FEATURES: dict[Feature, tuple[float, str]] = {
@@ -61,7 +60,6 @@ FEATURES: dict[Feature, tuple[float, str]] = {
     Feature.LONG: (0.15, "the path becomes twice as long as another repair makes it"),
     Feature.SAME: (0.8, "the path stays as it is"),
     Feature.WARNING: (1.0, "a rule warns of the block then"),
-    Feature.SEEN: (3.0, "the blocks around it have an error or a warning then that they had not"),
 }
 """The cost of each unit of evidence, and why it counts."""
 

@@ -2,7 +2,7 @@
 
 import re
 from bisect import insort
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from itertools import chain
 from math import log2
 
@@ -18,7 +18,7 @@ from contoursolve.diagnosis.edits import (
     signed,
     with_plus,
 )
-from contoursolve.diagnosis.examine import LEADING, Answer
+from contoursolve.diagnosis.examine import LEADING
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
     ROUNDEST,
@@ -43,7 +43,7 @@ from contoursolve.diagnosis.slips_around import (
     touches,
 )
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
-from contoursolve.diagnosis.window import Seen, moves_of
+from contoursolve.diagnosis.window import Seen, moves_of, parts_of, path_of
 from contoursolve.diagnostics import Applicability, NumberRange
 from contoursolve.solving import Contour
 from contoursolve.tolerance import AGREEMENT
@@ -51,9 +51,6 @@ from contoursolve.tolerance import AGREEMENT
 MOST_TRIED = 60
 """Changed blocks that are tried for one contour, fewer for a chain, whose every trial takes longer; beyond it the list
 is not called complete."""
-
-MOST_SEEN = 6
-"""Repairs of one contour that are looked at with the blocks around it."""
 
 MOST_CONSIDERED = 2_000
 """Changed blocks that are looked at for one contour; most of them contain a repair that was found before."""
@@ -80,24 +77,28 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
             spent += trial.extra(edits)
     is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
     found = [_weighed(each, trial) for each in found]
-    # With the blocks around them, as slips are.
-    found = [_seen(each, trial) if at < _ENOUGH else each for at, each in enumerate(sorted(found, key=_order))]
     known = {each.edits: each for each in found}
     around, are_all = _slips_around(trial, known.copy(), tried - known.keys())
     for each in around:
         other = known.get(each.edits)
         if other is None or each.cost_of_edits < other.cost_of_edits:
             known[each.edits] = each
+    if not trial.is_frequent and not trial.is_searched and _is_unexplained(known.values()):
+        from contoursolve.diagnosis.two_slips import two_slips  # noqa: PLC0415 - most have one slip
+
+        known |= {each.edits: replace(each, is_double=True) for each in _tried(trial, two_slips(trial))}
     found = [*known.values()]
     found = [
         each
         for each in found
         if not any(set(other.edits) < set(each.edits) and other.cost <= each.cost for other in found)
     ]
-    found = [_seen(each, trial) if at < MOST_SEEN else each for at, each in enumerate(sorted(found, key=_order))]
     found = _usual_marked(_large_marked(found, trial.contour))
     found.sort(key=_order)
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
+    if found and not found[0].is_double:
+        # Beside one slip that explains it, two tell nothing.
+        found = [each for each in found if not each.is_double]
     farthest = found[0].cost + _FARTHEST if found else 0.0
     found = [each for at, each in enumerate(found) if at < _ENOUGH or each.cost <= farthest or not any(each.slips)]
     found = [
@@ -109,6 +110,28 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added, is_cut=is_cut)
 
 
+def _is_unexplained(found: Iterable[Repair]) -> bool:
+    """Whether no slip explains what is wrong well."""
+    best = min(found, key=lambda each: each.cost, default=None)
+    return best is None or best.cost > _WELL or not any(best.slips)
+
+
+_WELL = 5.0
+"""The cost of a repair beside which two slips are not looked for."""
+
+
+def _tried(trial: Trial, drafts: Iterable[Candidate]) -> Iterator[Repair]:
+    """The drafts that are repairs, up to those that would hardly be among the first ones."""
+    ranked = list[float]()
+    for draft in drafts:
+        if draft.cost > _bound(ranked):
+            return
+        repair = repair_of(draft, trial)
+        if repair is not None:
+            insort(ranked, repair.cost_of_edits)
+            yield repair
+
+
 def _slips_around(
     trial: Trial, known: Mapping[tuple[Edit, ...], Repair], refused: Set[tuple[Edit, ...]]
 ) -> tuple[list[Repair], bool]:
@@ -117,7 +140,7 @@ def _slips_around(
     window, claim = trial.window, trial.claim
     # Where each trial takes a search, no slip is tried.
     found, are_all = list[Repair](), True
-    if window is None or not trial.marked.lines or trial.is_searched:
+    if not trial.marked.lines or trial.is_searched:
         return found, not trial.is_searched
     ranked = sorted(each.cost for each in known.values())
     paths = [_USUAL, *(_cost_of_path(each, trial) for each in known.values())]
@@ -157,16 +180,9 @@ def _slips_around(
                 are_all = are_all and tried < most
                 break
             tried += 1
-            seen = window.after(draft.edits)
-            if seen is None or not window.mends(seen):
+            repair = repair_of(draft, trial)
+            if repair is None:
                 continue
-            lines = {*window.lines}
-            answers = [each for each in seen.answers if lines.intersection(each.lines)]
-            # Without a word, plain blocks may be left.
-            is_plain = not answers and all(edit.kind is EditKind.DROP for edit in draft.edits)
-            if not is_plain and (not answers or any(each.contour is None for each in answers)):
-                continue
-            repair = repair_of(draft, seen, answers, trial)
             best = _doubt(repair) if best is None else min(best, _doubt(repair))
             insort(ranked, repair.cost)
             paths.append(_cost_of_path(repair, trial))
@@ -228,14 +244,12 @@ cost less than the least of those that are known."""
 def styled(repair: Repair, trial: Trial) -> Repair:
     """A repair whose words have their signs as those around have them."""
     window, blocks = trial.window, trial.claim.blocks
-    around = window.blocks if window is not None else blocks
+    around = window.blocks
     edits, example = signed(repair.edits, around), signed(repair.example, around)
     if (edits, example) == (repair.edits, repair.example) and not (repair.numbers and has_plus(around)):
         return repair
     own = {block.line for block in blocks}
-    beside = (
-        tuple(each for each in window.changes(edits) if each.span.line not in own) if repair.beside and window else ()
-    )
+    beside = tuple(each for each in window.changes(edits) if each.span.line not in own) if repair.beside else ()
     numbers = tuple(
         replace(
             each,
@@ -248,18 +262,21 @@ def styled(repair: Repair, trial: Trial) -> Repair:
     return replace(repair, edits=edits, example=example, replacement=replacement, beside=beside, numbers=numbers)
 
 
-def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Trial) -> Repair:
-    """A draft that was tried, with what it makes of the contour; of plain blocks, none is left."""
-    contour = answers[0].contour if answers else None
-    own = {block.line for block in trial.claim.blocks}
-    within = [edit for edit in draft.edits if (edit.span.line if edit.span else edit.line) in own]
+def repair_of(draft: Candidate, trial: Trial, is_better: Callable[[Seen], bool] = lambda _: True) -> Repair | None:
+    """A draft with what it makes of the contour, if that is right, and better; of plain blocks, none is left."""
+    seen = trial.window.mended(draft.edits)
+    if seen is None or not is_better(seen):
+        return None
+    parts = (part.answer.contour for part in parts_of(seen, trial.window.lines) if part.answer is not None)
+    contour = next(parts, None)
+    # Parted by plain blocks, it ends with them.
+    contour = (path_of(seen, trial.lines) or contour) if contour is not None else None
+    within = [edit for edit in draft.edits if edit.place in trial.lines]
     replacement = edited(trial.claim.blocks, within)
     repair = Repair(draft.edits, replacement, Applicability.CHANGES_CONTOUR, None, 0.0)
     if contour is not None:
         repair = trial.made(contour, draft.edits, replacement)
-    beside = (
-        tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in own) if trial.window else ()
-    )
+    beside = tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in trial.lines)
     evidence = _of_path(repair, seen, draft.evidence)
     # What is beside the contour draws a path, too, or says how it is followed.
     applicability = Applicability.CHANGES_CONTOUR if beside else repair.applicability
@@ -285,7 +302,8 @@ def _weighed(repair: Repair, trial: Trial) -> Repair:
         (Feature.ROUND, rounding),
         (Feature.FAMILIAR, familiarity(edits, trial.numbers)),
     )
-    return replace(repair, evidence=_of_path(repair, None, evidence))
+    seen = trial.window.after(edits) if repair.contour is not None else None
+    return replace(repair, evidence=_of_path(repair, seen, evidence))
 
 
 _NAUGHT = 1.5
@@ -304,22 +322,6 @@ def _has_other_sign(edit: Edit) -> bool:
     return ("-" in edit.text) is not ("-" in edit.old)
 
 
-def _seen(repair: Repair, trial: Trial) -> Repair:
-    """A repair with what the blocks around it tell."""
-    window, edits = trial.window, repair.edits if repair.contour is not None else repair.example
-    if window is None or any(each[0] is Feature.SEEN for each in repair.evidence) or not edits:
-        return repair
-    if any(edit.is_placeholder for edit in edits):
-        # Without its number, nothing says where the path leads.
-        return replace(repair, evidence=(*repair.evidence, (Feature.SEEN, 0.0)))
-    seen = window.after(edits)
-    if seen is None:
-        return repair
-    kept = [each for each in repair.evidence if each[0] in OF_EDITS]
-    new = (Feature.SEEN, float(not window.mends(seen)))
-    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new))
-
-
 def _of_path(
     repair: Repair, seen: Seen | None, known: tuple[tuple[Feature, float], ...]
 ) -> tuple[tuple[Feature, float], ...]:
@@ -334,7 +336,6 @@ def _of_path(
         (Feature.POINTS, -round_points(contour)),
         (Feature.SAME, -float(contour is not None and repair.deviation <= AGREEMENT)),
         (Feature.WARNING, float(repair.warnings + len(_LEADING_ZERO.findall(repair.replacement)))),
-        *(((Feature.SEEN, 0.0),) if seen is not None else ()),
     )
 
 

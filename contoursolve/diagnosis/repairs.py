@@ -1,16 +1,14 @@
 """Repairs: every smallest change of a block's words that the control accepts and that has a
 contour. Each one is applied to the text, read, checked and solved again before it is offered."""
 
-import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Set
 from decimal import ROUND_HALF_EVEN, Decimal
 from itertools import chain, combinations, pairwise, product
 from math import copysign, sqrt
 
-from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Repairs, Trial
+from contoursolve.diagnosis.attempt import OPEN, Repairs, Trial
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
     commas,
@@ -18,19 +16,18 @@ from contoursolve.diagnosis.drafts import (
     has_faults,
     marked,
     mended_words,
-    missing_points,
     moving,
     unreadable,
 )
 from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, Why, add, change, drop, write_word
-from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine, problems
-from contoursolve.diagnosis.explain import SINGULAR, spans_of
-from contoursolve.diagnosis.prospects import Prospects
+from contoursolve.diagnosis.examine import Answer, Policy, examine, problems
+from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.ranking import choose_repairs
-from contoursolve.diagnosis.reach import Reach
 from contoursolve.diagnosis.slip_kinds import explained
 from contoursolve.diagnosis.spelling import torn_codes
+from contoursolve.diagnosis.stated_values import Geometry
 from contoursolve.diagnosis.subsets import (
+    DropSets,
     blamed_spans,
     blocks_at_fault,
     corners_at_fault,
@@ -39,41 +36,31 @@ from contoursolve.diagnosis.subsets import (
     smallest_changes,
     words_of,
 )
-from contoursolve.diagnosis.typo_fixes import other_codes, point_slips
-from contoursolve.diagnosis.window import Window
+from contoursolve.diagnosis.typo_fixes import point_slips
+from contoursolve.diagnosis.window import Window, alone
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import Block, FaultKind, number_of, spell
-from contoursolve.geometry import Given, Profile, Unit
-from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, check, read
+from contoursolve.gcode import FaultKind, number_of, spell
+from contoursolve.geometry import Given, Unit
+from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, check
 from contoursolve.solving import (
-    AffineFacts,
     Circuit,
-    RefusalKind,
     Status,
     Topic,
-    affine_facts,
-    is_conflict,
-    is_given_up,
-    lookup,
     refusals_about,
 )
-from contoursolve.tolerance import AGREEMENT
 
 
 def find_repairs(
     answer: Answer,
     dialect: Dialect,
-    following: tuple[Block, ...] = (),
-    previous: tuple[Sequence[Block], State] | None = None,
     window: Window | None = None,
 ) -> Repairs:
     """The repairs of a contour that was refused, or in which a word is ignored.
 
-    A repair leaves no error and no warning. None of them contains another one. `following` are the next blocks,
-    `previous` those before it, of which it may be the end, with the state before them. Where the start is not known,
-    G90 and G91 stay as they are, and if nothing else is wrong, a repair tells where it is.
+    A repair leaves no error and no warning. None of them contains another one. `window` are the blocks around. Where
+    the start is not known, G90 and G91 stay as they are, and if nothing else is wrong, a repair tells where it is.
     """
-    found, start = _find_repairs(answer, dialect, following, previous, window), answer.start
+    found, start = _find_repairs(answer, dialect, window), answer.start
     if start.is_known and not start.is_relative:
         return found
     is_lost = all(each.about is ReadIssue.POSITION_UNKNOWN for each in problems(answer))
@@ -91,100 +78,65 @@ def find_repairs(
 def _find_repairs(
     answer: Answer,
     dialect: Dialect,
-    following: tuple[Block, ...],
-    previous: tuple[Sequence[Block], State] | None,
     window: Window | None,
 ) -> Repairs:
     answer = _alone(answer, dialect)
-    claim = answer.claim
     # No change of words closes a comment, and what leaves a warning is no repair.
-    is_closed = all(each.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for each in block.faults)
-    codes = frozenset(each.code for each in answer.diagnostics)
-    told = " ".join(each.message for each in problems(answer))
-    is_open = any(each.about in _OPEN for each in problems(answer))
-    if not is_closed or (not answer.start.is_known and _waits(answer)):
+    is_open = any(each.kind is FaultKind.COMMENT_NOT_CLOSED for block in answer.claim.blocks for each in block.faults)
+    if is_open or (not answer.start.is_known and _waits(answer)):
         return Repairs((), is_complete=False)
-    around = window.blocks if window is not None else ()
-    if not answer.start.is_known:
-        trial = Trial(claim, dialect, codes, None, blamed=frozenset(blamed_spans(answer)), window=window, told=told)
-        trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, blocks=around))
-        return replace(choose_repairs(trial, ()), is_complete=False)
-    if not problems(answer):
-        return choose_repairs(Trial(claim, dialect, codes, answer.contour), [point_slips(answer)])
-    if torn_codes(claim):
+    trial = Trial(answer, dialect, window or alone(answer, dialect))
+    if answer.start.is_known and not problems(answer):
+        return choose_repairs(trial, [point_slips(answer)])
+    drop_sets = DropSets((), is_complete=False)
+    stages: Iterable[Iterable[tuple[Edit, ...]]] = ()
+    if torn_codes(answer.claim):
         # Without its letters the code is another one, which nobody has written.
-        blamed = frozenset(blamed_spans(answer))
-        trial = Trial(claim, dialect, codes, None, following=following, blamed=blamed, window=window)
-        repairs = choose_repairs(trial, [mended_words(answer)])
-        return replace(repairs, is_complete=False)
-    if answer.profile.is_extended:
+        stages = [mended_words(answer)]
+    elif answer.profile.is_extended:
         # Few blocks state more than their words.
-        from contoursolve.diagnosis.drafts_beside_facts import further_drafts, next_place_of  # noqa: PLC0415
+        from contoursolve.diagnosis.drafts_beside_facts import further_drafts  # noqa: PLC0415
 
-        place, blamed = next_place_of(answer.profile), frozenset(blamed_spans(answer))
-        reach = Reach(answer)
-        trial = Trial(claim, dialect, codes, answer.contour, place, blamed=blamed, reach=reach, window=window)
-        several = answer.alternatives if answer.status in (Status.AMBIGUOUS, Status.UNDECIDED) else None
-        is_searched = several is not None and several.reach is not None
-        # Beside what is open, each trial gives up the same search again.
-        is_searched = is_searched or (is_open and is_given_up(answer.profile))
-        trial = replace(trial, is_open=is_open, told=told, is_searched=is_searched)
-        trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, (), reach, around))
-        repairs = choose_repairs(trial, further_drafts(answer, trial))
-        return replace(repairs, is_complete=False)
-    whole = _Geometry.of(claim)
-    reference = answer.contour
-    if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
-        reference = examine(claim, dialect.rules, Policy.OFF).contour
-    drop_sets = find_drop_sets(answer, dialect)
-    blamed = frozenset(blamed_spans(answer))
+        stages = further_drafts(answer, trial)
+    elif answer.start.is_known:
+        drop_sets = find_drop_sets(answer, dialect)
+        stages = _of_words(answer, trial, drop_sets)
+    repairs = choose_repairs(trial, stages if answer.start.is_known else ())
+    is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(answer.claim)
+    return replace(repairs, is_complete=is_complete)
+
+
+def _of_words(answer: Answer, trial: Trial, drop_sets: DropSets) -> Iterator[Iterable[tuple[Edit, ...]]]:
+    """The stages of drafts for a contour whose words are all that it states, simplest first."""
+    claim, whole = answer.claim, trial.geometry
+    blamed = blamed_spans(answer)
     alone = [each for each in drop_sets.found if len(each) == 1 and {claim.words[name].span for name in each} <= blamed]
     # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
-    first = chain.from_iterable(_legal_sets(answer, dialect, whole, forced) for forced in unreadable(claim))
+    first = chain.from_iterable(_legal_sets(answer, trial.dialect, whole, forced) for forced in unreadable(claim))
     then = _dropping(answer, alone)
+    if answer.status in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED) and not whole.conflicts:
+        yield _of_circles(answer, trial)
+    yield from (commas(answer), marked(answer), fitting(answer))
+    yield _lost_ends(answer)
     changes = (
         _values(answer, whole),
         *((first, then) if answer.status is Status.REJECTED else (then, first)),
         _dropping(answer, drop_sets.found),
     )
-    spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
-    moved = (moving(claim, stage) for stage in changes)
-    is_redundant = answer.status is Status.OVERDETERMINED
-    reach = Reach(answer)
-    trial = Trial(claim, dialect, codes, reference, None, following, blamed, previous, is_redundant, reach, window)
-    is_crossing = any(name.startswith("P") for name in answer.profile.intersections)
-    trial = replace(trial, is_open=is_open, told=told, is_crossing_curves=is_crossing)
-    is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
-    is_round = any(each.about in _OF_CIRCLES for each in problems(answer))
-    is_spare = all(each.about is ReadIssue.CORNER_DROPPED or _is_filled(each) for each in problems(answer))
-    trial = replace(trial, is_missed=is_missed, is_round=is_round, is_spare=is_spare)
-    conflicts = [each.facts for each in whole.conflicts]
-    trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, conflicts, reach, around))
-    drafts = (*_valued(answer, whole, trial), *spelled, _lost_ends(answer), *moved, _lawful_alone(answer, trial))
-    repairs = choose_repairs(trial, drafts)
-    is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
-    return replace(repairs, is_complete=is_complete)
+    yield from (moving(claim, stage) for stage in changes)
+    yield _lawful_alone(answer, trial)
 
 
 def _alone(answer: Answer, dialect: Dialect) -> Answer:
     """The answer; of a contour that lacks words, and that is refused for what follows, that to its own blocks alone:
     what it lacks is to be mended."""
     claim = answer.claim
-    if answer.status is not Status.REJECTED or all(each.about not in _OPEN for each in answer.diagnostics):
+    if answer.status is not Status.REJECTED or all(each.about not in OPEN for each in answer.diagnostics):
         return answer
     found = dialect.find(claim.blocks, 0, claim.before, dialect.modes)
     if not isinstance(found, ParsedContour) or not found.circumstances < claim.circumstances:
         return answer
     return examine(found, dialect.rules, Policy.ENFORCE)
-
-
-_OF_CIRCLES = tuple(kind for kind in RefusalKind if re.search("radius|circle", kind.event.code))
-_OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
-
-
-def _is_filled(finding: Diagnostic) -> bool:
-    """Whether each of two corners alone takes exactly the room of the other one, which hardly happens by chance."""
-    return all(abs(finding.values.get(each, float("inf"))) <= AGREEMENT for each in ("limit_first", "limit_second"))
 
 
 def _waits(answer: Answer) -> bool:
@@ -217,65 +169,6 @@ def _lost_ends(answer: Answer) -> Iterator[tuple[Edit, ...]]:
                 yield (Edit(EditKind.ADD, axis, text=spell(axis, PLACEHOLDER), line=block.line),)
 
 
-def _valued(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
-    """Words with the values that the others leave them, and codes that others are like."""
-    claim = answer.claim
-    if all(each.about is ReadIssue.CORNER_DROPPED for each in problems(answer)):
-        # The path is as the words say: the corner is one too many.
-        return
-    against = whole.conflicts
-    if against and not any(each.about in SINGULAR for each in answer.diagnostics):
-        # One word that is wrong is in each contradiction, and the others tell its value.
-        names = frozenset.intersection(*(frozenset(fact.given or "" for fact in each.facts) for each in against))
-        yield chain.from_iterable(_agreeing(claim, name) for name in claim.words if name in names)
-        return
-    if answer.status not in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED):
-        yield other_codes(answer, trial.dialect.modes)
-        return
-    yield _of_circles(answer, trial)
-
-
-def _agreeing(claim: ParsedContour, name: str) -> Iterator[tuple[Edit, ...]]:
-    """A word as a slip explains it, with about the value that the others leave it."""
-    value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
-    if value is not None:
-        yield from ((change(claim.words[name], text),) for text in explained(claim.words[name], value, claim))
-
-
-class _Geometry(Struct, frozen=True):
-    """The values that some words fix of the drawing, as far as they do not contradict each other."""
-
-    profile: Profile
-    affine: AffineFacts | None
-    conflicts: tuple[Circuit, ...]
-    """Of facts that are tied and disagree."""
-    fixed: Mapping[str, float]
-
-    @classmethod
-    def of(cls, claim: ParsedContour, kept: frozenset[str] | None = None) -> "_Geometry":
-        names = frozenset(claim.givens)
-        profile = read(claim, names - (names if kept is None else kept))
-        affine = affine_facts(profile, profile.facts)
-        circuits = affine.circuits().found if affine else ()
-        conflicts = tuple(each for each in circuits if affine and is_conflict(each, profile, affine))
-        fixed = affine.fixed_by(profile.facts) if affine and profile.facts and not conflicts else {}
-        return cls(profile, affine, conflicts, fixed)
-
-    @property
-    def is_singular(self) -> bool:
-        """Whether the words leave something free although there are enough of them."""
-        affine = self.affine
-        return affine is not None and len(affine.facts) >= len(affine.unknowns) and bool(affine.freedoms())
-
-    def implied(self, claim: ParsedContour, name: str) -> float | None:
-        """The value (mm or degrees) that a word would have."""
-        at = lookup(self.profile, dict(self.fixed))
-        for row in claim.form.outline.facts:
-            if row.fact.given == name and all(each in at.scalars for each in row.fact.reads()):
-                return row.fact.implied(at)
-        return None
-
-
 def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[Edit, ...]]:
     """The words of each set dropped, besides what must be dropped or corrected in any case."""
     claim = answer.claim
@@ -289,7 +182,7 @@ def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[
 
 
 def _legal_sets(
-    answer: Answer, dialect: Dialect, whole: _Geometry, forced: tuple[Edit, ...]
+    answer: Answer, dialect: Dialect, whole: Geometry, forced: tuple[Edit, ...]
 ) -> Iterator[tuple[Edit, ...]]:
     """Words to drop and to add besides what is done in any case: every smallest set that makes the combination legal,
     and for a legal one what may be dropped or exchanged."""
@@ -307,7 +200,7 @@ def _legal_sets(
     bases: list[tuple[Edit, ...]] = []
     for swap in changes:
         drops = tuple(drop(claim.words[name]) for name in sorted(swap & present))
-        kept = _Geometry.of(claim, present - swap) if swap - present else whole
+        kept = Geometry.of(claim, present - swap) if swap - present else whole
         added = [_additions(claim, name, (whole, kept)) for name in sorted(swap - present)]
         corrected = [options for name, options in corrections if name not in swap]
         bases += [(*forced, *drops, *edits) for edits in product(*added, *corrected)]
@@ -327,6 +220,21 @@ def _legal_sets(
         yield from ((*forced, *edits) for edits in _replacing(claim, dialect, whole.conflicts, names & extra, blocks))
 
 
+def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
+    """Each corner at fault as it is, without its word, or with the word for its other shape."""
+    options: list[list[tuple[Edit, ...]]] = []
+    for row in claim.form.outline.corners:
+        for name in (name for name in at_fault if name in row.shapes):
+            word = claim.words[name]
+            texts = (word.text.upper().replace(word.address, other, 1) for other in row.shapes if other != name)
+            others = [change(word, text) for text in texts]
+            options.append([(), (drop(word),), *((other,) for other in others)])
+    for choice in product(*options):
+        edits = tuple(edit for part in choice for edit in part)
+        if edits:
+            yield edits
+
+
 def _replacing(
     claim: ParsedContour, dialect: Dialect, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
 ) -> Iterator[tuple[Edit, ...]]:
@@ -335,7 +243,7 @@ def _replacing(
     tied = {fact.given for circuit in conflicts for fact in circuit.facts if fact.given in present}
     for name in sorted(each for each in tied if each):
         rest = present - {name}
-        kept = _Geometry.of(claim, rest)
+        kept = Geometry.of(claim, rest)
         for swap in smallest_changes(claim.form, dialect.rules, rest, extra - {name}, claim.circumstances, blocks):
             if not swap & present:
                 added = [_additions(claim, other, (kept,)) for other in sorted(swap)]
@@ -363,7 +271,7 @@ def _corrections(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, 
                 yield name, [change(word, write_word(word.address, value, lexicon, unit)) for value in values]
 
 
-def _additions(claim: ParsedContour, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
+def _additions(claim: ParsedContour, name: str, geometries: Iterable[Geometry]) -> list[Edit]:
     """A word added: with the value that the geometry fixes, each sign of a choice, or a placeholder."""
     address, _ = claim.vocabulary[name]
     texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [""]
@@ -375,22 +283,7 @@ def _additions(claim: ParsedContour, name: str, geometries: Iterable[_Geometry])
     return [add(claim, name, text) for text in texts]
 
 
-def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
-    """Each corner at fault as it is, without its word, or with the word for its other shape."""
-    options: list[list[tuple[Edit, ...]]] = []
-    for row in claim.form.outline.corners:
-        for name in (name for name in at_fault if name in row.shapes):
-            word = claim.words[name]
-            texts = (word.text.upper().replace(word.address, other, 1) for other in row.shapes if other != name)
-            others = [change(word, text) for text in texts]
-            options.append([(), (drop(word),), *((other,) for other in others)])
-    for choice in product(*options):
-        edits = tuple(edit for part in choice for edit in part)
-        if edits:
-            yield edits
-
-
-def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
+def _values(answer: Answer, whole: Geometry) -> Iterator[tuple[Edit, ...]]:
     """One word with another value: what a finding or the other words ask for."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
     if has_faults(claim):
@@ -413,7 +306,7 @@ def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
         agreeing: list[str] = []
         asked_together += [change(word, texts[0])] if texts and texts[0] != word.text else []
         if name in tied and answer.status is not Status.OVERDETERMINED:
-            value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
+            value = Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
             if value is not None and given.unit is Unit.DEGREE:
                 value += 360 * round((float(given.value) - value) / 360)
             agreeing = [write_word(word.address, value, lexicon, unit)] if value is not None else []

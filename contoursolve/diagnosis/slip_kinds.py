@@ -1,9 +1,10 @@
-"""Slips of people who write programs: one table of kinds, each with how unlikely it is, and what a word may have been
-meant to be if it happened."""
+"""Slips of one word: one table of kinds, each with how unlikely it is, and what a word may have been meant to be if it
+happened. Slips of several words, of codes and of blocks stand in `slips_of_blocks`."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
+from enum import IntEnum
 from functools import cached_property, lru_cache
 
 from msgspec import Struct
@@ -14,7 +15,7 @@ from contoursolve.diagnosis.examine import LEADING
 from contoursolve.diagnosis.spelling import respelled
 from contoursolve.gcode import FACT, Word, mended, spell
 from contoursolve.geometry import CornerShape, Plane, Unit
-from contoursolve.reading import Dialect, Effect, Lexicon, Modes, ParsedContour, WithoutPoint
+from contoursolve.reading import Address, Dialect, Effect, Lexicon, Modes, ParsedContour, WithoutPoint
 
 _WORD = re.compile(
     r"(?P<address>RND[ \t]+R|,?[ \t]*[A-Za-z](?![A-Za-z_#])|[A-Za-z]\w*=[A-Za-z]+(?=\()|#?[A-Za-z]\w*?(?=[ \t]*=)"
@@ -24,14 +25,6 @@ _WORD = re.compile(
 )
 _TWO_WORDS = {"RND R": "ROUNDING", "CHF": "CHAMFER"}
 """The addresses of Klartext's words whose text is two words."""
-
-
-def _address_in(match: re.Match[str]) -> str:
-    """The address of a word, as `spell` takes it."""
-    name = " ".join(match["address"].upper().split())
-    return match["address"] if "=" in match[0] else _TWO_WORDS.get(name, match["address"])
-
-
 _DECIMALS = 3
 """Decimals that a word of either control has at most."""
 _ABOUT, _NEARLY = 0.01, 0.003
@@ -39,24 +32,29 @@ _ABOUT, _NEARLY = 0.01, 0.003
 many values may be meant."""
 _LONG = 4
 """Digits of a number that may have lost its point in the middle."""
-_NEAR = dict(zip("1234567890", ("2", "13", "24", "35", "46", "57", "68", "79", "80", "9"), strict=True))
-"""The digits beside each digit on a keyboard."""
+_FULL_TURN, _HALF, _QUARTER = 360, 180, 90
+_BESIDE_DIGIT = dict(zip("1234567890", ("2", "13", "24", "35", "46", "57", "68", "79", "80", "9"), strict=True))
 _ROWS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
-"""The letters of a keyboard, a row each."""
+"""The digits beside each digit on a keyboard, and the letters of one, a row each."""
 _ALIKE = ("ABCE", "IJK", "XU", "ZW", "YV", "XYZ", "UVW", "PQ", "PR", "QR", "RC", "RI")
 """Letters that mean something alike: angles, centres, an axis and its increment, axes, sizes."""
+_AXES, _STEPS, _NO_PATH = "XYZUVW", "UVW", "MSTFHD"
+"""Letters of axes, of their increments, and of what has nothing to do with a path: their numbers have no point."""
+_ACROSS, _RADII = ("I", "U"), ("R", "CR", "I", "J", "K")
+"""Words of lengths across a turned part that are radii, and radii and centres; drawings have diameters."""
+_POINTS = (("CCX", "CCY"), ("ICCX", "ICCY"), ("CCPR", "CCPA"), ("PR", "PA"), ("IPR", "IPA"))
+"""Words that state a point together."""
 
 
 class Speech(Struct, frozen=True):
     """The words that may stand at a place: the control's table, the addresses that are allowed, those that give corners
-    a size, and the words that have no meaning there."""
+    a size; of a contour also what it says, and the axis that counts diameters, if one does."""
 
     lexicon: Lexicon
     allowed: frozenset[str]
-    shapes: Mapping[str, CornerShape]
+    shapes: Mapping[str, CornerShape] = {}
     claim: ParsedContour | None = None
     turned: str = ""
-    """The axis of the plane that counts diameters, if one does."""
 
     @classmethod
     def of(cls, claim: ParsedContour) -> "Speech":
@@ -72,27 +70,7 @@ class Speech(Struct, frozen=True):
     def of_control(cls, dialect: Dialect, turned: str) -> "Speech":
         """Those of a control, outside its contours."""
         lexicon = dialect.modes.lexicon
-        return cls(lexicon, frozenset(lexicon.addresses), {}, None, turned)
-
-    def is_angle(self, word: Word) -> bool:
-        """Whether a word states an angle."""
-        row = self.lexicon.addresses.get(word.address)
-        return row is not None and row.unit is Unit.DEGREE
-
-    def is_diameter(self, word: Word) -> bool:
-        """Whether a word states a diameter."""
-        row = self.lexicon.addresses.get(word.address)
-        return row is not None and bool(self.turned) and (row.is_diameter or row.axis == self.turned)
-
-    def is_axis(self, word: Word) -> bool:
-        """Whether a word moves an axis."""
-        row = self.lexicon.addresses.get(word.address)
-        return row is not None and bool(row.axis)
-
-    def is_known(self, address: str) -> bool:
-        """Whether words with this address may stand there."""
-        name = address.replace(" ", "").upper()
-        return name in self.lexicon.addresses and name in self.allowed
+        return cls(lexicon, frozenset(lexicon.addresses), turned=turned)
 
 
 def turned_axis(plane: Plane) -> str:
@@ -101,7 +79,7 @@ def turned_axis(plane: Plane) -> str:
 
 
 class Typed(Struct, frozen=True, dict=True):
-    """A word as it was typed, in parts, and where it stands."""
+    """A word as it was typed, in parts, and where it stands; `stated` are the addresses of its block."""
 
     speech: Speech
     word: Word
@@ -109,20 +87,34 @@ class Typed(Struct, frozen=True, dict=True):
     sign: str
     number: str
     stated: frozenset[str] = frozenset()
-    """The addresses of its block."""
 
-    def with_number(self, number: str) -> str:
+    @classmethod
+    def of(cls, word: Word, speech: Speech, stated: frozenset[str] = frozenset()) -> "Typed | None":
+        """The word in parts; None if it has no number."""
+        match = _WORD.fullmatch(word.text.strip())
+        return cls(speech, word, _address_in(match), match["sign"], match["number"], stated) if match else None
+
+    def as_number(self, *numbers: str) -> Iterator[str]:
         """The word with other digits."""
-        return spell(self.address, self.sign + number)
+        return (spell(self.address, self.sign + number) for number in numbers)
 
-    def with_value(self, value: Decimal) -> str:
+    def as_value(self, *values: Decimal) -> Iterator[str]:
         """The word with another number, spelled as this one is."""
-        sign = "-" if value < 0 else "+" if self.sign == "+" else ""
-        text = f"{abs(value):f}"
-        text = text.rstrip("0").rstrip(".") if "." in text else text
-        if self.number.endswith(".") or ("." in self.number and "." not in text and self.counts):
-            text += "" if "." in text else "."
-        return spell(self.address, sign + text)
+        for value in values:
+            text = f"{abs(value):f}"
+            text = text.rstrip("0").rstrip(".") if "." in text else text
+            is_pointed = self.number.endswith(".") or ("." in self.number and self.counts)
+            sign = "-" if value < 0 else "+" if self.sign == "+" else ""
+            yield spell(self.address, sign + text + "." * (is_pointed and "." not in text))
+
+    def as_address(self, *addresses: str) -> Iterator[str]:
+        """The word with another address."""
+        return (spell(address, self.sign + self.number) for address in addresses)
+
+    @cached_property
+    def row(self) -> Address | None:
+        """The row of its address; None for a word that the control does not know."""
+        return self.speech.lexicon.addresses.get(self.word.address)
 
     @cached_property
     def value(self) -> Decimal:
@@ -132,18 +124,249 @@ class Typed(Struct, frozen=True, dict=True):
     @property
     def is_choice(self) -> bool:
         """Whether only its sign counts, and chooses."""
-        return self.unit is Unit.SIGN
+        return self.row is not None and self.row.unit is Unit.SIGN
 
-    @cached_property
-    def unit(self) -> Unit | None:
-        """The unit of its number; None for a word that the contour does not know."""
-        row = self.speech.lexicon.addresses.get(self.word.address)
-        return row.unit if row else None
+    @property
+    def is_angle(self) -> bool:
+        """Whether it states an angle."""
+        return self.row is not None and self.row.unit is Unit.DEGREE
+
+    @property
+    def is_diameter(self) -> bool:
+        """Whether it states a diameter."""
+        turned = self.speech.turned
+        return self.row is not None and bool(turned) and (self.row.is_diameter or self.row.axis == turned)
 
     @property
     def counts(self) -> bool:
         """Whether a number without a point counts least increments."""
         return self.speech.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+
+    @property
+    def unknown(self) -> Word | None:
+        """The word, if the contour has no such address."""
+        unknown = self.speech.claim.unknown if self.speech.claim is not None else ()
+        return next((each for each in unknown if each.span == self.word.span), None)
+
+
+def _address_in(match: re.Match[str]) -> str:
+    """The address of a word, as `spell` takes it."""
+    name = " ".join(match["address"].upper().split())
+    return match["address"] if "=" in match[0] else _TWO_WORDS.get(name, match["address"])
+
+
+Texts = Iterable[str]
+
+
+def _point_lost(typed: Typed) -> Iterator[str]:
+    digits = typed.number
+    if "." not in digits:
+        if typed.counts:
+            yield from typed.as_number(f"{digits}.")
+        if typed.counts or len(digits) >= _LONG + typed.is_angle:
+            # With as many decimals as the least increment has, it is what was typed where numbers count increments.
+            places = range(1, min(_DECIMALS + (not typed.counts), len(digits)))
+            yield from typed.as_number(*(f"{digits[:-place]}.{digits[-place:]}" for place in places))
+
+
+def _point_lost_in_few(typed: Typed) -> Texts:
+    """A point in a number that is no larger than many that need none."""
+    digits = typed.number
+    is_short = not typed.counts and "." not in digits and 1 < len(digits) < _LONG and not digits.endswith("0")
+    return typed.as_number(*(f"{digits[:at]}.{digits[at:]}" for at in range(len(digits) - 1, 0, -1) if is_short))
+
+
+def _point_moved(typed: Typed) -> Iterator[str]:
+    """The point a place to the right, or to the left of the last digit."""
+    whole, point, rest = typed.number.partition(".")
+    if rest and whole:
+        moved, tail = (whole + rest[0]).lstrip("0") or "0", rest[1:].rstrip("0")
+        yield from typed.as_number(moved + (f".{tail}" if tail else point if typed.counts else ""))
+    if len(whole) > 1 and whole[-1] != "0" and (point or typed.counts):
+        yield from typed.as_number(f"{whole[:-1]}.{whole[-1]}{rest}")
+    elif whole.strip("0") and len(whole) == 1 and rest:
+        yield from typed.as_number(f"0.{whole}{rest}")
+
+
+def _zero_added(typed: Typed) -> Texts:
+    whole, point, rest = typed.number.partition(".")
+    return typed.as_number(whole[:-1] + point + rest) if len(whole) > 1 and whole.endswith("0") else ()
+
+
+def _zero_lost(typed: Typed) -> Texts:
+    whole, point, rest = typed.number.partition(".")
+    # Lengths of three digits are rare, and so are angles of four; and nobody turns so far to the right.
+    is_turned_far = typed.is_angle and typed.value * 10 < -_HALF
+    is_short = whole.strip("0") and not is_turned_far and not rest and len(whole) <= 1 + typed.is_angle
+    return typed.as_number(f"{whole}0{point}") if is_short else ()
+
+
+def _zero_first(typed: Typed) -> Texts:
+    """A zero that stands before another digit, behind it."""
+    match = re.match(r"0([1-9])(.*)", typed.number)
+    return typed.as_number(f"{match[1]}0{match[2]}") if match else ()
+
+
+def _sign_lost(typed: Typed) -> Texts:
+    is_turned_far = typed.is_angle and abs(typed.value) > _HALF
+    is_positive = typed.sign != "-" and typed.value and not typed.is_choice and not is_turned_far
+    return [spell(typed.address, "-" + typed.number)] if is_positive else ()
+
+
+def _sign_added(typed: Typed) -> Texts:
+    return [spell(typed.address, typed.number)] if typed.sign == "-" and not typed.is_choice else ()
+
+
+def _sign_of_choice(typed: Typed) -> Texts:
+    sign = "" if typed.sign == "-" else "-"
+    return [spell(typed.address, sign + typed.number)] if typed.is_choice and typed.value else ()
+
+
+def _angles(others: Callable[[Decimal], Iterable[Decimal]]) -> Callable[[Typed], Texts]:
+    """Angles that follow from that of a line, or of an arc."""
+
+    def texts(typed: Typed) -> Texts:
+        value = typed.value
+        if not typed.is_angle or not 0 < abs(value) <= _FULL_TURN:
+            return ()
+        found = (each for each in others(value) if (each or abs(value) == _HALF) and abs(each) < _FULL_TURN)
+        return typed.as_value(*found)
+
+    return texts
+
+
+def _complement(angle: Decimal) -> Decimal:
+    """The angle with the other axis, in the same quadrant."""
+    turned = angle % _HALF
+    return angle - turned + (_QUARTER if turned < _QUARTER else _HALF + _QUARTER) - turned
+
+
+def _twice_or_half(typed: Typed) -> Texts:
+    """A diameter as a radius and the reverse, where X counts diameters; a radius as a diameter."""
+    if typed.row is None or typed.row.unit is not Unit.MM or not typed.value:
+        return ()
+    if typed.row.is_diameter:
+        return typed.as_value(typed.value * 2, typed.value / 2)
+    is_radius = typed.word.address in _RADII and typed.word.address not in typed.speech.shapes
+    return typed.as_value(typed.value / 2) if is_radius else ()
+
+
+def _half_across(typed: Typed) -> Texts:
+    """A length across a turned part, but for corners, as the difference of the diameters on its drawing."""
+    address, row = typed.word.address, typed.row
+    is_length = row is not None and row.unit is Unit.MM and not row.is_diameter and address not in typed.speech.shapes
+    is_across = is_length and typed.value and typed.speech.turned and address in _ACROSS
+    return typed.as_value(typed.value / 2) if is_across else ()
+
+
+def _comma(typed: Typed) -> Texts:
+    if re.match(r",\s", typed.word.text):
+        # That comma belongs to the number before it.
+        return ()
+    if "," in typed.address:
+        return [f"{typed.address[1:].strip()}{typed.sign}{typed.number}"]
+    return [f",{typed.word.text}"] if len(typed.address) == 1 else ()
+
+
+def _neighbour(typed: Typed) -> Texts:
+    """The word of the other corner that gives it the same shape; a radius is a rounding."""
+    own, shapes = typed.address.upper(), typed.speech.shapes
+    shape = shapes.get(own, CornerShape.FILLET if own.strip(" ,") == "R" else None)
+    return typed.as_address(*(address for address, other in shapes.items() if other is shape and address != own))
+
+
+def _swapped(typed: Typed) -> Texts:
+    text = typed.number
+    # Within a number, a point is moved rather.
+    places = [at for at in range(len(text) - 1) if "." not in (text[at : at + 2] if at else text[1:2])]
+    found = (text[:at] + text[at + 1] + text[at] + text[at + 2 :] for at in places if text[at] != text[at + 1])
+    return typed.as_number(*found)
+
+
+def _typed_twice(typed: Typed) -> Texts:
+    text = typed.number
+    return typed.as_number(*(text[:at] + text[at + 1 :] for at in range(len(text) - 1) if text[at] == text[at + 1]))
+
+
+def _digits(others: Callable[[str], Iterable[str]]) -> Callable[[Typed], Texts]:
+    """Each digit with each of some others for it."""
+
+    def texts(typed: Typed) -> Texts:
+        text = typed.number
+        places = ((at, other) for at, digit in enumerate(text) if digit.isdigit() for other in others(digit))
+        return typed.as_number(*(text[:at] + other + text[at + 1 :] for at, other in places))
+
+    return texts
+
+
+def _digit_lost(typed: Typed) -> Texts:
+    text = typed.number
+    return typed.as_number(*(text[:at] + digit + text[at:] for at in range(len(text) + 1) for digit in _BESIDE_DIGIT))
+
+
+def _other_address(typed: Typed) -> Texts:
+    """A word of which the contour has no address, as the one that it was most plausibly meant to be."""
+    claim, word = typed.speech.claim, typed.unknown
+    return [respelled(word, claim)] if claim is not None and word is not None else ()
+
+
+def _other_letter(typed: Typed) -> Texts:
+    """Such a word of one letter, as one that its block has not yet."""
+    claim, own = typed.speech.claim, typed.word
+    if claim is None or len(own.address.lstrip(",#")) > 1 or typed.unknown is None:
+        return ()
+    stated = {word.address for block in claim.blocks if block.line == own.span.line for word in block.words}
+    free = (each for each in claim.lexicon.addresses if each in claim.form.allowed and each not in stated)
+    return typed.as_address(*(each for each in free if len(each) == len(own.address)))
+
+
+def _letter_alike(typed: Typed) -> Texts:
+    """A word of one letter as one whose letter means something alike, or lies beside it on a keyboard; where it needs
+    its comma, with that."""
+    letter = typed.address.strip(" ,").upper()
+    if len(letter) != 1 or (letter in _NO_PATH and "." not in typed.number):
+        return ()
+    alike = {*_beside(letter), *(other for group in _ALIKE if letter in group for other in group)} - {letter}
+    alike |= {"ANG"} if letter in _ALIKE[0] else set()
+    # The comma is no axis's; and what moves an axis was meant to move one.
+    is_odd = _AXES.__contains__ if "," in typed.address else lambda bare: letter in _AXES and bare not in _AXES
+    bare = {address: address.lstrip(",#") for address in typed.speech.lexicon.addresses}
+    # Nobody writes an increment of 0.
+    bare = {address: each for address, each in bare.items() if typed.value or each not in _STEPS}
+    free = (address for address in bare if address not in typed.stated and address != typed.word.address)
+    return typed.as_address(*(address for address in free if bare[address] in alike and not is_odd(bare[address])))
+
+
+def _beside(letter: str) -> Iterator[str]:
+    """The letters right and left of a letter, and those that touch it in the row above and below."""
+    for number, row in enumerate(_ROWS):
+        at = row.find(letter.lower())
+        if at >= 0:
+            above, below = (_ROWS[each] if 0 <= each < len(_ROWS) else "" for each in (number - 1, number + 1))
+            yield from (row[max(at - 1, 0) : at] + row[at + 1 : at + 2] + above[at : at + 2]).upper()
+            yield from below[max(at - 1, 0) : at + 1].upper()
+
+
+def _increment(typed: Typed) -> Texts:
+    """An increment as a control spells it that has no letter for it."""
+    axis = dict(zip("UVW", "XYZ", strict=True)).get(typed.address.upper(), "")
+    return typed.as_address(f"{axis}=IC") if f"{axis}=IC" in typed.speech.lexicon.addresses else ()
+
+
+class Changes(IntEnum):
+    """The part of a word that a slip changes."""
+
+    ADDRESS = 0
+    SIGN = 1
+    DIGITS = 2
+    """Digits or the point."""
+
+
+_A, _S, _D = Changes
+
+TYPING = "typing: which fingers and keys go wrong"
+MEANING = "what is mistaken on drawings: slips that machinists and makers of controls name"
+SEEN = "slips by hand and at random, tests/slips and tests/unit/test_typing.py"
 
 
 class SlipKind(Struct, frozen=True):
@@ -156,281 +379,39 @@ class SlipKind(Struct, frozen=True):
     sentence: str
     cost: float
     why: str
-    texts: Callable[[Typed], Iterator[str]] = lambda _: iter(())
-    is_of_digits: bool = False
-    """Whether it changes digits or the point."""
-    is_of_numbers: bool = False
-    """Whether it changes the value of a word, not its address."""
+    changes: Changes = Changes.ADDRESS
+    texts: Callable[[Typed], Texts] = lambda _: ()
     is_frequent: bool = True
     """Whether it leaves few texts of each word; dozens else."""
 
 
-def _point_lost(typed: Typed) -> Iterator[str]:
-    if "." in typed.number:
-        return
-    if typed.counts:
-        yield typed.with_number(f"{typed.number}.")
-    is_angle = typed.unit is Unit.DEGREE
-    if typed.counts or len(typed.number) >= _LONG + is_angle:
-        # With as many decimals as the least increment has, it is what was typed where numbers count increments.
-        places = range(1, min(_DECIMALS + (not typed.counts), len(typed.number)))
-        yield from (typed.with_number(f"{typed.number[:-place]}.{typed.number[-place:]}") for place in places)
-
-
-def _point_lost_in_few(typed: Typed) -> Iterator[str]:
-    """A point in a number that is no larger than many that need none."""
-    if not typed.counts and "." not in typed.number and 1 < len(typed.number) < _LONG:
-        ends = range(len(typed.number) - 1, 0, -1) if not typed.number.endswith("0") else ()
-        yield from (typed.with_number(f"{typed.number[:at]}.{typed.number[at:]}") for at in ends)
-
-
-def _point_moved(typed: Typed) -> Iterator[str]:
-    """The point a place to the right, or to the left of the last digit."""
-    whole, point, rest = typed.number.partition(".")
-    if rest and whole:
-        moved = (whole + rest[0]).lstrip("0") or "0"
-        tail = rest[1:].rstrip("0")
-        yield typed.with_number(moved + (f".{tail}" if tail else point if typed.counts else ""))
-    if len(whole) > 1 and whole[-1] != "0" and (point or typed.counts):
-        yield typed.with_number(f"{whole[:-1]}.{whole[-1]}{rest}")
-
-
-def _zero_added(typed: Typed) -> Iterator[str]:
-    whole, point, rest = typed.number.partition(".")
-    if len(whole) > 1 and whole.endswith("0"):
-        yield typed.with_number(whole[:-1] + point + rest)
-
-
-def _zero_lost(typed: Typed) -> Iterator[str]:
-    whole, point, rest = typed.number.partition(".")
-    # Nobody turns so far to the right.
-    is_angle = typed.unit is Unit.DEGREE
-    is_turned_far = is_angle and typed.value * 10 < -_HALF
-    # Lengths of three digits are rare, and so are angles of four.
-    if whole.strip("0") and not is_turned_far and not rest and len(whole) <= (2 if is_angle else 1):
-        yield typed.with_number(f"{whole}0{point}")
-
-
-def _zero_first(typed: Typed) -> Iterator[str]:
-    """A zero that stands before another digit, behind it."""
-    match = re.match(r"0([1-9])", typed.number)
-    if match:
-        yield typed.with_number(f"{match[1]}0{typed.number[2:]}")
-
-
-def _sign_lost(typed: Typed) -> Iterator[str]:
-    is_turned_far = typed.unit is Unit.DEGREE and abs(typed.value) > _HALF
-    if typed.sign != "-" and float(typed.number) and not typed.is_choice and not is_turned_far:
-        yield spell(typed.address, "-" + typed.number)
-
-
-def _sign_added(typed: Typed) -> Iterator[str]:
-    if typed.sign == "-" and not typed.is_choice:
-        yield spell(typed.address, typed.number)
-
-
-def _sign_of_choice(typed: Typed) -> Iterator[str]:
-    if typed.is_choice and float(typed.number):
-        yield spell(typed.address, ("" if typed.sign == "-" else "-") + typed.number)
-
-
-def _turned(typed: Typed, others: Callable[[Decimal], Iterable[Decimal]]) -> Iterator[str]:
-    """Angles that follow from that of a line, or of an arc."""
-    if typed.unit is Unit.DEGREE and 0 < abs(typed.value) <= _FULL_TURN:
-        for angle in others(typed.value):
-            if (angle or abs(typed.value) == _HALF) and abs(angle) < _FULL_TURN:
-                yield typed.with_value(angle)
-
-
-_FULL_TURN, _HALF, _QUARTER = 360, 180, 90
-
-
-def _supplement(angle: Decimal) -> Iterator[Decimal]:
-    if abs(angle) < _HALF:
-        yield _HALF - angle if angle > 0 else -_HALF - angle
-
-
-def _opposite(angle: Decimal) -> Iterator[Decimal]:
-    yield angle - _HALF if angle >= _HALF else angle + _HALF
-
-
-def _other_axis(angle: Decimal) -> Iterator[Decimal]:
-    yield from (angle + _QUARTER, _QUARTER - angle, angle - _QUARTER)
-
-
-def _complement(angle: Decimal) -> Iterator[Decimal]:
-    """The angle with the other axis, in the same quadrant."""
-    turned = angle % _HALF
-    other = _QUARTER - turned if turned < _QUARTER else _HALF + _QUARTER - turned
-    yield angle - turned + other
-
-
-def _twice_or_half(typed: Typed) -> Iterator[str]:
-    """A diameter as a radius and the reverse, where X counts diameters; a radius as a diameter."""
-    row = typed.speech.lexicon.addresses.get(typed.word.address)
-    if row is None or row.unit is not Unit.MM or not typed.value:
-        return
-    if row.is_diameter:
-        yield from (typed.with_value(typed.value * 2), typed.with_value(typed.value / 2))
-    elif typed.word.address in _RADII and typed.word.address not in typed.speech.shapes:
-        yield typed.with_value(typed.value / 2)
-
-
-def _half_across(typed: Typed) -> Iterator[str]:
-    """A length across a turned part, as the difference of the diameters on its drawing."""
-    row = typed.speech.lexicon.addresses.get(typed.word.address)
-    # The size of a corner is none.
-    is_length = row is not None and row.unit is Unit.MM and not row.is_diameter
-    is_length = is_length and typed.word.address not in typed.speech.shapes
-    if is_length and typed.value and typed.speech.turned and typed.word.address in _ACROSS:
-        yield typed.with_value(typed.value / 2)
-
-
-_ACROSS, _RADII = ("I", "U"), ("R", "CR", "I", "J", "K")
-"""Words of lengths across a turned part that are radii, and radii and centres; drawings have diameters."""
-
-
-def _comma_of_address(typed: Typed) -> Iterator[str]:
-    if re.match(r",\s", typed.word.text):
-        # That comma belongs to the number before it.
-        return
-    if "," in typed.address:
-        yield f"{typed.address[1:].strip()}{typed.sign}{typed.number}"
-    elif len(typed.address) == 1:
-        yield f",{typed.word.text}"
-
-
-def _neighbour(typed: Typed) -> Iterator[str]:
-    """The word of the other corner that gives it the same shape; a radius is a rounding."""
-    shapes = typed.speech.shapes
-    shape = shapes.get(typed.address.upper(), CornerShape.FILLET if typed.address.strip(" ,").upper() == "R" else None)
-    for address, other in shapes.items():
-        if other is shape and address != typed.address.upper():
-            yield spell(address, typed.sign + typed.number)
-
-
-def _swapped(typed: Typed) -> Iterator[str]:
-    text = typed.number
-    for at in range(len(text) - 1):
-        # Within a number, a point is moved rather.
-        if text[at] != text[at + 1] and "." not in (text[at : at + 2] if at else text[1:2]):
-            yield typed.with_number(text[:at] + text[at + 1] + text[at] + text[at + 2 :])
-
-
-def _typed_twice(typed: Typed) -> Iterator[str]:
-    text = typed.number
-    for at in range(len(text) - 1):
-        if text[at] == text[at + 1]:
-            yield typed.with_number(text[:at] + text[at + 1 :])
-
-
-def _exchanged(typed: Typed, others: Callable[[str], Iterable[str]]) -> Iterator[str]:
-    """Each digit with each of some others for it."""
-    text = typed.number
-    for at, digit in enumerate(text):
-        if digit.isdigit():
-            yield from (typed.with_number(text[:at] + other + text[at + 1 :]) for other in others(digit))
-
-
-def _digit_lost(typed: Typed) -> Iterator[str]:
-    text = typed.number
-    for at in range(len(text) + 1):
-        yield from (typed.with_number(text[:at] + digit + text[at:]) for digit in _NEAR)
-
-
-def _other_address(typed: Typed) -> Iterator[str]:
-    """A word of which the contour has no address, as the one that it was most plausibly meant to be."""
-    claim = typed.speech.claim
-    word = next((each for each in claim.unknown if each.span == typed.word.span), None) if claim else None
-    if claim is not None and word is not None:
-        yield respelled(word, claim)
-
-
-def _other_letter(typed: Typed) -> Iterator[str]:
-    """Such a word of one letter, as one that its block has not yet."""
-    claim = typed.speech.claim
-    if claim is None or len(typed.word.address.lstrip(",#")) > 1:
-        return
-    if any(each.span == typed.word.span for each in claim.unknown):
-        stated = {word.address for block in claim.blocks if block.line == typed.word.span.line for word in block.words}
-        for address in claim.lexicon.addresses:
-            if address in claim.form.allowed and len(address) == len(typed.word.address) and address not in stated:
-                yield spell(address, typed.sign + typed.number)
-
-
-def _letter_alike(typed: Typed) -> Iterator[str]:
-    """A word of one letter as one whose letter means something alike, or lies beside it on a keyboard; where it needs
-    its comma, with that."""
-    letter = typed.address.strip(" ,").upper()
-    if len(letter) != 1 or (letter in _BESIDE and "." not in typed.number):
-        return
-    alike = dict.fromkeys(other for group in _ALIKE if letter in group for other in group if other != letter)
-    alike |= dict.fromkeys(_beside(letter))
-    for address in typed.speech.lexicon.addresses:
-        bare = address.lstrip(",#")
-        is_angle = bare == "ANG" and letter in _ALIKE[0]
-        if bare in _AXES if typed.address.startswith(",") else (letter in _AXES and bare not in _AXES):
-            # The comma is no axis's; and what moves an axis was meant to move one.
-            continue
-        if bare in _STEPS and not float(typed.number):
-            # Nobody writes an increment of 0.
-            continue
-        if (bare in alike or is_angle) and address not in typed.stated and address != typed.word.address:
-            yield spell(address, typed.sign + typed.number)
-
-
-def _increment(typed: Typed) -> Iterator[str]:
-    """An increment as a control spells it that has no letter for it."""
-    axis = dict(zip("UVW", "XYZ", strict=True)).get(typed.address.upper(), "")
-    if f"{axis}=IC" in typed.speech.lexicon.addresses:
-        yield spell(f"{axis}=IC", typed.sign + typed.number)
-
-
-_AXES, _STEPS = "XYZUVW", "UVW"
-_BESIDE = "MSTFHD"
-"""Letters of what has nothing to do with a path: their numbers have no point."""
-
-
-def _beside(letter: str) -> Iterator[str]:
-    """The letters right and left of a letter, and those that touch it in the row above and below."""
-    for number, row in enumerate(_ROWS):
-        at = row.find(letter.lower())
-        if at >= 0:
-            near = [row[at - 1 : at] if at else "", row[at + 1 : at + 2]]
-            near += [_ROWS[number - 1][at : at + 2]] if number else []
-            near += [_ROWS[number + 1][max(at - 1, 0) : at + 1]] if number + 1 < len(_ROWS) else []
-            yield from "".join(near).upper()
-
-
-_TYPING = "typing: which fingers and keys go wrong"
-_MEANING = "what is mistaken on drawings: slips that machinists and makers of controls name"
-_SEEN = "slips by hand and at random, tests/slips and tests/unit/test_typing.py"
-
-UNREADABLE = SlipKind("unreadable", "", 0.3, _TYPING, lambda typed: iter([mended(typed.word.text)]), True, True)
+UNREADABLE = SlipKind("unreadable", "", 0.3, TYPING, _D, lambda typed: [mended(typed.word.text)])
 """Letters for digits, commas for points, two points or signs: told by the finding itself."""
-POINT_LOST = SlipKind("point-lost", "", 0.9, _SEEN, _point_lost, True, True)
-COMMA = SlipKind("comma", "", 0.9, _SEEN, _comma_of_address)
-SIGN_LOST = SlipKind("sign-lost", "a lost minus sign", 1.6, _SEEN, _sign_lost, is_of_numbers=True)
-SIGN_ADDED = SlipKind("sign-added", "a minus sign too many", 1.8, _SEEN, _sign_added, is_of_numbers=True)
-NEIGHBOUR = SlipKind("neighbour", "the word of another corner", 1.7, _MEANING, _neighbour)
-ZERO_FIRST = SlipKind("zero-first", "two digits swapped", 0.4, _TYPING, _zero_first, True, True)
-LETTER_ALIKE = SlipKind("letter-alike", "another letter", 2.4, _TYPING, _letter_alike)
+ZERO_FIRST = SlipKind("zero-first", "two digits swapped", 0.4, TYPING, _D, _zero_first)
+POINT_LOST = SlipKind("point-lost", "", 0.9, SEEN, _D, _point_lost)
+COMMA = SlipKind("comma", "", 0.9, SEEN, _A, _comma)
+SIGN_LOST = SlipKind("sign-lost", "a lost minus sign", 1.6, SEEN, _S, _sign_lost)
+NEIGHBOUR = SlipKind("neighbour", "the word of another corner", 1.7, MEANING, _A, _neighbour)
+SIGN_ADDED = SlipKind("sign-added", "a minus sign too many", 1.8, SEEN, _S, _sign_added)
 SUPPLEMENT = SlipKind(
-    "supplement", "the angle from the other side", 1.9, _MEANING, lambda typed: _turned(typed, _supplement), True, True
+    *("supplement", "the angle from the other side", 1.9, MEANING, _D),
+    _angles(lambda angle: [(_HALF if angle > 0 else -_HALF) - angle] if abs(angle) < _HALF else ()),
 )
+POINT_LOST_IN_FEW = SlipKind("point-lost-few", "a lost decimal point", 2.2, TYPING, _D, _point_lost_in_few)
+POINT_MOVED = SlipKind("point-moved", "the decimal point moved", 2.0, SEEN, _D, _point_moved)
+ZERO_LOST = SlipKind("zero-lost", "a lost zero", 2.3, SEEN, _D, _zero_lost)
+LETTER_ALIKE = SlipKind("letter-alike", "another letter", 2.4, TYPING, _A, _letter_alike)
 OPPOSITE = SlipKind(
-    "opposite", "the other way along the line", 2.3, _MEANING, lambda typed: _turned(typed, _opposite), True, True
+    *("opposite", "the other way along the line", 2.3, MEANING, _D),
+    _angles(lambda angle: [angle - _HALF if angle >= _HALF else angle + _HALF]),
 )
 OTHER_AXIS = SlipKind(
-    "other-axis", "the angle from the other axis", 2.9, _MEANING, lambda typed: _turned(typed, _other_axis), True, True
+    *("other-axis", "the angle from the other axis", 2.9, MEANING, _D),
+    _angles(lambda angle: (angle + _QUARTER, _QUARTER - angle, angle - _QUARTER)),
 )
 COMPLEMENT = SlipKind(
-    "complement", "the angle from the other axis", 2.9, _MEANING, lambda typed: _turned(typed, _complement), True, True
+    *("complement", "the angle from the other axis", 2.9, MEANING, _D), _angles(lambda angle: [_complement(angle)])
 )
-POINT_LOST_IN_FEW = SlipKind("point-lost-few", "a lost decimal point", 2.2, _TYPING, _point_lost_in_few, True, True)
-POINT_MOVED = SlipKind("point-moved", "the decimal point moved", 2.0, _SEEN, _point_moved, True, True)
-ZERO_LOST = SlipKind("zero-lost", "a lost zero", 2.3, _SEEN, _zero_lost, True, True)
-
 FEW = (
     UNREADABLE,
     ZERO_FIRST,
@@ -439,97 +420,54 @@ FEW = (
     SIGN_LOST,
     NEIGHBOUR,
     SIGN_ADDED,
-    SlipKind("choice", "the other sign", 1.8, _MEANING, _sign_of_choice, is_of_numbers=True),
+    SlipKind("choice", "the other sign", 1.8, MEANING, _S, _sign_of_choice),
     SUPPLEMENT,
     POINT_LOST_IN_FEW,
     POINT_MOVED,
-    SlipKind("zero-added", "a zero too many", 2.0, _SEEN, _zero_added, True, True),
+    SlipKind("zero-added", "a zero too many", 2.0, SEEN, _D, _zero_added),
     ZERO_LOST,
-    SlipKind("other-address", "another word", 0.9, _MEANING, _other_address),
-    SlipKind("other-letter", "another letter", 2.1, _TYPING, _other_letter),
+    SlipKind("other-address", "another word", 0.9, MEANING, _A, _other_address),
+    SlipKind("other-letter", "another letter", 2.1, TYPING, _A, _other_letter),
     LETTER_ALIKE,
-    SlipKind("increment", "a word of another control", 1.0, _MEANING, _increment),
-    SlipKind("twice", "a digit typed twice", 2.2, _TYPING, _typed_twice, True, True),
-    SlipKind("swapped", "two digits swapped", 2.4, _TYPING, _swapped, True, True),
+    SlipKind("increment", "a word of another control", 1.0, MEANING, _A, _increment),
+    SlipKind("twice", "a digit typed twice", 2.2, TYPING, _D, _typed_twice),
+    SlipKind("swapped", "two digits swapped", 2.4, TYPING, _D, _swapped),
     OPPOSITE,
-    SlipKind("across", "a diameter for a radius", 1.8, _MEANING, _half_across, True, True),
-    SlipKind("diameter", "a diameter for a radius, or the reverse", 2.6, _MEANING, _twice_or_half, True, True),
+    SlipKind("across", "a diameter for a radius", 1.8, MEANING, _D, _half_across),
+    SlipKind("diameter", "a diameter for a radius, or the reverse", 2.6, MEANING, _D, _twice_or_half),
     OTHER_AXIS,
 )
 """Kinds that leave few texts of each word."""
-
 OF_DIGITS = (
-    SlipKind(
-        "key-beside",
-        "a key beside",
-        3.8,
-        _TYPING,
-        lambda typed: _exchanged(typed, _NEAR.__getitem__),
-        True,
-        True,
-        False,
-    ),
-    SlipKind("digit-lost", "a lost digit", 4.0, _TYPING, _digit_lost, True, True, False),
-    SlipKind(
-        "digit-added",
-        "a digit too many",
-        4.0,
-        _TYPING,
-        lambda typed: _exchanged(typed, lambda _: [""]),
-        True,
-        True,
-        False,
-    ),
-    SlipKind(
-        "other-digit",
-        "another digit",
-        4.8,
-        _TYPING,
-        lambda typed: _exchanged(typed, lambda _: _NEAR),
-        True,
-        True,
-        False,
-    ),
+    SlipKind("key-beside", "a key beside", 3.8, TYPING, _D, _digits(_BESIDE_DIGIT.__getitem__), False),
+    SlipKind("digit-lost", "a lost digit", 4.0, TYPING, _D, _digit_lost, False),
+    SlipKind("digit-added", "a digit too many", 4.0, TYPING, _D, _digits(lambda _: [""]), False),
+    SlipKind("other-digit", "another digit", 4.8, TYPING, _D, _digits(lambda _: _BESIDE_DIGIT), False),
 )
 """Kinds that leave dozens."""
-
-ROUND = SlipKind("round", "", 3.0, _SEEN, is_of_digits=True, is_of_numbers=True)
+ROUND = SlipKind("round", "", 3.0, SEEN, _D)
 """Digits that are wrong: the others make it a round number."""
-
-CODE = SlipKind("code", "", 2.0, _TYPING)
+CODE = SlipKind("code", "", 2.0, TYPING)
 """Another G code, or one that was forgotten."""
-
 SLIPS = (*FEW, CODE, *OF_DIGITS, ROUND)
 
 
-def texts_of(slip: SlipKind, word: Word, speech: Speech, stated: frozenset[str] = frozenset()) -> Iterator[str]:
-    """Words that a word may have been meant to be if a slip happened to it, beside the addresses of its block."""
-    typed = typed_as(word, speech, stated)
-    if typed is not None:
-        yield from texts_for(slip, typed)
-
-
-def typed_as(word: Word, speech: Speech, stated: frozenset[str] = frozenset()) -> "Typed | None":
-    """A word as it was typed, beside the addresses of its block; None if it has no number."""
-    match = _WORD.fullmatch(word.text.strip())
-    return Typed(speech, word, _address_in(match), match["sign"], match["number"], stated) if match else None
-
-
-def texts_for(slip: SlipKind, typed: Typed) -> Iterator[str]:
-    """The same for a word that is read."""
-    speech, word = typed.speech, typed.word
-    if slip.is_of_digits and typed.is_choice:
+def texts_of(slip: SlipKind, typed: Typed | None) -> Iterator[str]:
+    """Words that a word may have been meant to be if a slip happened to it; none of one without a number."""
+    if typed is None or (slip.changes is Changes.DIGITS and typed.is_choice):
         return
+    speech, own = typed.speech, typed.word.text.strip()
+    decimals = max(_DECIMALS, len(typed.number.partition(".")[2]))
     for text in dict.fromkeys(slip.texts(typed)):
         match = _WORD.fullmatch(text)
-        if match is None or not speech.is_known(_address_in(match)) or _says_the_same(text, word.text.strip()):
+        address = _address_in(match).replace(" ", "").upper() if match else ""
+        if match is None or address not in speech.lexicon.addresses or address not in speech.allowed:
             continue
-        if LEADING.search(text) or (typed.unit is Unit.DEGREE and _is_idle_turn(match, typed)):
-            continue
-        if not match["number"].strip("0.") and _address_in(match) in speech.shapes:
-            # Nobody writes a corner of no size.
-            continue
-        if len(match["number"].partition(".")[2]) <= max(_DECIMALS, len(typed.number.partition(".")[2])):
+        # Zeros say nothing, no drawing has idle turns, and nobody writes a leading zero or a corner of no size.
+        is_same = text == own or ("." in text and "." in own and text.rstrip("0") == own.rstrip("0"))
+        is_idle = LEADING.search(text) or (typed.is_angle and _is_idle_turn(match, typed))
+        is_nothing = not match["number"].strip("0.") and _address_in(match) in speech.shapes
+        if not (is_same or is_idle or is_nothing) and len(match["number"].partition(".")[2]) <= decimals:
             yield text
 
 
@@ -544,39 +482,37 @@ def _is_idle_turn(match: re.Match[str], typed: Typed) -> bool:
 
 def mistyped_codes(word: Word, modes: Modes) -> list[str]:
     """The contour codes that a G code may have been meant to be by a slip of its digits."""
-    match = _WORD.fullmatch(word.text.strip())
-    if word.address != "G" or match is None:
+    typed = Typed.of(word, Speech(modes.lexicon, frozenset())) if word.address == "G" else None
+    if typed is None:
         return []
-    typed = Typed(Speech(modes.lexicon, frozenset(), {}), word, match["address"], match["sign"], match["number"])
-    meant = {text for slip in SLIPS if slip.is_of_digits and slip is not POINT_LOST for text in slip.texts(typed)}
-    codes = [f"G{number}" for number, code in modes.codes.items() if code.effect is Effect.CONTOUR]
-    return [code for code in codes if code in meant and code != word.text.strip()]
+    kinds = (slip for slip in SLIPS if slip.changes is Changes.DIGITS and slip is not POINT_LOST)
+    meant = {text for slip in kinds for text in slip.texts(typed)} - {word.text.strip()}
+    codes = (f"G{number}" for number, code in modes.codes.items() if code.effect is Effect.CONTOUR)
+    return [code for code in codes if code in meant]
 
 
 def recognise(edit: Edit, claim: ParsedContour) -> SlipKind | None:
     """The most plausible slip that explains a change of a word; None if no slip does."""
     if edit.kind is not EditKind.CHANGE or edit.span is None or edit.address == FACT:
         return None
-    if edit.address == "G":
-        return CODE if edit.text != mended(edit.old) else UNREADABLE
-    if edit.text == mended(edit.old):
-        return UNREADABLE
-    word, speech = Word(edit.address, None, False, edit.old, edit.span), Speech.of(claim)
+    if edit.address == "G" or edit.text == mended(edit.old):
+        return UNREADABLE if edit.text == mended(edit.old) else CODE
+    typed = Typed.of(Word(edit.address, None, False, edit.old, edit.span), Speech.of(claim))
     kinds = sorted(SLIPS, key=lambda slip: slip.cost)
-    return next((slip for slip in kinds if edit.text in texts_of(slip, word, speech)), None)
+    return next((slip for slip in kinds if edit.text in texts_of(slip, typed)), None)
 
 
-def explained(word: Word, value: float, claim: ParsedContour, kinds: Iterable[SlipKind] | None = None) -> Iterator[str]:
-    """Words that a word may have been meant to be with about this value, mm (radius) or degrees, by any slip or by one
-    of some kinds."""
-    unit, speech = claim.after.unit, Speech.of(claim)
-    for slip in SLIPS if kinds is None else kinds:
-        for text in texts_of(slip, word, speech):
+def explained(word: Word, value: float, claim: ParsedContour, kinds: Iterable[SlipKind] = SLIPS) -> Iterator[str]:
+    """Words that a word may have been meant to be with about this value, mm (radius) or degrees, by a slip."""
+    typed = Typed.of(word, Speech.of(claim))
+    for slip in kinds:
+        for text in texts_of(slip, typed):
             match = _WORD.fullmatch(text)
             if match is None or _address_in(match).replace(" ", "").upper() != word.address:
                 continue
             number = match["sign"] + match["number"]
-            other = claim.lexicon.value(replace(word, number=Decimal(number), has_point="." in number), unit)
+            meant = replace(word, number=Decimal(number), has_point="." in number)
+            other = claim.lexicon.value(meant, claim.after.unit)
             if other is not None and abs(float(other) - value) <= (_ABOUT if slip.is_frequent else _NEARLY):
                 yield text
 
@@ -584,9 +520,6 @@ def explained(word: Word, value: float, claim: ParsedContour, kinds: Iterable[Sl
 def partners(address: str) -> Iterator[str]:
     """The words that state a point together with the one of an address, and seldom stand without it."""
     yield from (each for pair in _POINTS if address in pair for each in pair if each != address)
-
-
-_POINTS = (("CCX", "CCY"), ("ICCX", "ICCY"), ("CCPR", "CCPA"), ("PR", "PA"), ("IPR", "IPA"))
 
 
 def number_in(text: str) -> str:
@@ -599,10 +532,3 @@ def number_in(text: str) -> str:
 def plain_code(text: str) -> str:
     """A code without a zero that leads."""
     return re.sub(r"^G0+(?=\d)", "G", text.strip().upper())
-
-
-def _says_the_same(text: str, typed: str) -> bool:
-    """Whether two words differ in zeros at most."""
-    return text == typed or (
-        "." in text and "." in typed and text.rstrip("0") == typed.rstrip("0") and typed.rstrip("0") != ""
-    )

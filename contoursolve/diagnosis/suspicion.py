@@ -172,14 +172,11 @@ def _tried(
     answer: Answer, window: Window, drafts: Iterable[Candidate], is_better: Callable[[Seen], bool]
 ) -> Iterator[Repair]:
     """The repairs of drafts with which all is right and better than before."""
-    trial = Trial(answer.claim, window.dialect, frozenset(), answer.contour, window=window)
+    trial = Trial(answer, window.dialect, window)
     for draft in drafts:
-        seen = window.after(draft.edits)
-        if seen is None or not window.mends(seen):
-            continue
-        answers = [each for each in seen.answers if {*window.lines}.intersection(each.lines)]
-        if answers and all(each.contour for each in answers) and is_better(seen):
-            yield styled(repair_of(draft, seen, answers, trial), trial)
+        repair = repair_of(draft, trial, is_better)
+        if repair is not None:
+            yield styled(repair, trial)
 
 
 _LESS = 0.5

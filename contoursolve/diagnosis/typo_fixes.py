@@ -1,34 +1,19 @@
 """Findings with what was meant where a slip keeps a block from being a contour."""
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.drafts import missing_points
-from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, mend
+from contoursolve.diagnosis.edits import Edit, apply_edits, change, mend
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.explain import Context, report, spans_of
-from contoursolve.diagnosis.slip_kinds import POINT_LOST, Speech, mistyped_codes, texts_of
+from contoursolve.diagnosis.slip_kinds import POINT_LOST, Speech, Typed, texts_of
 from contoursolve.diagnosis.spelling import meant_in
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Word, lookalike_at, parse_block
-from contoursolve.reading import Dialect, Effect, Modes, ParsedContour, ReadIssue, State, codes_of
-
-
-def other_codes(answer: Answer, modes: Modes) -> Iterator[tuple[Edit, ...]]:
-    """The G codes of a contour as those of other contours that they may have been meant to be; none of a code that its
-    block repeats, because the other one would stay. And a code that may have been forgotten, where words mean nothing
-    without it."""
-    words = [word for block in answer.claim.blocks for word in block.words]
-    times = Counter((word.span.line, word.address, word.number) for word in words)
-    words = [word for word in words if times[word.span.line, word.address, word.number] == 1]
-    yield from ((change(word, text),) for word in words for text in mistyped_codes(word, modes))
-    codes = [f"G{number}" for number, code in modes.codes.items() if code.effect is Effect.CONTOUR]
-    lines = dict.fromkeys(word.span.line for word in answer.claim.unknown)
-    for line in sorted(lines.keys() - {word.span.line for word in words if word.address == "G"}):
-        yield from ((Edit(EditKind.ADD, "G", text=code, line=line),) for code in codes)
+from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, codes_of
 
 
 def point_slips(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -37,7 +22,7 @@ def point_slips(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     lacking = spans_of(answer.diagnostics, ReadIssue.POINT_MISSING)
     claim, speech = answer.claim, Speech.of(answer.claim)
     words = [word for word in claim.words.values() if word.span in lacking]
-    yield from ((change(word, text),) for word in words for text in texts_of(POINT_LOST, word, speech))
+    yield from ((change(word, text),) for word in words for text in texts_of(POINT_LOST, Typed.of(word, speech)))
 
 
 # Blocks that are a contour but for a slip: a comma that is missing, a letter that looks like a digit -------------

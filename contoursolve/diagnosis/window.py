@@ -1,6 +1,7 @@
 """The blocks around a contour, examined as a program is: as they are, and with edits that are tried."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from enum import Enum
 from functools import cached_property
 from itertools import accumulate
 from math import atan2, degrees
@@ -8,18 +9,18 @@ from math import atan2, degrees
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit, apply_edits, edit_facts, read_edited
-from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, edit_facts, read_edited
+from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
 from contoursolve.gcode import Block
 from contoursolve.geometry import Unit
-from contoursolve.reading import Dialect, Effect, ReadIssue, State
-from contoursolve.solving import ArcSegment, Contour, Point, opposes
+from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, advance, leave
+from contoursolve.solving import ArcSegment, Contour, LineSegment, Point, Segment, opposes
 from contoursolve.tolerance import AGREEMENT
 
-_FEEDS = (1, 2, 3)
-"""Motions that cut."""
+_LINE, _FEEDS = 1, (1, 2, 3)
+"""The motion along a line, and those that cut."""
 
 
 class WindowPart(Struct, frozen=True):
@@ -50,11 +51,16 @@ class Stretch(Struct, frozen=True):
 class Seen(Struct, frozen=True):
     """The result of examining a window: the errors and warnings, the contours, and the path as far as it is known."""
 
+    parts: tuple[WindowPart, ...]
     problems: tuple[Diagnostic, ...]
-    answers: tuple[Answer, ...]
     moves: tuple[Stretch, ...]
     changed: frozenset[int] = frozenset()
     """The lines that the edits change."""
+
+    @property
+    def answers(self) -> Iterator[Answer]:
+        """Those to its contours."""
+        return (part.answer for part in self.parts if part.answer is not None)
 
     @property
     def keys(self) -> frozenset[tuple[str, int]]:
@@ -121,7 +127,17 @@ class Window(Struct, frozen=True, dict=True):
         """The number of each part by the index of its first block, and what is known before it."""
         return {place: (number, self._parts[number].before.known()) for number, place in enumerate(self._places)}
 
-    def after(self, edits: Sequence[Edit]) -> Seen | None:
+    @cached_property
+    def _tried(self) -> dict[tuple[Edit, ...], Seen | None]:
+        return {}
+
+    def after(self, edits: tuple[Edit, ...]) -> Seen | None:
+        """The result with edits; what was tried is kept."""
+        if edits not in self._tried:
+            self._tried[edits] = self._after(edits)
+        return self._tried[edits]
+
+    def _after(self, edits: Sequence[Edit]) -> Seen | None:
         """The result with edits, up to the first thing that is wrong with its own blocks; None where they change
         nothing."""
         texts = apply_edits(self.blocks, edits)
@@ -155,6 +171,23 @@ class Window(Struct, frozen=True, dict=True):
         lines = frozenset(self.blocks[at].line for at in changed)
         return replace(_seen(seen), changed=lines)
 
+    def mended(self, edits: tuple[Edit, ...], meant: Collection[Enum] = ()) -> Seen | None:
+        """The result with edits; None where it is no better, where one of its own contours has no path, or where none
+        is left although no word is dropped."""
+        seen = self.after(edits)
+        if seen is None or not self.mends(seen, meant):
+            return None
+        is_left = self.has_contour(seen) or all(edit.kind is EditKind.DROP for edit in edits)
+        is_whole = all(part.answer is None or part.answer.contour is not None for part in self._own(seen))
+        return seen if is_left and is_whole else None
+
+    def has_contour(self, seen: Seen) -> bool:
+        """Whether some of its own blocks are a contour then."""
+        return any(part.answer is not None for part in self._own(seen))
+
+    def _own(self, seen: Seen) -> Iterator[WindowPart]:
+        return parts_of(seen, {*self.lines})
+
     def changes(self, edits: Iterable[Edit]) -> Iterator[LineChange]:
         """The lines that edits change, each with its new text."""
         for block, text in zip(self.blocks, apply_edits(self.blocks, edits), strict=True):
@@ -166,25 +199,70 @@ class Window(Struct, frozen=True, dict=True):
         """The lines of contours of which nobody knows where they begin."""
         return frozenset(each.span.line for each in self.before.problems if each.about in _FOLLOWING)
 
-    def mends(self, seen: Seen) -> bool:
-        """Whether nothing of its own is wrong then, and nothing new elsewhere. What is wrong with contours that waited
-        for it shows only then."""
+    def mends(self, seen: Seen, meant: Collection[Enum] = ()) -> bool:
+        """Whether nothing of its own is wrong then, nothing new elsewhere, and no contour has lost its place."""
+        return seen.placeless <= self.before.placeless and not self.left(seen, meant)
+
+    def left(self, seen: Seen, meant: Collection[Enum] = ()) -> list[Diagnostic]:
+        """The problems of its own blocks then, and new ones elsewhere. What is wrong with contours that waited for it
+        shows only then."""
         first, last = self.lines[0], self.lines[-1]
         old = self.before
-        if not seen.placeless <= old.placeless:
-            return False
         lost = self._waiting - seen.changed
         # The last blocks may belong to what is not seen any more.
         end = self.behind[-1].line if self.behind else last + 1
+        found = list[Diagnostic]()
         for each in seen.problems:
             line = each.span.line
-            if each.about in _MEANT or (agrees(each) and not old.has_code(each.code)):
+            if each.about in _MEANT or each.about in meant or (agrees(each) and not old.has_code(each.code)):
                 continue
-            if first <= line <= last:
-                return False
-            if (each.code, line) not in old.keys and line < end and line not in lost:
-                return False
-        return True
+            is_new = (each.code, line) not in old.keys and line < end and line not in lost
+            found += [each] if is_new or first <= line <= last else []
+        return found
+
+
+def parts_of(seen: Seen, lines: Collection[int]) -> Iterator[WindowPart]:
+    """The parts with blocks in some lines."""
+    return (part for part in seen.parts if any(block.line in lines for block in part.blocks))
+
+
+def path_of(seen: Seen, lines: Collection[int]) -> Contour | None:
+    """The path of some lines: their contour, or the contours and lines into which they are parted; None where they draw
+    nothing, or something else."""
+    elements, contours = list[Segment](), list[Contour]()
+    for part in parts_of(seen, lines):
+        if part.answer is not None and part.answer.contour is not None:
+            contours.append(part.answer.contour)
+            elements += part.answer.contour.elements
+        elif moves := [*_moves(part)]:
+            if part.after.motion != _LINE:
+                return None
+            elements += [LineSegment(f"line {len(elements) + 1}", each.start, each.end) for each in moves]
+    if contours and len(elements) == len(contours[0].elements):
+        return contours[0]
+    if not elements:
+        return None
+    plane = seen.parts[0].before.plane if not contours else contours[0].plane
+    return Contour(elements[0].start, elements[-1].end, {}, tuple(elements), plane)
+
+
+def alone(answer: Answer, dialect: Dialect) -> Window:
+    """The window of a contour around which nobody looks."""
+
+    def examined(blocks: Sequence[Block], state: State, _: object) -> Iterator[WindowPart]:
+        while blocks:
+            found, before, own = dialect.find(blocks, 0, state, dialect.modes), state, None
+            if isinstance(found, ParsedContour) and found.form.is_contour:
+                own = examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT)
+                state = leave(found, own.contour.end if own.contour else None, dialect.modes)
+            part, blocks = (
+                blocks[: len(found.blocks) if own and found else 1],
+                blocks[len(found.blocks) if own and found else 1 :],
+            )
+            state = state if own else advance(state, part[0], dialect.modes)
+            yield WindowPart(tuple(part), before, state, len(part) + 1, (), own)
+
+    return Window((), answer.claim.blocks, (), answer.claim.before, dialect, examined)
 
 
 def agrees(finding: Diagnostic) -> bool:
@@ -200,8 +278,8 @@ def _problems(part: WindowPart) -> list[Diagnostic]:
 
 def _seen(parts: Sequence[WindowPart]) -> Seen:
     return Seen(
+        tuple(parts),
         tuple(each for part in parts for each in _problems(part)),
-        tuple(part.answer for part in parts if part.answer is not None),
         tuple(move for part in parts for move in _moves(part)),
     )
 

@@ -15,7 +15,7 @@ from contoursolve.program.named_words import mark_trusted, with_named_words
 from contoursolve.program.outside_contours import NEAR
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Ahead, Pending
-from contoursolve.program.windows import Parts, last_of, near, window_of
+from contoursolve.program.windows import Parts, near, window_of
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, axis_words, next_place
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending
         from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
         following = pending.view[pending.after : pending.after + BEHIND]
-        answer = diagnose(answer, dialect, asked.policy, following, last_of(pending.ahead, dialect.modes), window())
+        answer = diagnose(answer, dialect, asked.policy, following, window())
         if asked.depth.is_full and _has(answer, ReadIssue.VARIABLE):
             from contoursolve.program.open_values import tell_values  # noqa: PLC0415 - few contours need it
 

@@ -225,8 +225,6 @@ class FreeFactWords:
 
     usual: tuple[str, ...] = ()
     """The words that a block may get, those first that a drawing usually has."""
-    swaps: Mapping[str, str] = field(default_factory=dict)
-    """The words that are often mistaken for each other, as they are written."""
     picking: str = ""
     """The word that chooses one of several solutions by its number, in a block of its own behind that of its element;
     empty if there is none."""

@@ -13,6 +13,7 @@ from contoursolve.program import changed
 
 FOLDER = Path(__file__).parents[1] / "slips"
 SLIPS = json.loads((FOLDER / "by_hand.json").read_text())
+PAIRS = json.loads((FOLDER / "pairs.json").read_text())
 CONTROLS = contoursolve.DIALECTS.keys() - {"siemens-808d", "cnc-pilot"}
 
 
@@ -54,6 +55,21 @@ def test_names_are_unique_and_every_control_takes_part():
     assert len({part for part, *_ in meant}) == len(meant) >= 35
     assert meant <= {(each["part"], each["control"], *each["program"]) for each in RIGHT}
     assert {each["control"] for each in SLIPS} == {each["control"] for each in RIGHT} == CONTROLS
+
+
+def both(pair: dict) -> dict:
+    """The entry of two slips at once: that of the first one, with the lines that the second one changes."""
+    one, two = (next(each for each in SLIPS if each["id"] == name) for name in pair["of"])
+    assert one["right"] == two["right"], pair["id"]
+    lines = zip(one["right"], one["slip"], two["slip"], strict=True)
+    assert all(right in (first, second) for right, first, second in lines), pair["id"]
+    lines = zip(one["right"], one["slip"], two["slip"], strict=True)
+    return one | {"slip": [second if first == right else first for right, first, second in lines]}
+
+
+def test_sixty_pairs_are_on_eight_controls():
+    assert len({each["id"] for each in PAIRS}) == len(PAIRS) == 60
+    assert len({both(each)["control"] for each in PAIRS}) == 8
 
 
 # What fixes make of them ------------------------------------------------------------------------------------------
@@ -102,6 +118,29 @@ def test_the_first_fix_undoes_most_slips_by_hand(slips, first_share, three_share
         among += any(good)
     assert first / count >= first_share, (first, among, count)
     assert among / count >= three_share, (first, among, count)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "share"),
+    [
+        pytest.param(PAIRS[::12], 0.4, id="some"),
+        pytest.param(PAIRS, 0.5, id="all", marks=pytest.mark.slow),
+    ],
+)
+def test_the_first_fixes_one_after_the_other_undo_most_pairs(pairs, share):
+    """Of two slips, of some of which nothing tells that they are any."""
+    count = 0
+    for pair in pairs:
+        entry = both(pair)
+        meant = paths(solved(entry, entry["right"]))
+        for _ in range(4):
+            result = solved(entry, entry["slip"])
+            found = [(each, fix) for each in result.diagnostics for fix in each.fixes[:1]]
+            if not found:
+                break
+            entry["slip"] = fixed(entry, result, *found[0])
+        count += paths(solved(entry, entry["slip"])) == meant
+    assert count / len(pairs) >= share, (count, len(pairs))
 
 
 MORE = {

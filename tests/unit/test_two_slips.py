@@ -149,7 +149,7 @@ def test_a_list_of_fixes_is_short_and_its_numbers_were_tried():
         "|6 END PGM HH MM"
     )
     (finding,) = contoursolve.solve(text.replace("|", "\n"), control="heidenhain").diagnostics
-    assert len(finding.fixes) == 4
+    assert 2 <= len(finding.fixes) <= 4
     assert finding.fixes[0].description.startswith("write AN+60 for AN+6 (a lost zero)")
     for fix in finding.fixes:
         for number in fix.numbers:

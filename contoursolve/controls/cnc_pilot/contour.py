@@ -239,6 +239,6 @@ _TANGENCY = Assumption(
 def _form(elements: tuple[FkElement, ...], labels: tuple[str, ...], words: PlaneWords, is_open: bool) -> ContourForm:
     form = compose(elements, labels, (), words)
     form = replace(form, outline=replace(form.outline, guard=_STRAIGHT))
-    free = replace(form.free, swaps={}, picking="")
+    free = replace(form.free, picking="")
     form = replace(form, name="din-plus", title="contour of lines and arcs", assumptions=(_TANGENCY,), free=free)
     return replace(form, is_general=is_open)

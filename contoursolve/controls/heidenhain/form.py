@@ -198,7 +198,6 @@ def compose(
                 for each in places
                 if each.element.function in FREE and not (word in _OF_DIRECTION and _has_direction(each.element))
             ),
-            swaps={"DR+": "DR-", "DR-": "DR+", "FLT": "FL", "FCT": "FC"},
             picking="FSELECT",
             companions=dict(_companions(chain)),
             poles=poles,
