@@ -195,12 +195,7 @@ def test_a_word_that_the_control_ignores_is_not_passed_over():
     assert "and 10 warnings more" in said
 
 
-TURNED = "G00 X97. Z2.\nG90 X91. Z-40. F0.35\nX85.\nG00 X40. Z0.\nG111 X80. A180. K-30. B120. P5. F0.2\n"
-
-LX3, HERE, RUN = "yasnac-lx3", "on LinuxCNC 2.9,", "which would run"
-TURNING = f"(turning cycle on {LX3})"
-RAPID, LINE = "a rapid: G00 is in force", "a line: G01 is in force"
-BY_HAND = "nothing was written: write by hand what is meant there"
+HERE = "on LinuxCNC 2.9,"
 
 
 @pytest.mark.parametrize(
@@ -240,7 +235,6 @@ def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine,
                 interpret(f"{opening} F100\nG00 X40. Z0.\nG{code} {words}\nM2\n", tmp_path)
 
 
-BEFORE = "G00 X40. Z0.\nG71 P100 Q0120 U.5 F.2\nN100 G00 X40. Z0.\n"
 ROUNDED = "N0120 G111 A180. K-30. B120. X100. P5."
 
 

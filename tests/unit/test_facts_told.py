@@ -30,25 +30,6 @@ def test_a_fact_for_one_of_two_contours_is_refused(program: str) -> None:
     assert "(contoursolve: ...)" in done.stderr
 
 
-OPEN = {
-    ONE.replace("A180.", "A?"): "V1 (X) and V2 (Z) are still open: give A? a value; or add I",
-    ONE.replace("K-30.", "K?"): "V1 (Z and X) and V2 (Z) are still open: give K? a value; or add one of Z, W",
-    ONE.replace("B120.", "B?"): "V2 is still open in Z: give B? a value; or add one of Z, W",
-    ONE.replace("X100.", "X?"): "V2 is still open in Z and X: give X? a value; or add one of U, Z, W",
-    ONE.replace("P5.", "P?"): "the radius of corner 1 is still open: give P? a value",
-    ONE.replace("Q5.", "Q?"): "the radius of corner 2 is still open: give Q? a value",
-    PAIR_TEXT.replace("X-50 Y0", "X? Y0"): (
-        "C (X and Y), N1 (X) and P1 (X and Y) are still open: give X? a value; or add one of I, J in program line 2"
-    ),
-    PAIR_TEXT.replace("X-50 Y0 R50", "I-50 J?"): (
-        "C (Y), P1 (X and Y) and the radius of the arc are still open: give J? a value; or add R in program line 2"
-    ),
-    PAIR_TEXT.replace("G1 X-50", "G1 X?"): "P1 (X and Y) and N2 (X) are still open: give X? a value",
-    PAIR_TEXT.replace(",A171.87", ",A?"): "P1 is still open in X and Y: give ,A? a value",
-    "G111 A90. C2. B180. Z-30. Q3. I?": "V1 (Z and X) and V2 (X) are still open: give I? a value; or add one of X, U",
-}
-
-
 TRAVEL = "the fact cannot be read: {} is larger than a control can travel"
 FITS = "corner {} does not fit: {} mm, at most {} mm fits on line {}"
 REFUSED = [
@@ -91,9 +72,6 @@ def test_words_and_facts_that_do_not_go_together_are_named(words: str, fact: str
     answer, found = told(f"G111 {words}", fact)
     assert answer.contour is None
     assert (found[code].message, found[code].severity) == (message, Severity.ERROR)
-
-
-ENDS = "the contour ends at Z{:.3f} mm X{:.3f} mm"
 
 
 def test_a_size_that_is_asked_for_has_no_limit_to_write_but_what_it_follows_from() -> None:
