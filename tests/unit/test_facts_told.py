@@ -3,7 +3,7 @@
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import Answer, Diagnostic, Severity, Status, solve
+from contoursolve import Answer, Diagnostic, Status, solve
 from contoursolve.cli import main
 from contoursolve.diagnostics import ProgramError
 
@@ -28,50 +28,6 @@ def test_a_fact_for_one_of_two_contours_is_refused(program: str) -> None:
     done = CliRunner().invoke(main, ["check", *blocks, "--fact", "length of line 1 = 30"])
     assert (done.exit_code, done.stdout) == (2, "")
     assert "(contoursolve: ...)" in done.stderr
-
-
-TRAVEL = "the fact cannot be read: {} is larger than a control can travel"
-FITS = "corner {} does not fit: {} mm, at most {} mm fits on line {}"
-REFUSED = [
-    ("A180. B120. X100.", "length of line 1 = 1e999", "fact-unreadable", TRAVEL.format("1e999")),
-    ("A180. B120. X100.", "length of line 1 = 1000001", "fact-unreadable", TRAVEL.format("1000001")),
-    (
-        *("A180. K-30. B120. X100. P?", "Z of begin of corner 1 = 29.9", "g111-corner-too-large"),
-        FITS.format(1, "P? is 103.750", "51.961", 1),
-    ),
-    (
-        *("A180. K-30. B120. X100. C?", "Z of begin of corner 1 = -5", "g111-corner-too-large"),
-        FITS.format(1, "C? is 59.151", "30.000", 2),
-    ),
-    (
-        *("A180. K-30. B120. X100. P2. D?", "straight part of line 2 = -5", "g111-corner-too-large"),
-        FITS.format(2, "D? is 33.330", "29.000", 2),
-    ),
-    (
-        *("K-30. I0. B120. X100. P2.", "length of line 1 = 0", "fact-impossible"),
-        "length of line 1 = 0 says nothing about this contour: a length is larger than 0, not 0",
-    ),
-    ("X100. Z-47. B120.", "length of line 1 = 3", "no-point", "no V1 fits length of line 1 = 3 and B120. together"),
-    (
-        *("I0 B120. X100.", "direction of line 1 = 180", "facts-singular"),
-        "at these values direction of line 1 = 180 and I0 do not fix V1 (Z)",
-    ),
-    (
-        *("A180. B180. X100. Z-50. P?", "straight part of line 1 = 2", "g111-parallel"),
-        "no V1 fits A180., B180. and X100.: the lines are parallel and 30.000 mm apart",
-    ),
-    (
-        *("A180. I0 B120. X100. P?", "straight part of line 1 = 2", "g111-not-fixed"),
-        "A180. and I0 do not fix V1 (Z): at these values they state the same line",
-    ),
-]
-
-
-@pytest.mark.parametrize(("words", "fact", "code", "message"), REFUSED)
-def test_words_and_facts_that_do_not_go_together_are_named(words: str, fact: str, code: str, message: str) -> None:
-    answer, found = told(f"G111 {words}", fact)
-    assert answer.contour is None
-    assert (found[code].message, found[code].severity) == (message, Severity.ERROR)
 
 
 def test_a_size_that_is_asked_for_has_no_limit_to_write_but_what_it_follows_from() -> None:
