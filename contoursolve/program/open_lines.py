@@ -89,9 +89,6 @@ class OpenLines(Sequence[Block]):
         if first and lines[first - 1].endswith("\r") and new.startswith("\n"):
             first -= 1
             new = lines[first] + new
-        if behind < len(lines) and new.endswith("\r") and lines[behind].startswith("\n"):
-            new += lines[behind]
-            behind += 1
         return self._change(first, behind, _split(new)[: None if behind == len(lines) else -1])
 
     def changes_to(self, text: str) -> Iterator[tuple[Place, Place, str]]:

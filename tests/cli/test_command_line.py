@@ -24,8 +24,6 @@ ONE = tuple(blocks("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0."))
 
 START = "G00 X40. Z0.\n"
 GOOD = START + "G111 X100. A180. K-30. B120. P5. Q5."
-MILL = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\n"
-PAIR = MILL + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
 
 
 def run_process(*arguments, stdin=b"", **environment):
@@ -41,10 +39,6 @@ def solve_json(*arguments, **options):
     document = json.loads(output)
     assert (status, errors) == (any(each["severity"] == "error" for each in document["diagnostics"]), "")
     return document
-
-
-def codes(document, *severities):
-    return [each["code"] for each in document["diagnostics"] if not severities or each["severity"] in severities]
 
 
 @pytest.fixture
@@ -262,29 +256,7 @@ def test_a_folder_is_no_file(tmp_path):
         assert told in errors
 
 
-# --- Ways to give a program ------------------------------------------------------------------------
-
-SMALL = "(SHAFT \N{LATIN CAPITAL LETTER O WITH DIAERESIS} 40)\nG00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nM30"
-
-
 # --- Numbers without their point ---------------------------------------------------------------------
-
-TAPER = "G111 X100. A180. K-30. B120."
-COUNTED = {
-    "in the program": (("G00 X40 Z0", TAPER), (), "X40", "0.040 mm", "40.000 mm", "X0.04"),
-    "both words": (
-        ("G00 X40 Z-2", TAPER),
-        (),
-        "X40 and Z-2",
-        "0.040 mm and -0.002 mm",
-        "40.000 mm and -2.000 mm",
-        "X0.04 and Z-0.002",
-    ),
-    "apart": ((TAPER,), ("--start", "X40 Z0"), "X40", "0.040 mm", "40.000 mm", "X0.04"),
-    "as a step": (("G00 X40. Z0.", "W-5", TAPER), (), "W-5", "-0.005 mm", "-5.000 mm", "W-0.005"),
-    "no point anywhere": (("G00 X40 Z0", "G111 X100 A180 K-30 B120"), (), "X40", "0.040 mm", "40.000 mm", "X0.04"),
-    "inches": (("G20 G00 X2 Z0.", "G111 X4. A180. K-1. B120."), (), "X2", "0.0002 in", "2.0000 in", "X0.0002"),
-}
 
 
 @pytest.mark.parametrize(
@@ -353,8 +325,4 @@ def test_a_command_that_shows_no_proof_makes_none(count, save, monkeypatch):
     for command in ("check", "expand"):
         run(command, path)
         assert not made, command
-    assert (run("solve", path)[0], len(made)) == (0, count)
-
-
-REFUSED = (*blocks("G111 X100. A180. K-30. B120. P60.", start="X40. Z0."), "--rules", "warn")
-OVERLAP = "G17 G90 G0 X0 Y0\nG1 X72.505 Y33.809 ,R10\nX64.053 Y51.935 ,R10\nX-8.452 Y18.126\n"
+    assert run("solve", path)[1].count("proven") == len(made) == count

@@ -12,7 +12,7 @@ import contoursolve
 
 ROOT = Path(__file__).parents[2]
 SHAFT = ROOT / "notebooks" / "programs" / "shaft.nc"
-STUD, PLATE = (ROOT / "docs" / "programs" / name for name in ("stud.nc", "plate.nc"))
+PLATE = ROOT / "docs" / "programs" / "plate.nc"
 
 
 def words(text, to, **options):
@@ -32,12 +32,6 @@ def words(text, to, **options):
 def test_a_klartext_program_gets_the_targets_codes_of_units_and_offsets(to, codes):
     found = words((ROOT / "docs" / "programs" / "cam.h").read_text(), to)
     assert [each for each in found if each in codes] == codes
-
-
-TAPER = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. {}F0.2\nG01 Z-60."
-
-
-NCT = "G17 G90 G42 G0 X100 Y20\n"
 
 
 def test_what_the_target_has_no_words_for_is_written_out_and_named():

@@ -155,18 +155,6 @@ def test_what_is_not_followed_must_be_the_same_word_by_word(diff, line):
         assert diff(program.format(line), program.format(other))["verdict"] == "different"
 
 
-CALLING = """O1 (GROOVES)
-#100=40.
-G00 X#100 Z-10.
-M98 P2
-Z-20.
-M98 P2
-M30
-O2
-G111 X#100 A250. K-3. B110. P0.5
-M99"""
-
-
 def test_a_program_that_has_errors_has_no_path(diff):
     found = diff(SHAFT, PROGRAMS.joinpath("shaft_broken.nc").read_text())
     assert found["verdict"] == "not-compared"

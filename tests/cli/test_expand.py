@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from calling import call
-from examples import control_of, law
+from examples import law
 from hypothesis import strategies as st
 from interpreter import RefusedError, interpret
 
@@ -81,71 +81,6 @@ def test_with_few_decimals_every_arc_is_still_one(post, arcs, decimals, unit, na
 # --- What replaces a contour ---------------------------------------------------------------------------
 
 
-REPLACED = {
-    "number and F on the first line": (
-        "{START}N30 {TAPER} F0.2",
-        "{START}N30 G01 X40. Z-30. F0.2 / G01 X100. Z-47.321",
-    ),
-    "block skip on every line, the block's own comment": (
-        "{START}/2 N30 {TAPER} (TAPER)",
-        "{START}/2 N30 G01 X40. Z-30. (TAPER) / /2 G01 X100. Z-47.321",
-    ),
-    "the motion before it is in force again": (
-        "{START}\t{TAPER}   / X50. / Z9.",
-        "{START}\tG01 X40. Z-30. / \tG01 X100. Z-47.321 / G00 / X50. / Z9.",
-    ),
-    "a motion that is said needs nothing": ("{START}{TAPER} / M08 / G01 X50.", "{START}{CUT} / M08 / G01 X50."),
-    "the same motion needs nothing": ("G01 X40. Z0. F1. / {TAPER} / X50.", "G01 X40. Z0. F1. / {CUT} / X50."),
-    "a subprogram finds the motion that it expects": (
-        "{START}{TAPER} / M98 P1 / X50.",
-        "{START}{CUT} / G00 / M98 P1 / X50.",
-    ),
-    "an arc is said where it is relied on, and again behind a block that may be skipped": (
-        "{START}G02 X40. Z-10. R30. / {TAPER} / M08 / G28 U0 / /2 N7X50. Z-90. R40. / X50. Z-95. R9.",
-        (
-            "{START}G02 X40. Z-10. R30. / G01 X40. Z-40. / G01 X100. Z-57.321 / M08 / G28 U0"
-            " / /2 N7 G02 X50. Z-90. R40. / G02 X50. Z-95. R9."
-        ),
-    ),
-    "a contour of no length still puts its motion in force": (
-        "G17 G41 G0 X10 Y20 D1 / G1 X20 / X10 Y20 ,A225 / X2 Y2",
-        "G17 G41 G0 X10 Y20 D1 / G01 / X2 Y2",
-    ),
-    "the name of a program relies on nothing": (
-        "{START}{TAPER} / M30 / O2 / G00 X1.",
-        "{START}{CUT} / M30 / O2 / G00 X1.",
-    ),
-    "increments after it begin where it really ends": (
-        "{START}{TAPER} Q5. / G01 W-1. / G111 I0 K-5. U10. W-10.",
-        (
-            "{START}G01 X40. Z-30. / G01 X95. Z-45.877 / G03 X100. Z-50.207 I-2.5 K-4.33 / G01 W-1."
-            " / G01 X100. Z-56.207 / G01 X110. Z-61.207"
-        ),
-    ),
-    "inches have four decimals": (
-        "G20 G00 X4. Z0. / G111 A180. K-3. B120. X10. C.5",
-        "G20 G00 X4. Z0. / G01 X4. Z-2.7887 / G01 X5. Z-3.2887 / G01 X10. Z-4.7321",
-    ),
-    "words of each block of a pair stay with it": (
-        "G17 G41 G0 X50 Y0 D1 / G3 X-50 Y0 R50 F300 S900 M3 / (HERE) / N5 G42 G1 X-50 Y42.857 ,A171.87 Q-1 M5",
-        "G17 G41 G0 X50 Y0 D1 / G03 X40 Y30 I-50 J0 F300 S900 M3 / (HERE) / N5 G42 G01 X-50 Y42.857 M5",
-    ),
-    "G91: increments, what ends a block on its last line": (
-        "G17 G0 X0 Y0 / G91 G1 X30 ,C10 / X10 Y40 M5 / X5",
-        "G17 G0 X0 Y0 / G91 G01 X20 Y0 / G01 X12.425 Y9.701 / G01 X7.575 Y30.299 M5 / X5",
-    ),
-    "a rapid line stays rapid": ("G17 G0 X0 Y0 / G0 X10 ,A45 / G1 Y20", "G17 G0 X0 Y0 / G00 X10 Y10 / G1 Y20"),
-}
-"""Blocks, and what stands in their place."""
-
-
-@pytest.mark.parametrize("name", REPLACED)
-def test_a_contour_is_replaced(name):
-    cut = "G01 X40. Z-30.\nG01 X100. Z-47.321"
-    text, lines = (each.replace(" / ", "\n").format(START=START, TAPER=TAPER, CUT=cut) for each in REPLACED[name])
-    assert expand(text, control=control_of(text)) == lines.split("\n")
-
-
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
@@ -195,14 +130,6 @@ def test_a_word_that_the_control_ignores_is_not_passed_over():
     assert "and 10 warnings more" in said
 
 
-TURNED = "G00 X97. Z2.\nG90 X91. Z-40. F0.35\nX85.\nG00 X40. Z0.\nG111 X80. A180. K-30. B120. P5. F0.2\n"
-
-LX3, HERE, RUN = "yasnac-lx3", "on LinuxCNC 2.9,", "which would run"
-TURNING = f"(turning cycle on {LX3})"
-RAPID, LINE = "a rapid: G00 is in force", "a line: G01 is in force"
-BY_HAND = "nothing was written: write by hand what is meant there"
-
-
 @pytest.mark.parametrize(
     ("post", "line"),
     [
@@ -240,7 +167,6 @@ def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine,
                 interpret(f"{opening} F100\nG00 X40. Z0.\nG{code} {words}\nM2\n", tmp_path)
 
 
-BEFORE = "G00 X40. Z0.\nG71 P100 Q0120 U.5 F.2\nN100 G00 X40. Z0.\n"
 ROUNDED = "N0120 G111 A180. K-30. B120. X100. P5."
 
 

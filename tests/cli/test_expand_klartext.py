@@ -11,15 +11,6 @@ from klartext import random_program, walk
 import contoursolve
 
 CAM = PROGRAMS["g6"]
-WRITTEN = {
-    "8": "8 L X+8.682 Y+49.24",
-    "9": "9 CC X+23.4546 Y+46.6357\nC X+28.253 Y+60.848 DR-",
-    "10": "10 L X+84.559 Y+41.837",
-    "11": "11 CC X+82 Y+34.2573\nC X+90 Y+34.257 DR-",
-    "12": "12 L X+90 Y+5",
-    "13": "13 L X+85 Y+0",
-    "14": "14 L X+0 Y+0",
-}
 
 
 def chain(*blocks: str, before: str = "L X+0 Y+0 F200", unit: str = "MM") -> str:

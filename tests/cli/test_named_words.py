@@ -7,7 +7,6 @@ from calling import call
 from click.testing import Result
 
 from contoursolve import DIALECTS, OpenProgram, solve
-from contoursolve.gcode import parse
 
 TAPER = "G111 A180. K-30. B120. X100. "
 START = "G00 X40. Z0.\n"
@@ -79,11 +78,6 @@ def test_what_is_trusted_is_there_or_it_is_said_what_may_be_meant(words, reason,
     assert reason in check(str(part)).output
     part.write_text(f"{START}{TAPER}(contoursolve trust: {words})")
     assert reason.replace("the program", "the contour").split(";")[0] in check(str(part), status=1).output
-
-
-def times(word, text, syntax) -> int:
-    """How often a text has a word."""
-    return sum(each.text == word.text for block in parse(text, syntax=syntax).blocks for each in block.words)
 
 
 # Words that are compared ----------------------------------------------------------------------------------

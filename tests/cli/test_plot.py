@@ -16,7 +16,6 @@ from contoursolve.output.dxf import CONSTRUCTION, layer_name, to_dxf
 from contoursolve.solving.contour import ArcSegment
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
-CIRCLE = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
 INCH = "G20 G00 X2. Z0.\nG111 X4. A180. K-1. B120. P.2 Q.2"
 
 

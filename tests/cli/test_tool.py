@@ -8,17 +8,6 @@ from calling import COMPENSATED, NOSE, block, call, data
 
 LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
 TAPER = block("X20. Z0. / G01 X20. Z-10. / X30. Z-20. / X30. Z-30.")
-TABLES = Path(__file__).parents[1] / "oracles" / "tool"
-
-
-def findings(*words, stdin=None):
-    """Line, code and message of what check says of a tool."""
-    found = data("check", *words, stdin=stdin)["diagnostics"]
-    return [(each["line"], each["code"], each["message"]) for each in found if each["code"].startswith("tool-")]
-
-
-def codes(*words, stdin=None):
-    return [code for _, code, _ in findings(*words, stdin=stdin)]
 
 
 # How it is stated -------------------------------------------------------------------------------------------------
@@ -108,15 +97,6 @@ def test_a_row_of_the_table_is_named(row: str, told: str, tmp_path):
 
 
 # What is said of it -----------------------------------------------------------------------------------------------
-
-ROUND = "X-4. Y20. / G01 X-4. Y9.1652 / G03 X4. Y9.1652 I4. J-9.1652 / G01 X4. Y20."
-FAR = ROUND.replace(
-    "G03 X4. Y9.1652 I4. J-9.1652", "G03 X-10. Y0 R10. / X0 Y-10. R10. / X10. Y0 R10. / X4. Y9.1652 R10."
-)
-GROOVE = "X30. Z0. / G01 X30. Z-10. / X20. Z-10. / X20. Z-11.5 / X30. Z-11.5 / X30. Z-20."
-
-
-CUTTER, TURNING = (*MILL, "--tool", "R6", "--side", "left"), (*LATHE, *NOSE, "--side", "right")
 
 
 @pytest.mark.parametrize(

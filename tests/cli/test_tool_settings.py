@@ -9,8 +9,6 @@ from calling import call, data
 
 LATHE, MILL = "fanuc-lathe", "fanuc-mill"
 FILLET = "X20. Z0. / G01 X20. Z-14.6 / G02 X20.8 Z-15. R0.4 / G01 X40. Z-15."
-CHAMFER = "X20. Z0. / G01 X20. Z-10. / X21. Z-10.5 / X30. Z-10.5"
-GROOVE = "X30. Z0. / G01 X30. Z-10. / X20. Z-10. / X20. Z-11.5 / X30. Z-11.5 / X30. Z-20."
 EDGE = "X0. Z0. / G01 X20. Z0. / X20. Z-10."
 TAPER = "X20. Z0. / G01 X20. Z-10. / X30. Z-20. / X30. Z-30."
 POCKET = "X0 Y0 / G01 X40. Y0 / X40. Y30. / X10. Y30."
@@ -33,9 +31,6 @@ def ends(found: dict[str, Any]) -> list[tuple[float, ...]]:
     """The places of a path; none where there is no path."""
     places = [found["start"], *(each["end"] for each in found["elements"])] if found["elements"] else []
     return [tuple(round(value, 4) for value in place) for place in places]
-
-
-NOSE = ("R0.8, tip 3", TAPER, "right", LATHE)
 
 
 def test_a_tool_that_comes_nowhere_is_refused_although_it_may_leave_something():

@@ -1,6 +1,5 @@
 """Words that change the radius of a tool, or compensation: they are followed, or the path is refused."""
 
-import json
 from pathlib import Path
 
 import pytest
@@ -61,67 +60,6 @@ def wall(text: str, control: str) -> float:
     assert done.exit_code == 0, done.stderr
     moves = [line for line in done.stdout.splitlines() if not line.lstrip().startswith(("(", ";"))]
     return max(float(word[1:]) for line in moves for word in line.split() if word[0] == "X")
-
-
-REFUSED = [
-    ("fanuc-mill", ("G51 X0. Y0. P2000",), "G51 in program line 3 scales the contour"),
-    ("haas-mill", ("N5 G51 P1.5 X0.",), "G51 in program line 3 scales"),
-    ("nct-99m", ("", "G51 P2."), "G51 in program line 4 scales"),
-    ("mitsubishi", ("", "G38 I1. J0."), "G38 in program line 4 changes the way"),
-    ("mitsubishi", ("", "X-30. G39"), "G39 in program line 4 changes the way"),
-    ("fanuc-mill", ("", "", "G46 X10. D1"), "G46 in program line 9 makes a move longer or shorter"),
-    ("siemens-840d", ("SCALE X2 Y2",), "SCALE in program line 3 scales"),
-    ("siemens-840d", ("SCALE Z1\nASCALE X=2",), "ASCALE in program line 4 scales"),
-    ("siemens-840d", ("", "CUTCONON"), "CUTCONON in program line 4 suspends compensation"),
-    ("siemens-840d", ("KONT\nG0 X0 Y0",), "KONT in program line 3 leads around the contour"),
-    ("siemens-840d", ("DISC=50",), "DISC=50 in program line 3 changes the way"),
-    ("siemens-840d", ("T1 D1 TOFFR=.3",), "TOFFR=.3 in program line 3 adds to the radius"),
-    ("siemens-840d", ("", "OFFN=0.5"), "OFFN=0.5 in program line 4 adds to the radius"),
-    ("siemens-840d", ("OFFN=R1",), "OFFN= in program line 3 adds to the radius"),
-    ("heidenhain", ("CYCL DEF 26.0 SCALING\n5 CYCL DEF 26.1 SCL 2",), "CYCL DEF 26.1 in program line 5 scales"),
-    ("heidenhain", ("CYCL DEF 26.1 X+1.4 Y+0.6",), "CYCL DEF 26.1 in program line 4 scales"),
-    ("heidenhain", ("TOOL CALL 1 Z DR+Q5",), "TOOL CALL 1 Z DR in program line 4 adds to the radius"),
-    ("heidenhain", ("", "M98"), "M98 in program line 7 changes the way"),
-    ("heidenhain", ("", "", "L X-40 R+ FMAX"), "R+ in program line 11 compensates along one axis"),
-    ("fanuc-lathe", ("G51.1 Z0.",), "G51.1 in program line 2 turns the contour, but not the imaginary tip"),
-]
-
-
-@pytest.mark.parametrize(("control", "lines", "told"), REFUSED)
-def test_a_word_that_is_not_followed_leaves_no_path(control: str, lines: tuple[str, ...], told: str):
-    text = program(control, *lines)
-    log = json.loads(call("check", text, control, *_tool(control), "--format", "json").stdout)
-    (found,) = [each for each in log["diagnostics"] if each["code"] == "tool-not-followed"]
-    assert found["message"].startswith(told)
-    assert found["severity"] == "error"
-    done = call("expand", text, control, *_tool(control), "--inline")
-    assert (done.exit_code, done.stdout) == (1, "")
-    assert told in done.stderr
-
-
-@pytest.mark.parametrize(
-    ("control", "lines"),
-    [
-        ("fanuc-mill", ("G51 X0. Y0. P2000\nG50",)),
-        ("fanuc-mill", ("", "", "G51 X0. Y0. P2000")),
-        ("fanuc-mill", ("G68 X0. Y0. R30.",)),
-        ("fanuc-mill", ("(G51 P2)",)),
-        ("fanuc-mill", ("G51.1 X0.",)),
-        ("siemens-840d", ("SCALE X2 Y2\nSCALE",)),
-        ("siemens-840d", ("SCALE X2 Y2\nROT RPL=30",)),
-        ("siemens-840d", ("DISC=0",)),
-        ("siemens-840d", ("KONT",)),
-        ("siemens-840d", ("CUTCONON\nCUTCONOF",)),
-        ("heidenhain", ("CYCL DEF 26.1 SCL 2\n5 CYCL DEF 26.1 SCL 1",)),
-        ("heidenhain", ("CYCL DEF 11.1 SCL 1.000",)),
-        ("heidenhain", ("TOOL CALL 1 Z DR2:+0.5",)),
-        ("heidenhain", ("TOOL CALL 1 Z DR+0.5\n5 TOOL CALL 1 Z",)),
-    ],
-)
-def test_what_is_off_again_and_what_changes_no_offset_is_harmless(control: str, lines: tuple[str, ...]):
-    text = program(control, *lines)
-    log = json.loads(call("check", text, control, *R5, "--format", "json").stdout)
-    assert [each["code"] for each in log["diagnostics"] if each["code"].startswith("tool-")] == []
 
 
 @pytest.mark.parametrize(

@@ -7,18 +7,6 @@ import pytest
 from calling import COMPENSATED, NOSE, call
 
 LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
-PLATE = """\
-T1 M6
-G90 G17 G54 G00 X-20. Y-20.
-G01 G41 X0. Y-8. D1 F100
-Y40. ,R6. F300
-X40. ,C2.
-<<MIDST>>
-Y0.
-X-8.
-G40 G00 X-20. Y-20.
-"""
-"""A plate with overlapping run-in and run-off."""
 
 
 TABLES = Path(__file__).parents[1] / "oracles" / "tool"

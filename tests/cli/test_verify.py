@@ -1,7 +1,6 @@
 """`contoursolve verify`: right results pass, and no wrong number, element, status or fact gets through."""
 
 import json
-import re
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -51,8 +50,6 @@ CLAIMS = {
     "a tie of a circle": MILL + "G3 X-50 Y2 I-50 J0\n" + LINE,
     "ambiguous": MILL + "G3 X-30 Y40 R50\nG1 X-50 Y42.857 ,A171.87",
 }
-PATHS = {"shaft.nc": 7, "plate.nc": 6, "shaft_broken.nc": 1, "roller.nc": 9}
-"""Contours of programs that are verified."""
 
 
 def solved(desk: Desk, name: str) -> dict[str, Any]:
@@ -144,9 +141,6 @@ def test_what_solve_says_of_every_example_is_right(control, text):
         assert (verdict == "verified") != ("the status" in [each.name for each in one.omissions])
 
 
-# --- Contours without a path -------------------------------------------------------------------------
-
-
 # --- Further facts, values that are asked for, several solutions ----------------------------------
 
 
@@ -163,10 +157,6 @@ def test_no_other_status_passes_for_what_lists_solutions_and_answers(desk, name)
             # A fact that chooses among solutions, and one that repeats others: the rank does not tell them apart.
             is_open = {other, status} == {"solved", "overdetermined"} and verdict == "partly-verified"
             assert verdict == "failed" or is_open or (verdict == "nothing-checked" and not has_paths), (other, verdict)
-
-
-STATED = re.compile(r"(?<== )[-+]?[\d.]+|(?<=[ZXYR])-?[\d.]+(?=[ \]])(?=[^\[]*\])|(?<=at )\d+")
-"""The numbers in facts."""
 
 
 @pytest.mark.parametrize(

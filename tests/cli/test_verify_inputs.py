@@ -71,9 +71,6 @@ def test_verify_takes_what_solve_takes(desk):
     )
 
 
-BESIDE = "1 L X+0 Y+0 R0 FMAX\n{}\n{}"
-
-
 @pytest.mark.parametrize(
     ("name", "setting", "value"),
     [
@@ -162,20 +159,6 @@ def test_ignored_and_unread_words_are_listed(desk):
     result = desk.solve(PAIR + " ,R2", "--rules", "off")
     receipt = desk.receipt(result)
     assert ",R2" in [each["what"] for each in receipt["contours"][0]["not_checked"]]
-
-
-ELEMENT, OF_ALL = ("contours", 0, "elements", 1), ("contours", 0)
-
-
-FIELDS = (
-    ((), "schema control rules settings contours diagnostics"),
-    (("contours", 0), "line lines form status plane start end points elements branch branches certificate conventions"),
-    (("contours", 0), "facts asked filled solutions count diagnosis"),
-    (("contours", 0, "elements", 1), "kind start end center radius turn"),
-    (("contours", 0, "certificate"), "kind radius reason double"),
-    (("contours", 0, "solutions", 0), "name is_chosen selects is_path reasons asked end points elements certificate"),
-    (("contours", 0, "count"), "solutions contours is_complete doubts chosen_by"),
-)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import random
 import re
+from itertools import combinations_with_replacement, product
 from pathlib import Path
 
 import pytest
@@ -72,6 +73,18 @@ def compare(program: OpenProgram, text: str, control: str | None) -> None:
     for finding, lines in program.found():
         if finding.fixes:
             assert lines == fresh.lines_of(finding)
+
+
+def test_edits_beside_any_end_of_a_line_are_those_of_the_text() -> None:
+    """A carriage return and a line feed that an edit brings together are one end; one that it parts are two."""
+    spans = [*combinations_with_replacement([(1, 6), (2, 1), (2, 2), (3, 1), (9, 9)], 2)]
+    for one, other in product(("\n", "\r", "\r\n"), repeat=2):
+        text = f"G0 X1{one}{other}X2{one}Y3"
+        for (begin, end), new in product(spans, ("", "\n", "\r\nG1", "\nY4\r")):
+            program, expected = OpenProgram(text), edited(text, begin, end, new)
+            program.edit(begin, end, new)
+            program.edit((3, 1), (3, 2), "Z")
+            assert program.text == edited(expected, (3, 1), (3, 2), "Z"), (text, begin, end, new)
 
 
 def test_a_program_with_variables_is_examined_again_for_another_control() -> None:

@@ -95,12 +95,14 @@ def _cases_of(file: str) -> list[tuple[str, frozenset[int]]]:
 def reaching(fault: Fault) -> tuple[list[str], list[str]]:
     """The cases that reach the line of a fault, and those that reach its file alone, both nearest first.
 
-    What is kept in a cache is reached by the first case that asks; what runs at import, by none in particular.
+    What is kept in a cache is reached by the first case that asks; what runs at import, by none in particular. What a
+    server reaches that is stopped is not told: the cases of its room stand for it.
     """
     lines = range(fault.line, fault.line + fault.old.count("\n") + 1)
     near = [case for case, reached in _cases_of(fault.file) if not reached.isdisjoint(lines)]
     known = set(near)
-    return near, [case for case, _ in _cases_of(fault.file) if case not in known]
+    far = [case for case, _ in _cases_of(fault.file) if case not in known]
+    return near, far or [case for case in _breadth() if not near and f"/test_{fault.room}." in case]
 
 
 def copy_tree(number: int) -> Path:

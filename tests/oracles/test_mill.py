@@ -48,9 +48,6 @@ def solve_mill(program: Sequence[str], rules: str = "enforce", depth: str = "ver
     return solve("\n".join(program), control="nct-99m", rules=rules, depth=depth)
 
 
-# The sheet's examples -----------------------------------------------------------------------------------
-
-
 # Drawings -----------------------------------------------------------------------------------------------
 
 

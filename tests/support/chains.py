@@ -463,12 +463,6 @@ def ratio(rows: numpy.ndarray) -> float:
     return float(values[-1] / values[0])
 
 
-def rank(chain: Chain, facts: Sequence[Fact], floor: float = 1e-6) -> int:
-    """How many of the form's and the facts' equations are independent at a chain."""
-    values = numpy.linalg.svd(jacobian(chain, facts), compute_uv=False)
-    return int((values > floor * values[0]).sum())
-
-
 class Pool(NamedTuple):
     """Facts with their rows of the Jacobian."""
 

@@ -9,8 +9,6 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
-Blocks = list[tuple[str, list[str]]]
-"""Some blocks in a row, each a template with `{}` for each of its values."""
 Statement = tuple[str, dict[str, Any]]
 SIGNS = {"EQ": "==", "NE": "<>", "GT": ">", "LT": "<"}
 NUMBERED = {"EQ": "FN 9: {} EQU", "NE": "FN 10: {} NE", "GT": "FN 11: {} GT", "LT": "FN 12: {} LT"}

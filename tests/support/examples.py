@@ -38,8 +38,3 @@ def law(
         return test
 
     return hold
-
-
-def control_of(text: str) -> str:
-    """The first two controls of a test's program: others read words of the mill, too."""
-    return "nct-99m" if text.startswith("G17") or "\nG17" in text else "yasnac-lx3"

@@ -1,44 +1,12 @@
 """What a finding asks to add, to delete or to write helps: its words, its fixes and the equations agree."""
 
-import re
 from math import hypot
 
 import pytest
 
-from contoursolve import DIALECTS, Diagnostic, check, legal_blocks, solve
+from contoursolve import DIALECTS, check, legal_blocks, solve
 
 START = "X40. Z0."
-
-
-def findings(block: str, **options: str) -> dict[str, Diagnostic]:
-    return {each.code: each for each in check(block, control="yasnac-lx3", **({"start": START} | options))}
-
-
-def asked(finding: Diagnostic) -> str:
-    """What is to be added, as a finding that lacks words says it."""
-    text = finding.message + "; " + finding.help.removesuffix("; a zero must be written, too (I0, K0)")
-    return text.partition("add ")[2].removesuffix("; or state a fact about it: `contoursolve facts` lists them")
-
-
-ASKED = {
-    # With I0 any A leaves line 1 no length; K places V1 on it.
-    "G111 X100. I0 B120.": {"g111-line-1": "K", "words-missing": "one of K, Z, W"},
-    # At 90 deg K says what A says.
-    "G111 A90.": {"g111-line-1": "I", "words-missing": "three of I, X or U, Z or W, B"},
-    "G111 A180.": {"g111-line-1": "K", "words-missing": "three of K, X or U, Z or W, B"},
-    # I and K say the same beside A, and so do X and U.
-    "G111 A170. B120. C2.": {"g111-line-1": "I or K", "words-missing": "two of I or K, X or U, Z or W"},
-    "G111 I10. B120.": {"g111-line-1": "A or K", "words-missing": "two of K or A, X or U, Z or W"},
-    "G111 I10. K-20. B120.": {"words-missing": "one of X, U, Z, W"},
-    "G111 X100. U50.": {
-        "g111-line-1": "A or I or K",
-        "words-missing": "three of I, K, A, Z or W, B; not I, K and A together",
-    },
-}
-
-
-RANGE = re.compile(r"([A-Z])([-\d.]+) \((?:between \1([-\d.]+) and \1([-\d.]+)|\1([-\d.]+) or (above|below))\)")
-ONE = re.compile(r"add ([A-Z])\? \(such as \1([-\d.]+), \1([-\d.]+) or (above|below)\)")
 
 
 def test_an_increment_in_brackets_is_offered_too():

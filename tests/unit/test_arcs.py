@@ -17,10 +17,6 @@ def codes(text, control="fanuc-mill", **settings):
     return [(each.code, each.span.line) for each in told(text, control, **settings)]
 
 
-def first_fixes(text, control="fanuc-mill"):
-    return [fix.description for fix in told(text, control)[0].fixes]
-
-
 @pytest.mark.parametrize(
     ("text", "control", "code", "fix"),
     [

@@ -10,11 +10,10 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from math import copysign, degrees, isclose, pi, radians, remainder
 from random import Random
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import pytest
-from oracle import PLANES, Outcome, circle_line, g111
+from oracle import Outcome, g111
 
 from contoursolve import Answer, ArcSegment, Contour, Status, list_solutions, solve
 
@@ -432,73 +431,3 @@ def test_a_direction_is_found_from_a_fact_about_a_corner(words: str, fact: str, 
     assert any(abs(drawing.points["V1"] - (-30 + 20j)) < TOLERANCE for drawing in solutions_of(answer))
     if answer.status is Status.SOLVED:
         assert wrapped((answer.answers[0].value or 0.0) - value) == pytest.approx(0, abs=TOLERANCE)
-
-
-# The line that the last corner meets ----------------------------------------------------------------------
-
-
-def setbacks(before: complex, after: complex, diagonal: complex) -> tuple[float, float]:
-    """By how much a segment takes of the lines before and after it: s * before + t * after = diagonal."""
-    turn = (before.conjugate() * after).imag
-    return (diagonal.conjugate() * after).imag / turn, (before.conjugate() * diagonal).imag / turn
-
-
-# NCT ------------------------------------------------------------------------------------------------------
-
-
-class Pair(NamedTuple):
-    """A circle and a line by their words, and the drawing that they make."""
-
-    plane: int
-    start: complex
-    turn: str
-    arc: dict[str, float]
-    line: dict[str, float]
-    drawn: Drawing
-
-    def program(self, units: Units, erased: Mapping[str, str] = MappingProxyType({})) -> str:
-        def text(address: str, value: float, mark: str | None) -> str:
-            if mark is not None:
-                return address + mark if mark else ""
-            is_plain = address in (",A", "Q")
-            return f"{address}{value if is_plain else value / units.in_mm:.12f}"
-
-        arc = [text(address, value, erased.get("1" + address)) for address, value in self.arc.items()]
-        line = [text(address, value, erased.get("2" + address)) for address, value in self.line.items()]
-        code = "G3" if self.turn == "ccw" else "G2"
-        return f"G{self.plane} G41 G0 {units.place(self.start)}\n{code} {' '.join(arc)}\nG1 {' '.join(line)}"
-
-    def units(self, in_mm: float) -> Units:
-        first, second, _, _ = PLANES[self.plane]
-        return Units(in_mm, (first, second), is_diameter=False)
-
-
-def random_pair(rng: Random) -> Pair:
-    while True:
-        plane, turn = rng.choice(tuple(PLANES)), rng.choice(("cw", "ccw"))
-        first, second, i, j = PLANES[plane]
-        start, radius = complex(rng.uniform(-60, 60), rng.uniform(-60, 60)), rng.uniform(10, 40)
-        center = start + rect(radius, rng.uniform(-pi, pi))
-        on = center + rect(radius, rng.uniform(-pi, pi))
-        arc = {first: on.real, second: on.imag}
-        if rng.random() < 0.5:
-            sweep = phase((on - center) / (start - center)) * (1 if turn == "ccw" else -1)
-            arc["R"] = radius if sweep > 0 else -radius
-        else:
-            arc |= {i: (center - start).real, j: (center - start).imag}
-        crossing, along = center + rect(radius, rng.uniform(-pi, pi)), rng.uniform(-180, 180)
-        end = crossing + rect(rng.uniform(10, 50), radians(along))
-        q = 1.0 if ((crossing - center) * rect(1, radians(along)).conjugate()).real > 0 else -1.0
-        line = {first: end.real, second: end.imag, ",A": along, "Q": q}
-        outcome = circle_line(plane, start, turn, arc, line)
-        if outcome.status != "solved" or outcome.is_near or len(outcome.elements) != 2:
-            continue
-        drawn = drawing_of_pair(outcome, start)
-        lengths = [abs(part.end - part.start) for part in drawn.parts.values()]
-        if min(lengths) >= 1 and abs(on - start) >= 5:
-            return Pair(plane, start, turn, arc, line, drawn)
-
-
-def drawing_of_pair(outcome: Outcome, start: complex) -> Drawing:
-    parts = dict(zip(("arc", "line"), (Part(*each[1:]) for each in outcome.elements), strict=True))
-    return Drawing({"S": start, "P1": parts["line"].start, "N2": parts["line"].end}, parts)

@@ -10,15 +10,13 @@ from random import Random
 import numpy
 import pytest
 
-from contoursolve import Answer, solve
+from contoursolve import solve
 from contoursolve.pictures import draw_result
 
 GEOMETRY, CORNERS, ANGLES = "IKAXUZWB", "CPDQ", "AB"
 ROUND = 1e-9
 TOLD = 0.01
 """mm. What is shaken is shaken by more."""
-
-MISSING = {"words-missing", "corner-nowhere", "g111-not-fixed"}
 
 
 def row_of(letter, value, start):
@@ -106,20 +104,12 @@ def check(values, start):
     assert answer.status.value in statuses(letters, rank, off), (block, place, codes)
 
 
-PARTS = 24
-
-
 @pytest.mark.parametrize("seed", range(24))
 def test_both_parts_of_blocks_of_any_words_are_told(seed):
     draw = Random(seed)
     for _ in range(40):
         letters = draw.sample(GEOMETRY + CORNERS, draw.randint(1, 12))
         check(*draw_values(draw, letters, is_shaken=draw.random() < 0.5))
-
-
-def answer_to(words: str, **options: str) -> Answer:
-    (answer,) = solve(f"G111 {words}", start="X40. Z0.", **({"rules": "off"} | options)).answers
-    return answer
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 """Where a contour exists: every range of a word's values, with what ends it; and regions of two words."""
 
 import re
-from math import radians, sin, tan
+from math import radians
 
 import numpy as np
 import pytest
@@ -14,42 +14,8 @@ from contoursolve.solving import StatusCode
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 LATHE = {"start": START}
-OFF = LATHE | {"rules": "off"}
-TURNED = LATHE | {"control": "fanuc-lathe"}
-INCH = {"start": "X1.6 Z0.", "units": "inch"}
-LINE_CIRCLE = "G17 G90 G42 G0 X100 Y20\nG1 ,A197.103 ,R2\nG3 X20 Y30 I20 J-10 R40 Q-1"
-CHAIN = "G17 G90 G41 G0 X90 Y10\nG1 ,A150 ,R2\nG1 X10 Y20 ,A225 Q1 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1"
-CIRCLES = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50 ,R2\nG3 X-40 Y60 I-40 J20 R40 Q-1"
-TOUCHING = "G17 G90 G41 G0 X50 Y0\nG3 I-50 J0 ,R2\nG1 X-60 Y50 ,A180 Q-1"
 MILL = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 {} {}\nG1 X-50 Y42.857 {}"
 CIRCLE_LINE = MILL.format("R50", "", ",A171.87 Q-1")
-WORDS = [
-    (BLOCK, LATHE, {"A": (150, 210), "K": (-60, 5), "B": (60, 200), "P": (-0.5, 25), "Q": (-0.5, 25), "X": (20, 140)}),
-    (
-        *("G111 X100. A180. K-30. B120. C5. D5.", LATHE),
-        {"A": (120, 250), "K": (-60, 5), "B": (60, 200), "C": (-0.5, 25), "D": (-0.5, 25)},
-    ),
-    ("G111 A160. B120. I10. Z-60. P2. Q2.", LATHE, {"I": (-20, 20), "A": (90, 370), "Z": (-90, 9), "B": (0, 360)}),
-    ("G111 X100. A180. K-30. B120. I0. P5.", OFF, {"A": (179.99, 180.01), "I": (-0.005, 0.005), "P": (0, 9)}),
-    ("G111 X100. A180. K-30. B120. I0. Z-47.321", OFF, {"A": (179.99, 180.01), "B": (119.99, 120.01)}),
-    ("G112 X100. K-30. I10. R20. P2. Q2.", LATHE, {"R": (-5, 60), "K": (-70, 10), "P": (0, 9), "I": (-30, 40)}),
-    ("G112 X100. K-30. I10. R20. C2. D2.", LATHE, {"R": (-5, 60), "X": (30, 190), "C": (-1, 9)}),
-    ("G112 X44. K-30. I2. R20.", LATHE, {"I": (-5, 5), "R": (5, 40)}),
-    ("G11 X80. K-7.", LATHE, {"X": (20, 90), "K": (-20, 20)}),
-    (CIRCLE_LINE, {}, {"R": (-70, 80), ",A": (100, 260)}),
-    (LINE_CIRCLE, {}, {"2:,A": (150, 240), ",R": (0, 20), "3:R": (39.985, 40.015)}),
-    (CHAIN, {}, {"2:,A": (120, 170), "3:,A": (170, 260), ",R": (-0.2, 9), ",C": (0, 9)}),
-    (CIRCLES, {}, {"2:R": (45, 90), "2:Y": (-20, 30), ",R": (0, 30)}),
-    (TOUCHING, {}, {"3:Y": (49.999, 50.001), ",R": (0, 3)}),
-    ("G01 X60. ,A150. ,R2.\nZ-40.", TURNED, {",A": (-3, 3), ",R": (0, 6)}),
-    ("G01 ,A170. ,R1.\nX80. Z-50. ,A120.", TURNED, {"2:,A": (167, 173), ",R": (0, 3)}),
-    ("G111 X4. A180. K-1.2 B120. P.2 Q.2", INCH, {"A": (150, 210), "P": (0, 4)}),
-]
-CASES = [
-    pytest.param(block, options, word, within, id=f"{block.partition(' ')[0]}-{at}-{word}")
-    for at, (block, options, ranges) in enumerate(WORDS)
-    for word, within in ranges.items()
-]
 
 
 def with_value(block, word, value):
@@ -64,10 +30,6 @@ def with_value(block, word, value):
 def only(found):
     (interval,) = found.intervals
     return interval
-
-
-SHARE, LINE_2 = tan(radians(30)), 30 / sin(radians(120))
-"""What a rounding takes of its radius from each line; how long line 2 is, from X40 to X100."""
 
 
 def test_ranges_of_a_few_thousandths_are_found_in_a_wide_range():

@@ -171,18 +171,6 @@ def test_a_fix_does_what_it_says_and_removes_its_findings(seed):
         assert (fix.applicability is Applicability.SAFE) == (is_same and is_kept), (case.text, fix)
 
 
-def meaning(text: str) -> frozenset[tuple[str, str]]:
-    """The numbers of a block as the control means them: a direction is the same after a full turn."""
-
-    def number(name: str, text: str) -> str:
-        if not re.fullmatch(r"[-+0-9.]+", text):
-            return text
-        value = Decimal(text)
-        return str(((value + 360) % 360 if name in "AB" and abs(value) <= 360 else value).normalize())
-
-    return frozenset((name, number(name, value)) for name, value in re.findall(r"([A-Z])([-+0-9.,?]+)", text))
-
-
 @BROKEN
 def test_every_single_word_whose_dropping_mends_a_block_is_offered_and_every_block_has_a_fix(seed):
     """Against trying each word."""

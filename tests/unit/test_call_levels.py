@@ -140,20 +140,6 @@ def test_behind_what_is_not_followed_no_mode_is_known(control, text, restated):
     assert not codes_of(text.format(restated), control)
 
 
-@pytest.mark.parametrize(
-    ("call", "sub", "told"),
-    [
-        ("SUB P=R5", "PROC SUB\nG90 G0 X5 Y5", "how often SUB P=R5 runs is not known"),
-        ("SUB(R[R5])", "PROC SUB(VAR REAL BB)\nG90 G0 X5 Y5", "which variable SUB(R[R5]) hands over for BB"),
-    ],
-)
-def test_a_call_that_is_not_known_leaves_nothing_known(call, sub, told):
-    text = f"{MILL}{call}\nG1 X20 RND=2 F300\nY20\nM30\n{sub}\nRET"
-    findings = [each for each in result_of(text).diagnostics if each.span.line == 4]
-    assert [each.code for each in findings] == ["mode-unknown", "position-unknown"]
-    assert all(told in each.message for each in findings)
-
-
 # Variables ------------------------------------------------------------------------------------------------------------
 
 HEAD = f"{MILL}{{}}\n{CORNER.format('=AA')}{{}}\nRET"
@@ -194,21 +180,6 @@ def test_variables_have_their_levels_and_types(call, sub, value):
     text = HEAD.format(f"R1=0\n{call}", sub)
     assert not [each for each in result_of(text).diagnostics if each.is_error]
     assert corner_of(text) == value
-
-
-@pytest.mark.parametrize(
-    ("call", "sub", "told"),
-    [
-        ("SUB", "PROC SUB\nDEF REAL AA=15", "AA is not known here: SUB defines it for itself alone"),
-        ("DEF REAL A1=5", "PROC SUB", "DEF A1: the first two characters"),
-        ("DEF REAL AR[3]\nAR[1]=5", "PROC SUB", "DEF AR: AR is a word of the control"),
-        ("SUB(5)", "PROC SUB(REAL BB)\nDEEP\nRET\nPROC DEEP\nAA=BB", "BB is not known here: SUB defines it"),
-    ],
-)
-def test_a_variable_that_is_not_known_is_an_error_of_its_own(call, sub, told):
-    findings = result_of(HEAD.format(call, sub)).diagnostics
-    assert any(each.code == "siemens-variable-refused" and told in each.message for each in findings)
-    assert any(each.code == "value-variable" for each in findings)
 
 
 def test_the_808d_keeps_what_the_main_program_defines_to_it():

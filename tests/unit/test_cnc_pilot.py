@@ -1,6 +1,6 @@
 """CNC PILOT: what must be said of wrong programs, its settings, and its sections. Its worked examples are vectors."""
 
-from math import cos, degrees, hypot, radians, sin, tan
+from math import cos, hypot, radians, sin, tan
 from random import Random
 
 import pytest
@@ -9,7 +9,7 @@ from vectors import program_of
 
 from contoursolve import ArcSegment, solve
 
-PROGRAM, LEAVING = program_of("cnc-pilot", "CP-P1"), program_of("cnc-pilot", "CP-G10")
+LEAVING = program_of("cnc-pilot", "CP-G10")
 
 
 def text(example: str) -> str:
@@ -27,21 +27,6 @@ def path(result) -> list[float]:
                 found += [{"cw": 2, "ccw": 3}[element.turn.value], radius, center[0], 2 * center[1]]
             found += [element.end[0], 2 * element.end[1]]
     return found
-
-
-WRONG = {
-    "E1": ("words-missing", "one word is missing, so line 1 and line 2 are open"),
-    "E2": ("lines-parallel", "no P1 fits A10, X80, Z-60 and A10: the lines are parallel and 9.277 mm apart"),
-    "E3": ("circle-missed", "it passes the centre at 20.000 mm, the radius is 15.000 mm, 5.000 mm too far"),
-    "E4": ("radius-too-small", "15.000 mm is less than half the distance between two points of the arc, 18.028 mm"),
-    "E5": ("cnc-pilot-corner-too-large", "B12 is 12.000 mm, at most 10.000 mm fits on line 1"),
-    "E6": ("words-conflict", "by 2.935 mm: it states 15.000 deg, they give 9.462 deg"),
-    "E7": ("no-point", "no P1 fits A0 and A60 together G3 in program line 3 was probably G2"),
-    "E8": ("cnc-pilot-feed-range", "E1.5: the share of the feed is above 0, and 1 at most"),
-    "E9": ("cnc-pilot-arc-empty", "arc 1 ends where it begins: no arc, or a full circle, would be cut"),
-    "E10": ("cnc-pilot-center-and-radius", "R25, I20 and K-5: the arc has both a centre and a radius"),
-    "E11": ("words-missing", "one word is missing, so arc 1 is open"),
-}
 
 
 SETTINGS = {
@@ -84,10 +69,6 @@ def test_the_centre_of_an_arc_counts_from_the_end_of_a_line_also_where_that_is_c
     assert not [each for each in result.diagnostics if each.is_error]
 
 
-def place(at: tuple[float, float]) -> str:
-    return f"X{2 * at[1]:.9f} Z{at[0]:.9f}"
-
-
 def center(each: Drawn, is_step: bool) -> str:
     along, across = each.tail if is_step else (0.0, 0.0)
     return f"I{each.center[1] - across:.9f} K{each.center[0] - along:.9f}"
@@ -97,19 +78,8 @@ def arc(each: Drawn, number: int = 0) -> str:
     return f"G{number + (2 if each.step.sense < 0 else 3)}"
 
 
-def slope(each: Drawn) -> str:
-    return f"A{180 - degrees(each.begin):.9f}"
-
-
 def line(random: Random) -> Step:
     return Step(length=random.uniform(15, 60))
-
-
-def bow(random: Random) -> Step:
-    return Step(radius=random.uniform(5, 40), sweep=radians(random.uniform(20, 150)), sense=random.choice((-1, 1)))
-
-
-OPEN = "X? Z?"
 
 
 def test_the_centre_of_an_arc_counts_from_an_end_that_is_computed():

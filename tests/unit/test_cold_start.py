@@ -94,8 +94,3 @@ def test_an_editor_is_answered_before_anything_is_loaded_that_solves() -> None:
     assert "pygls" in names
     assert not names & {"numpy", "casadi", "flint", "contoursolve.api", "contoursolve.solving"}
     assert modules <= 20
-
-
-EXAMPLES = [
-    text for control in DIALECTS.values() for rule in control.catalogue for text in (*rule.accepted, *rule.rejected)
-]

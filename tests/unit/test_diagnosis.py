@@ -301,6 +301,3 @@ def test_a_decimal_comma_in_a_fact_is_told_as_in_a_word_and_mended():
     error = next(each for each in answer.diagnostics if each.severity is Severity.ERROR)
     assert error.message.endswith("30,5 has a decimal comma; write 30.5")
     assert error.fixes[0].replacement.endswith("length of line 1 = 30.5)")
-
-
-# Corners that overlap -------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import Diagnostic, Result, family, solve
+from contoursolve import Result, family, solve
 from contoursolve.cli import main
 from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.solving import StatusCode
@@ -65,10 +65,6 @@ CASES = {
 }
 
 
-def told(finding: Diagnostic) -> str:
-    return " ".join([finding.message, *finding.notes, *(label.text for label in finding.labels)])
-
-
 def test_an_angle_of_a_line_without_length_says_nothing_against_it():
     result = solve("G00 X1. Z-5.\nG01 X2. Z-1. ,R0\nX2. Z-1. ,A341.\nX5. Z-9.", control="fanuc-lathe")
     codes = {each.code for each in result.diagnostics}
@@ -102,6 +98,3 @@ def test_what_is_said_of_it_is_verified(tmp_path, name):
     assert len(json.loads(shown)["contours"]) == 1
     documents = Document("program", program.read_bytes()), Document("result", shown.encode())
     assert verify(*documents).verdict is not ReceiptVerdict.FAILED
-
-
-SWEEPS = [(210, 120, True), (300, 150, True), (210, 100, False), (210, 60, False), (179, 120, False)]

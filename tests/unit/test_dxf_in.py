@@ -4,7 +4,6 @@ import io
 import math
 from decimal import Decimal
 from functools import partial
-from itertools import pairwise
 from pathlib import Path
 
 import calling
@@ -59,46 +58,6 @@ def refused(document, **options) -> str:
 
 
 # What we write is read back -----------------------------------------------------------------------------------------
-
-
-def random_chain(rng, *, is_closed):
-    """Lines and arcs end to end, above an axis."""
-    count, points = rng.randint(3, 8), []
-    for place in range(count + (not is_closed)):
-        angle = 2 * math.pi * place / count + rng.uniform(-0.1, 0.1) / count
-        radius, down = rng.uniform(20, 60), -12 * place
-        at = (100 + radius * math.cos(angle), 100 + radius * math.sin(angle)) if is_closed else (down, radius + 70)
-        points.append((round(at[0], 3), round(at[1], 3)))
-    points += points[:1] if is_closed else []
-    for begin, end in pairwise(points):
-        chord = math.dist(begin, end)
-        if rng.random() < 0.5:
-            yield LineSegment("", begin, end)
-            continue
-        radius, side = chord / 2 * rng.uniform(1.05, 3), rng.choice((1, -1))
-        rise = side * math.sqrt(radius**2 - chord**2 / 4) / chord
-        center = [
-            (begin[axis] + end[axis]) / 2 + sign * rise * (end[1 - axis] - begin[1 - axis])
-            for axis, sign in ((0, -1), (1, 1))
-        ]
-        yield ArcSegment("", begin, end, (center[0], center[1]), radius, Turn.CCW if side > 0 else Turn.CW)
-
-
-def draw(rng, layout, segments, layer):
-    """The lines and arcs in any order and direction; some twice, some arcs mirrored twice."""
-    for segment in rng.sample(segments, len(segments)):
-        begin, end = segment.start, segment.end
-        if isinstance(segment, LineSegment):
-            for ends in [(begin, end), (end, begin)][: 2 if rng.random() < 0.2 else 1]:
-                layout.add_line(*ends, dxfattribs={"layer": layer})
-            continue
-        ends = (begin, end) if segment.turn is Turn.CCW else (end, begin)
-        center = segment.center
-        first, last = (math.degrees(math.atan2(at[1] - center[1], at[0] - center[0])) for at in ends)
-        style = {"layer": layer}
-        if rng.random() < 0.5:
-            first, last, center, style["extrusion"] = 180 - last, 180 - first, (-center[0], center[1]), (0, 0, -1)
-        layout.add_arc(center, segment.radius, first, last, dxfattribs=style)
 
 
 def reversed_way(segments):

@@ -3,7 +3,7 @@
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import Answer, Diagnostic, Severity, Status, solve
+from contoursolve import Answer, Diagnostic, Status, solve
 from contoursolve.cli import main
 from contoursolve.diagnostics import ProgramError
 
@@ -28,72 +28,6 @@ def test_a_fact_for_one_of_two_contours_is_refused(program: str) -> None:
     done = CliRunner().invoke(main, ["check", *blocks, "--fact", "length of line 1 = 30"])
     assert (done.exit_code, done.stdout) == (2, "")
     assert "(contoursolve: ...)" in done.stderr
-
-
-OPEN = {
-    ONE.replace("A180.", "A?"): "V1 (X) and V2 (Z) are still open: give A? a value; or add I",
-    ONE.replace("K-30.", "K?"): "V1 (Z and X) and V2 (Z) are still open: give K? a value; or add one of Z, W",
-    ONE.replace("B120.", "B?"): "V2 is still open in Z: give B? a value; or add one of Z, W",
-    ONE.replace("X100.", "X?"): "V2 is still open in Z and X: give X? a value; or add one of U, Z, W",
-    ONE.replace("P5.", "P?"): "the radius of corner 1 is still open: give P? a value",
-    ONE.replace("Q5.", "Q?"): "the radius of corner 2 is still open: give Q? a value",
-    PAIR_TEXT.replace("X-50 Y0", "X? Y0"): (
-        "C (X and Y), N1 (X) and P1 (X and Y) are still open: give X? a value; or add one of I, J in program line 2"
-    ),
-    PAIR_TEXT.replace("X-50 Y0 R50", "I-50 J?"): (
-        "C (Y), P1 (X and Y) and the radius of the arc are still open: give J? a value; or add R in program line 2"
-    ),
-    PAIR_TEXT.replace("G1 X-50", "G1 X?"): "P1 (X and Y) and N2 (X) are still open: give X? a value",
-    PAIR_TEXT.replace(",A171.87", ",A?"): "P1 is still open in X and Y: give ,A? a value",
-    "G111 A90. C2. B180. Z-30. Q3. I?": "V1 (Z and X) and V2 (X) are still open: give I? a value; or add one of X, U",
-}
-
-
-TRAVEL = "the fact cannot be read: {} is larger than a control can travel"
-FITS = "the {} does not fit: {} mm, at most {} mm fits on the {}"
-REFUSED = [
-    ("A180. B120. X100.", "length of line 1 = 1e999", "fact-unreadable", TRAVEL.format("1e999")),
-    ("A180. B120. X100.", "length of line 1 = 1000001", "fact-unreadable", TRAVEL.format("1000001")),
-    (
-        *("A180. K-30. B120. X100. P?", "Z of begin of corner 1 = 29.9", "g111-corner-too-large"),
-        FITS.format("rounding P?", "P? is 103.750", "51.961", "diameter X40 from Z0 to Z-30"),
-    ),
-    (
-        *("A180. K-30. B120. X100. C?", "Z of begin of corner 1 = -5", "g111-corner-too-large"),
-        FITS.format("chamfer C?", "C? is 59.151", "30.000", "second straight"),
-    ),
-    (
-        *("A180. K-30. B120. X100. P2. D?", "straight part of line 2 = -5", "g111-corner-too-large"),
-        FITS.format("chamfer D?", "D? is 33.330", "29.000", "second straight"),
-    ),
-    (
-        *("K-30. I0. B120. X100. P2.", "length of line 1 = 0", "fact-impossible"),
-        "length of line 1 = 0 says nothing about this contour: a length is larger than 0, not 0",
-    ),
-    ("X100. Z-47. B120.", "length of line 1 = 3", "no-point", "no V1 fits length of line 1 = 3 and B120. together"),
-    (
-        *("I0 B120. X100.", "direction of line 1 = 180", "facts-singular"),
-        "at these values direction of line 1 = 180 and I0 do not fix V1 (Z)",
-    ),
-    (
-        *("A180. B180. X100. Z-50. P?", "straight part of line 1 = 2", "g111-parallel"),
-        "no V1 fits A180., B180. and X100.: the lines are parallel and 30.000 mm apart",
-    ),
-    (
-        *("A180. I0 B120. X100. P?", "straight part of line 1 = 2", "g111-not-fixed"),
-        "A180. and I0 do not fix V1 (Z): at these values they state the same line",
-    ),
-]
-
-
-@pytest.mark.parametrize(("words", "fact", "code", "message"), REFUSED)
-def test_words_and_facts_that_do_not_go_together_are_named(words: str, fact: str, code: str, message: str) -> None:
-    answer, found = told(f"G111 {words}", fact)
-    assert answer.contour is None
-    assert (found[code].message, found[code].severity) == (message, Severity.ERROR)
-
-
-ENDS = "the contour ends at Z{:.3f} mm X{:.3f} mm"
 
 
 def test_a_size_that_is_asked_for_has_no_limit_to_write_but_what_it_follows_from() -> None:

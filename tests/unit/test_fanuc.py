@@ -229,30 +229,6 @@ def test_verify_tells_corners_that_are_left_out_from_those_that_are_forgotten():
     assert verdict(text.replace("Y0.0 ,C2.\nX80.", "Y0.0\nX80.")) is not ReceiptVerdict.VERIFIED
 
 
-SWEPT = "G00 X50. Z50.\nG01 ,A30. ,R5.\nX0. Z150. ,A-45."
-SINGLE = "G00 X20. Z0.\nG01 X40. ,A150. ,C2.\nZ-60."
-AT_THE_GUARD = [134.0, 133.999, 135.0, 136.0, 136.001, -44.0, -45.0, -46.0, -46.001, 30.0, 100.5, -120.0, 314.5, 493.5]
-SWEEPS = [
-    ("G00 X0 Y0\nG01 X30. ,C5.\nX60. Y1.", {"3:Y": [-1.0, -0.53, -0.52, 0.0, 0.52, 0.53, 1.0]}, MILL, {}),
-    ("G00 X0 Y0\nG01 X30. ,C5.\nX60. Y1.", {"3:Y": [-2.0, -0.53, -0.52, 0.3, 0.53]}, MILL, {"guard-corner": "error"}),
-    (
-        "G00 X20. Z0\nG01 Z-25. R5.\nX40.",
-        {"2:R": [-12.0, -5.0, 0.0, 5.0, 12.0], "3:X": [-10.0, 5.0, 20.0, 40.0]},
-        LATHE,
-        {},
-    ),
-    *(
-        case
-        for settings in ({}, {"angle-sense": "ray"}, {"guard-deg": "0"})
-        for case in (
-            (SWEPT, {"3:,A": AT_THE_GUARD, "2:,R": [0.0, 5.0, 40.0]}, LATHE, settings),
-            (SINGLE, {"2:,A": [0.0, 0.5, 1.0, 1.001, 90.0, 178.999, 179.0, 181.001, -0.5, 359.5]}, LATHE, settings),
-            (SWEPT, {"2:,A": [30.0, 40.0, 134.5, 135.0], "3:,A": [-45.0, -40.0, -45.9, 30.5]}, LATHE, settings),
-        )
-    ),
-]
-
-
 def test_an_angle_without_a_point_counts_thousandths_of_a_degree():
     result = solve(START + "G01 X40. ,A150000", control=LATHE)
     assert result.answers[0].contour.end == pytest.approx((-17.320508, 20))
@@ -270,9 +246,6 @@ def test_random_chains_in_plain_words_are_those_with_commas(seed):
         text = "\n".join(draw(rng, LATHE))
         with_commas, plain = solve(text, control=LATHE), solve(text.replace(",", ""), control=LATHE, settings=PLAIN)
         assert path(plain) == path(with_commas), text
-
-
-# Which control ----------------------------------------------------------------------------------------------
 
 
 # Commands ---------------------------------------------------------------------------------------------------

@@ -4,7 +4,6 @@ import re
 
 import pytest
 from click.testing import CliRunner
-from hypothesis import strategies as st
 
 from contoursolve import check
 from contoursolve.cli import main
@@ -45,8 +44,6 @@ def test_every_example_of_the_vocabulary_can_be_read(fact: str) -> None:
 
 
 # Mistakes, and where they are marked ----------------------------------------------------------------------
-
-PLACE = "a place such as `(Z10. X20.)`"
 
 
 def test_the_listing_underlines_a_fact_that_is_stated_apart() -> None:
@@ -100,21 +97,3 @@ def test_round_brackets_in_a_comment_are_refused_with_the_hint_that_square_ones_
     found = check(f"{WHOLE} (contoursolve: line 2 passes through (Z-40. X80.))", start=START)
     (unreadable,) = [each for each in found if each.code == "fact-unreadable"]
     assert unreadable.message.endswith("inside a comment write [ ] for ( )")
-
-
-# Any text at all ------------------------------------------------------------------------------------------
-
-PHRASES = (
-    "length of|straight part of|direction of|radius of|angle from|to|Z of|X of|begin of|end of|center of|line 1|line 2"
-    "|corner 1|corner 2|V1|V2|S|arc|line|passes through|tangent to|meets|next line|line at|line to|circle|=|= ?|= 30"
-    "|= -60|= 0|= 1e9|(Z-40. X80.)|(Z-40. X120. R10.)|[Z0 X30 A180]|?|;|R|A|,|(|)|[|]|#1|1e999|\t|\x00"
-)
-PIECES = st.sampled_from((*PHRASES.split("|"), "9" * 50, "\N{FULLWIDTH DIGIT ONE}"))
-NUMBERS = st.sampled_from(("0", "-5", "1e-9", "0.001", "30", "29.999999", "1000", "1e6", "180", "-360", "?"))
-
-
-FREE = ("G111 A180. B120. X100. P5. Q5.", "G111 A180. K-30. B120. P? Q5.", WHOLE, "G111 A180. K-30. B120. X100. C? D2.")
-"""Every line has its direction, so that solving takes steps in closed form."""
-
-
-TAPER = ("A180.", "K-30.", "B120.", "X100.", "P5.", "Q3.")

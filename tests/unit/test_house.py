@@ -309,6 +309,21 @@ def test_no_two_places_share_more_than_twelve_equal_lines():
     assert {run[0]: found for run, found in places.items() if len(found) > 1} == {}
 
 
+def test_nothing_stands_in_the_tests_that_none_of_them_uses():
+    texts = {path: text_of(path) for path in Path(__file__).parents[1].rglob("*.py") if "stand_ins" not in path.parts}
+    words = {path: Counter(re.findall(r"\w+", text)) for path, text in texts.items()}
+    alone = {
+        f"{path.name}: {name}"
+        for path, text in texts.items()
+        for node in ast.parse(text).body
+        for name in [getattr(node, "name", "") or ast.unparse(getattr(node, "targets", [ast.Constant(0)])[0])]
+        if name.isidentifier() and words[path][name] == 1 and not name.startswith(("test_", "pytest"))
+        and not any(path.stem in each and name in each for at, each in words.items() if at != path)
+        and not getattr(node, "decorator_list", [])
+    }  # fmt: skip
+    assert not alone, alone
+
+
 def test_a_geometric_event_is_one_row_and_few_files_name_it():
     named: dict[str, set[str]] = {}
     for module in MODULES:

@@ -17,34 +17,6 @@ import contoursolve
 from contoursolve.families import FamilyError, Way, family, feasible, find_word, inverse, spec_of, tolerance_for
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
-WORDS = [
-    ("G111, two roundings", "A", "end"),
-    ("G111, two roundings", "B", "corner 2.begin"),
-    ("G111, two roundings", "P", "corner 1.center"),
-    ("G111, bevels", "B", "end"),
-    ("G111, every start word", "A", "V1"),
-    ("G112, bevels", "X", "end"),
-    ("circle-line", "R", "P1"),
-    ("circle-line", ",A", "P1"),
-    ("line-circle with a corner", "2:,A", "P1"),
-    ("chain of three with corners", "3:,A", "corner 2.end"),
-    ("circle-circle", "2:R", "P1"),
-    ("G112 landing beyond the centre", "R", "V2"),
-    ("G11", "X", "corner 1.begin"),
-    ("inches", "A", "corner 1.end"),
-]
-
-
-FREE = [
-    ("a radius asked for, from a straight part", "K", "end"),
-    ("a radius asked for, from a straight part", "straight part of line 2", "corner 1.center"),
-    ("a radius asked for, from a straight part", "B", "corner 1.begin"),
-    ("an angle asked for, from a length, with two answers", "length of line 1", "V1"),
-    ("a start point, in diameters", "start.X", "end"),
-    ("a start point, in diameters", "start.Z", "corner 1.center"),
-    ("a start point, of facts", "start.X", "corner 1.begin"),
-    ("a start point that is a block", "1:X", "P1"),
-]
 
 
 def solved(name, word, value):
@@ -133,18 +105,6 @@ def test_what_is_written_for_a_fact_and_for_the_start_point():
 
 
 # --- What was lost: values that exist, and a list that was called complete without them ---
-
-WIDE = "G111 I0 K-30. B120. X100. D8."
-STEEP = "G111 A-90. I-42.153 K0. B177.522 X-1.129 P8.721 Q1000."
-LOST = [
-    (WIDE, "X40. Z0.", "K", "end Z-54.", -33.298294),
-    (WIDE, "X40. Z0.", "K", "end Z-50.1", -29.398294),
-    (WIDE, "X40. Z0.", "K", "end Z-60.", -39.298294),
-    ("G111 I50. K0. B30. Z45. D8.", "X45.249 Z18.107", "I", None, 50.0),
-    (STEEP, "X79.129 Z29.941", "I", None, -42.153),
-    (STEEP, "X79.129 Z29.941", "B", None, 177.522),
-    (STEEP, "X79.129 Z29.941", "X", None, -1.129),
-]
 
 
 @pytest.mark.parametrize("give", [1e-5, -1.0])

@@ -2,7 +2,6 @@
 
 import pytest
 from oracle import Element, elements_of
-from vectors import VECTORS, program_of
 
 from contoursolve import check, solve
 
@@ -48,9 +47,6 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
     result = isg(text, first_motion="none")
     assert not any(each.contour for each in result.answers)
     assert "no G code of a motion is in force" in result.diagnostics[0].notes[0]
-
-
-# How it is spelled ------------------------------------------------------------------------------------------------
 
 
 # Planes, diameters and settings -------------------------------------------------------------------------------------
@@ -106,11 +102,6 @@ def test_a_corner_of_its_own_stands_beside_rapids_with_a_feed_and_a_word_does_no
 
 
 # Expansion ----------------------------------------------------------------------------------------------------------
-
-WRITTEN = {name: program_of(ISG, name) for name in VECTORS[ISG] if name.startswith("IS-")} | {
-    "stored": MILL + "G1 X30\nG302 I5\nG1 Y30\nG301\nG1 X60 #FRC=100",
-    "G51": "G18 G51 G90 G0 Z15 X4\nG1 #ANG=30 #RND=3\n#ANG=80 Z40 X60\nG302 I2\nG1 X80",
-}
 
 
 @pytest.mark.parametrize("code", ["G999", "G310"])

@@ -6,8 +6,6 @@ which the shortest of several runs counts.
 """
 
 import re
-import time
-from collections.abc import Callable
 from functools import partial
 
 import pytest
@@ -22,45 +20,6 @@ TIMES = 8
 SHORT = 200
 """Characters of the short line; of the longest block, which has 2,000, the long one has 1,600."""
 
-SHAPES = {
-    "integers before a comment": ("N0010 G111 ", "X100000 A180000 K-30000 ", "(TAPER)"),
-    "integers": ("", "X100000", "Q"),
-    "points without a digit": ("", "X.", ""),
-    "leading blanks": ("", " ", "G1 X1."),
-    "blanks behind a comma": (",", " ", ","),
-    "blanks and tabs between letters": ("X", " \t", "X"),
-    "blanks before a sign": ("G111 X", " ", "-"),
-    "digits with a comma": ("X", "1", ",1"),
-    "digits before an exponent": ("X1e", "1", "."),
-    "letters for digits": ("X", "lO", "A"),
-    "letters for digits with points": ("G1", "lO.", ""),
-    "codes with letters for digits": ("", "G1l", ""),
-    "strange characters in a contour": ("\u00e9G111", "_ ", ""),
-    "faults of all kinds in a contour": ("G111", "K--3. , A.. B1e5 X[", ""),
-    "brackets that are not closed": ("", "X[", ""),
-    "brackets": ("X", "[[1]", ""),
-    "closed brackets in an open one": ("X[", "[1]", ""),
-    "questions": ("", "X? ", ""),
-    "a word given many times": ("G111", "X1. ", ""),
-    "words given many times": ("G111 ", "X1. X2. Z3. Z4. K-3. K-4. ", ""),
-    "letters for digits in a contour": ("G111 ", "X1O. Z-lO. ", ""),
-    "codes with letters for digits and faults": ("", ",/lO1", "X.#1G1l"),
-    "slashes": ("", "/", ""),
-    "percents": ("", "% ", "X"),
-}
-COMMENTS = {
-    "facts": ("G111 X1. (contoursolve:", ";", ")"),
-    "a comment almost as for facts": ("(contoursol", "; ", ")"),
-    "a comment with its words": ("(contour solve ", "passes ", ")"),
-    "a comment with underscores": ("(contour", "_", ")"),
-    "a comment with the name again and again": ("(", "ctour", "sol)"),
-    "blanks in a comment": ("G111 X1. ( ", " ", "a)"),
-    "comments that are not closed": ("", "(", ""),
-    "comments behind a semicolon": (";", " (", ""),
-    "digits of a fact": ("G111 X1. (contoursolve: length of line 1 = ", "1", "x)"),
-    "blanks of a fact": ("G111 X1. (contoursolve: length", " ", "of)"),
-}
-"""They do not count for the longest block; the long one has 16,000 characters."""
 
 ATOMS = re.findall(
     r"\S+", "X. X1 X100000 ( ) (a) [ ] #1 ; ? (contoursolve: , .. -- N1 G0 G111 G1l lO1 % / e5 \u00e9 = K--3. _ A.. IF"
@@ -73,31 +32,10 @@ def line(shape: tuple[str, str, str], length: int) -> str:
     return head + unit * (length // len(unit)) + tail
 
 
-def seconds(act: Callable[[], object]) -> float:
-    """Of processor time, the least of some runs."""
-    shortest = float("inf")
-    for _ in range(5):
-        begin = time.process_time()
-        act()
-        shortest = min(shortest, time.process_time() - begin)
-    return shortest
-
-
-def analyse(text: str, control: str) -> None:
-    check(text, control=control)
-    expand(f"G0 X1. Z0.\n{text}\n", control=control, keep_going=True)
-
-
 def read(text: str) -> None:
     parse(text)
     for dialect in DIALECTS.values():
         dialect.modes.syntax.plain.several.match(text)
-
-
-EVERY = [
-    *(pytest.param(shape, SHORT, id=name) for name, shape in SHAPES.items()),
-    *(pytest.param(shape, 10 * SHORT, id=name) for name, shape in COMMENTS.items()),
-]
 
 
 # Programs ------------------------------------------------------------------------------------------------------------
@@ -218,15 +156,6 @@ def test_a_chain_four_times_as_long_takes_about_four_times_the_work(name):
     assert not code or found[0].code.startswith(code)
     short, long = (calls(partial(check, chain(each), control=control)) for each in (size, 4 * size))
     assert long <= (1.5 if "increments" in name else 1.3) * 4 * short
-
-
-SLIPS = [
-    "X40. ,R{}.\nX60. Y30. ,C2.\nX90. Y40.",
-    "X40. ,C3.\nY30. ,R{}.\nX60. ,R2.\nY90.",
-    "X40. ,R3.\nX60. Y30. ,C{}.\nX90. Y40. ,R1.\nY80.",
-    "X40. Y5. ,R{0}.\nY45. ,R{0}.\nX90.",
-    "X30. ,R5.\nG03 X40. Y10. R10. ,R{}.\nG01 X10.",
-]
 
 
 @pytest.mark.parametrize("is_ahead", [True, False])

@@ -167,20 +167,6 @@ def test_every_function_computes_as_python_does(numbers):
         assert evaluate(term, str) == pytest.approx(eval(value, vars(math))), row
 
 
-TRUE = {
-    "equal": "=",
-    "unequal": "<>",
-    "greater": ">",
-    "at_least": "=>",
-    "less": "<",
-    "at_most": "<=",
-    "and": "<>=",
-    "or": "<>=",
-    "exclusive_or": "",
-}
-"""Of 1.5 and another number, with which relations a comparison holds."""
-
-
 def test_conditions_are_combined_and_right_angles_are_exact():
     of = {"and": (0, 0, 0, 1), "or": (0, 1, 1, 1), "exclusive_or": (0, 1, 1, 0)}
     for function, expected in of.items():
@@ -428,9 +414,6 @@ def test_programs_and_blocks_begin(language, line, begins, parameters, labels, n
     )
     assert (code.begins, formal, code.labels, code.number) == (begins, parameters, labels, number)
     assert code.saves == line.endswith("SAVE")
-
-
-PIECES = sorted({piece for row in ROWS for piece in re.findall(r"\w+|\S| ", row[1])})
 
 
 @pytest.mark.parametrize(

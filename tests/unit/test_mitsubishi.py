@@ -10,11 +10,8 @@ from vectors import program_of
 
 from contoursolve import UnknownControlError, solve
 
-VERTEX, CROSSING, ARCS, LEVER = (program_of("mitsubishi", name) for name in ("MI-G2", "MI-G3-H0", "MI-G5", "MI-G6"))
+CROSSING, ARCS, LEVER = (program_of("mitsubishi", name) for name in ("MI-G3-H0", "MI-G5", "MI-G6"))
 MILL = "G17 G90 G00 X0 Y0\n"
-LEAVING = MILL + "G03 I30. J0 H0\nG01 X20. Y-60. A-90."
-KNOWN_ARCS = ARCS.replace("R25.", "I-16.083 J-19.14")
-APART = KNOWN_ARCS.replace("-16.083", "-16.133")
 PLANES = {17: "XYIJ", 18: "ZXKI", 19: "YZJK"}
 
 
@@ -32,10 +29,6 @@ def elements(text: str, **settings: str):
 
 def ends(text: str, **settings: str):
     return [each.end for each in elements(text, **settings)]
-
-
-def near(*places: tuple[float, float]):
-    return [pytest.approx(each, abs=1e-4) for each in places]
 
 
 def turned(text: str, plane: int) -> str:

@@ -5,7 +5,6 @@ import pytest
 from contoursolve import Result, solve
 
 CONTOUR = "G111 A180. K-30. B120. X200."
-PAIR = "G3 I-50 J0\nG1 X-50 Y42.857 ,A171.87 Q-1"
 
 
 def start_of(result: Result) -> dict[str, float | None]:
@@ -112,66 +111,3 @@ LATHE = {
 def test_lathe_contour_starts_where_the_blocks_before_it_lead(name):
     before, z, x, line = LATHE[name]
     check(solve(f"{before}\n{CONTOUR}", control="yasnac-lx3"), {"Z": z, "X": x}, line)
-
-
-THERE = "G17 G41 G0 X50 Y0 Z5"  # line 1
-MILL = {
-    # name: (blocks before the contour, X, Y, the line that lost the position)
-    "absolute words": (THERE, 50, 0, None),
-    "numbers without a point": ("G17 G41 G0 X50 Y1", 50, 1, None),
-    "increments": (f"{THERE}\nG91 X5 Y-2\nG90", 55, -2, None),
-    "increments twice": (f"{THERE}\nG91 X5\nX5 Y1\nG90 Y3", 60, 3, None),
-    "dwell": (f"{THERE}\nG4 X2", 50, 0, None),
-    "length compensation": (f"{THERE}\nG43 H1 Z50", 50, 0, None),
-    "coordinates set by G92": ("G41\nG92 X50 Y0", 50, 0, None),
-    "coordinates set by G92 in increments": (f"{THERE}\nG91 G92 X5\nG90", None, 0, 2),
-    "drilling cycle": (f"{THERE}\nG81 X10 Y10 Z-20 R2", None, None, 2),
-    "drilling cycle goes on": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nX20", None, None, (2, 3)),
-    "end of the drilling cycle": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nG80", None, None, 2),
-    "drilling cycle, then a move": (f"{THERE}\nG81 X10 Y10 Z-20 R2\nG80\nG0 X50 Y0", 50, 0, None),
-    "reference point return of Z": (f"{THERE}\nG28 Z50", 50, 0, None),
-    "reference point return": (f"{THERE}\nG28 X0 Y0", None, None, 2),
-    "machine coordinates": (f"{THERE}\nG53 Y100", 50, None, 2),
-    "work coordinates": (f"{THERE}\nG55", None, None, 2),
-    "local coordinates": (f"{THERE}\nG52 X10 Y10", 40, -10, None),
-    "local coordinates twice": (f"{THERE}\nG52 X10 Y10\nG52 X30", 20, -10, None),
-    "local coordinates taken back": ("G41 G52 X10 Y10\nG0 X50 Y0\nG52 X0 Y0", 60, 10, None),
-    "local coordinates in turned ones": (f"{THERE}\nG68 X0 Y0 R30\nG0 X50 Y0\nG52 X10", None, None, 4),
-    "local coordinates that may be skipped": (f"{THERE}\n/G52 X10", None, None, 2),
-    "the same work coordinates": (f"G54\n{THERE}\nG54", 50, 0, None),
-    "work coordinates that may be others": (f"/G55\n{THERE}\nG55", None, None, 3),
-    "further work coordinates": (f"G54.1 P1\n{THERE}\nG54 P1", 50, 0, None),
-    "other further work coordinates": (f"G54.1 P1\n{THERE}\nG54.1 P2", None, None, 3),
-    "work offset in force, written": (f"G54\n{THERE}\nG10 L2 P1 X5", None, 0, 3),
-    "work offset in force, added to": (f"G54\n{THERE}\nG91 G10 L2 P1 Y5\nG90", 50, None, 3),
-    "external offset, written": (f"G54\n{THERE}\nG10 L2 P0 X5 Y5", None, None, 3),
-    "work offset not in force, written": (f"G54\n{THERE}\nG10 L2 P2 X5\nG10 L20 P1 X5", 50, 0, None),
-    "further work offset, written": (f"G54.1 P1\n{THERE}\nG10 L20 P1 X5", None, 0, 3),
-    "an offset set by its variable": (f"G54\n{THERE}\n#5222=#5222+3", 50, None, 3),
-    "an offset not in force set by its variable": (f"G54\n{THERE}\n#1=5\n#[5236+#1]=7", 50, 0, None),
-    "the external offset set by its variable": (f"G54\n{THERE}\nIF[#500 EQ 1]THEN #5201=7", None, 0, 3),
-    "length compensation in the plane": ("G17 G41 G0 X50 Y0 Z5\nG43 H1\nM06", 50, 0, None),
-    "rotation": (f"{THERE}\nG68 X0 Y0 R30", None, None, 2),
-    "scaling": (f"{THERE}\nG51 P2", None, None, 2),
-    "scaling about a point": (f"{THERE}\nG51 X10 Y0 P2", None, None, 2),
-    "work coordinates with a move": ("G41 G55 G0 X50 Y0", 50, 0, None),
-    "polar coordinates": (f"{THERE}\nG16", None, None, 2),
-    "subprogram": (f"{THERE}\nM98 P100", None, None, 2),
-    "subprogram after another M": (f"{THERE}\nM3 M98 P100", None, None, 2),
-    "a variable": (f"{THERE}\nG1 Y#2", 50, None, 2),
-    "GOTO": (f"{THERE}\nGOTO 7", None, None, 2),
-    "an unknown G code": (f"{THERE}\nG151", None, None, 2),
-    "block skip": (f"{THERE}\n/G1 Y1", 50, 1, None),
-    "a contour that is solved": (f"{THERE}\n{PAIR}\nG1 X50 Y0", 50, 0, None),
-    "a contour that is solved right before": (f"{THERE}\nG3 I-50 J0\nG1 X60 Y10 ,A0 Q1", 60, 10, None),
-    "a contour that is rejected": (f"{THERE}\n{PAIR.replace('Q-1', '')}", -50, 42.857, None),
-}
-
-
-CHAIN = "G17 G90 G0 X0 Y0\nM8\nG1 X30 ,C5\n\nX40 Y40 ,R3\n(A COMMENT)\nX80\nG0 X0 Y0"
-FOUND = {
-    "alone, before one block": ("yasnac-lx3", f"{CONTOUR}\nM30", [(1, 1)]),
-    "two lathe blocks": ("yasnac-lx3", f"{HERE}\n{CONTOUR}\nM08\n{CONTOUR}\nM30", [(2, 2), (4, 4)]),
-    "three blocks with others between": ("nct-99m", CHAIN, [(3, 7)]),
-    "two chains": ("nct-99m", f"{CHAIN}\nG1 X5 ,R1\nY9 ,R1\nX1\nM30", [(3, 7), (9, 11)]),
-}

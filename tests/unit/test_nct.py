@@ -15,7 +15,6 @@ from contoursolve.controls import DIALECTS
 from contoursolve.output import to_json
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
-LINES = "G17 G90 G41 G0 X90 Y10\nG1 ,A150\nG1 X10 Y20 ,A225"
 
 
 def errors(result):
@@ -54,12 +53,6 @@ def test_a_circle_whose_g3_is_not_repeated_shows_the_control_and_is_solved():
 @pytest.mark.parametrize("arc", ["G3 X60. Z-10. I10. K0. R10.", "X60. Z-10. I10. K0. R10. Q5."])
 def test_an_arc_of_a_lathe_with_centre_and_radius_does_not_show_a_mill(arc):
     assert solve(f"G00 X40. Z0.\nG111 A180. K-30. B120. X100.\nG1 X30. Z0.\n{arc}").control == "yasnac-lx3"
-
-
-# Where compensation is on (3) -------------------------------------------------------------------------------
-
-
-# N1's point (5, 5a) -----------------------------------------------------------------------------------------
 
 
 # Settings: what no page says (3, and Q of two circles) --------------------------------------------------------
@@ -120,13 +113,6 @@ def test_a_setting_is_not_that_of_the_same_blocks_before():
     allowed = ["0.02", "0.002", "0.02", "0.002"]
     statuses = [solve(text, settings=named(Settings(radius_difference=each))).answers[0].status for each in allowed]
     assert [status.value for status in statuses] == ["solved", "conflicting"] * 2
-
-
-# A word outside the plane, and parallel axes (p. 120) ----------------------------------------------------------
-
-BESIDE = (
-    "G17 G90 G0 X0 Y0 Z0 W1\nG1 X30 ,A45 Z-5 F100\nG1 ,A10 X90 W-3\nG1 X90 ,A45 Z-10\nG91 ,A0 X1 Z-1\nG90 G18 X100 ,A90"
-)
 
 
 # Grades, places, alarms, and what is assumed --------------------------------------------------------------------

@@ -20,10 +20,6 @@ M30"""
 """A long contour, a tiny one, and one across the axis."""
 
 
-def spots(stroke):
-    return [stroke.start, *(step if isinstance(step, tuple) else step.end for step in stroke.steps)]
-
-
 def test_a_contour_without_a_path_has_its_message():
     picture = draw_result(contoursolve.solve_file(SHAFT.with_stem("shaft_broken")))
     told = "cannot be cut: the rounding P4. does not fit: P4. is 4.000 mm, at most 2.500 mm fits on"
@@ -58,19 +54,3 @@ def test_of_very_many_small_contours_none_is_enlarged_and_the_picture_says_how_m
     assert not [told for told in labels(picture) if told.endswith("times as large") or told.startswith("0 words")]
     names = ", ".join(f"{number}  program line {2 * number}" for number in range(1, 7))
     assert f"too small to be read here: {names} and 54 more".replace("  ", " ") in " ".join(labels(picture))
-
-
-PROFILE = """G00 X64. Z2.
-G71 U2. R1.
-G71 P10 Q60 U0.5 W0.1 F0.3
-N10 G00 X16.
-G01 Z0.
-X24. ,C1.5
-Z-30. ,R3.
-X36. ,A120.
-Z-50. ,R2.
-X60. ,C1.
-Z-60.
-N60 X64.
-G70 P10 Q60
-M30"""

@@ -43,34 +43,6 @@ def test_a_program_that_all_its_controls_read_alike_is_solved_and_the_first_is_n
     assert findings_of(OpenProgram(program)) == found.diagnostics
 
 
-@pytest.mark.parametrize(
-    ("program", "told"),
-    [
-        # Haas mills make corners between lines alone; in the others the radius is too small.
-        ("G00 X50. Y0\nG02 X80. Y30. R10. F200 ,R3.\nG01 Y60.\nX0\nM30",
-         ["the controls read program lines 2 to 3 differently", "  nct-99m, fanuc-mill and mitsubishi: R10.: ",
-          "  haas-mill: X80., Y30., R10. and ,R3.: this control makes corners between lines alone"]),
-        # Where readers end at the same place, the first line or arc in which they differ is named.
-        ("G18 G40\nG0 X40. Z0.\nG1 Z-40. ,R5. F.2\nX80. ,C1.\nZ-60.\nM30",
-         ["the controls read program lines 3 to 5 differently",
-          "  nct-99m, fanuc-mill, haas-mill and mitsubishi: after a line to Z-35.0000 X40.0000, an arc ",
-          "  fanuc-lathe and haas-lathe: after a line to Z-35.0000 X40.0000, an arc to Z-40.0000 X50.0000"]),
-        # Fanuc's mills leave out a corner that hardly turns.
-        ("G90 G17 G21\nG00 X0 Y0\nG01 X60. ,R4. F400\nX90. Y0.4\nY30.\nM30",
-         ["the controls read program lines 3 to 4 differently",
-          "  nct-99m and mitsubishi: at first a line to X59.97",
-          "  fanuc-mill and haas-mill: at first a line to X60.0000 Y0.0000"]),
-        # An axis that another control reads as an angle.
-        ("G17 G90 G00 X0 Y0\nG01 X50. A30.\nX80. ,R2.\nY60.\nM30", ["the controls read program line 2 differently"]),
-    ],
-)  # fmt: skip
-def test_what_each_control_makes_of_a_program_that_they_read_differently_is_told(program, told):
-    with pytest.raises(UnknownControlError) as caught:
-        check(program)
-    lines = str(caught.value).splitlines()
-    assert [line[: len(start)] for line, start in zip(lines, told, strict=False)] == told
-
-
 SAFE = "G00 G18 G20 G40 G80 G99"
 TURNED = "G00 X2. Z0.1\nG01 Z-1. F0.01 ,R0.1\nX3.\nM30"
 PECKED = "G43 H1 Z5.\nG83 X10. Z-20. R2. Q5. F90\nG80"
@@ -134,6 +106,3 @@ def test_an_edit_may_make_controls_read_differently():
     assert "differently" in opened.trouble
     opened.replace(MILLED)
     assert [each.code for each in findings_of(opened)] == ["control-alike"]
-
-
-GROOVE = "N04 G54 G95\nN10 G90 G0 X820 Z90\nN15 G90 G1 X800.9 Z1.5 F30\nN20 G1 Z-8.4 RND=0.8\nN25 X770\nN30 Z-20\nM17"

@@ -158,6 +158,3 @@ def test_a_corner_far_from_the_mistake_is_not_touched():
             if len({each.partition(",")[2] for each in lines}) > 1
         ]
         assert all(abs(number - line) <= 1 for number in changed)
-
-
-MILL = "G17 G90 G0 X0 Y0\n"

@@ -192,15 +192,6 @@ def test_ranges_and_regions_without_an_end_or_a_contour_are_drawn():
         assert "figure" in Page(data[HTML]).tags
 
 
-ASKED = {
-    "block": ("solve",),
-    "range": ("range", "--word", "P"),
-    "region": ("range", "--word", "A", "--word", "P", "--within", "150:210", "--within", "1:60"),
-    "found": ("find", "--word", "B", "--bring", "end Z-50."),
-    "tolerances": ("sensitivity", "--tolerance", "A=0.1", "--tolerance", "K=0.02"),
-}
-
-
 def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkeypatch):
     answer = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0]
 

@@ -31,7 +31,6 @@ EXAMPLES = [
     for number, program in enumerate(programs, 1)
 ]
 """Each example of each rule, in the words of its control."""
-WRONG = [each for each in EXAMPLES if not each.values[-1]]
 
 
 @pytest.mark.parametrize(("dialect", "rule", "program", "is_right"), EXAMPLES)

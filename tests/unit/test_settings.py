@@ -1,8 +1,5 @@
 """Conventions that a manual does not state: on the command line, in a project file, and in every result."""
 
-import json
-from pathlib import Path
-
 import pytest
 from click.testing import CliRunner
 
@@ -11,20 +8,6 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import Evidence
 
 CIRCLES = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\nG3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1\n"
-LEFT, RIGHT = (-46.0220, -19.5441), (-11.9780, 48.5441)
-OTHER = "nct-99m.circle-circle-q=right-is-negative"
-
-
-def solved(folder: Path, *arguments: str) -> dict:
-    program = folder / "circles.nc"
-    program.write_text(CIRCLES)
-    outcome = CliRunner().invoke(main, ["solve", str(program), "--format", "json", *arguments])
-    assert outcome.exit_code == 0, outcome.output
-    return json.loads(outcome.stdout)
-
-
-def crossing(document: dict) -> tuple[float, ...]:
-    return tuple(round(value, 4) for value in document["contours"][0]["points"]["P1"])
 
 
 @pytest.mark.parametrize(
@@ -75,6 +58,3 @@ def test_the_catalogue_lists_every_assumption_and_every_setting_with_its_values(
         for setting in dialect.settings:
             assert setting.default in setting.values
             assert all(f"--set {dialect.name}.{setting.name}={value}" in printed for value in setting.values)
-
-
-ZX, XY = "G18 G90 G00 X0 Z0\n", "G17 G90 G00 X0 Y0\n"

@@ -18,7 +18,7 @@ from contoursolve.program import Request, run as run_program
 
 CONTROLS = ("siemens-840d", "siemens-808d")
 MILL = "G17 G90 G0 X0 Y0\n"
-SI_G1, SI_G4, SI_G5 = (program_of(CONTROLS[0], f"SI-G{number}") for number in (1, 4, 5))
+SI_G4 = program_of(CONTROLS[0], "SI-G4")
 
 
 def siemens(text: str, control: str = CONTROLS[0], depth: str = "full", **settings: str):
@@ -47,22 +47,6 @@ def near(*places: tuple[float, float]):
     return [pytest.approx(place, abs=1e-4) for place in places]
 
 
-def codes(text: str, **settings: str) -> dict[str, str | None]:
-    """The alarms of all findings by their codes."""
-    found = siemens(text, depth="verdict", **settings).diagnostics
-    return {each.code: each.alarm.number.split()[0] if each.alarm else None for each in found}
-
-
-def refused(text: str, code: str, alarm: str | None = None, **settings: str) -> None:
-    """That the error is found, with its alarm, and no contour called solved with it."""
-    result = siemens(text, depth="verdict", **settings)
-    errors = [each for each in result.diagnostics if each.severity.value == "error"]
-    assert [each.code for each in errors][:1] == [code], [each.message for each in errors]
-    assert (errors[0].alarm.number.split()[0] if errors[0].alarm else None) == alarm
-    line = errors[0].span.line
-    assert not [each for each in result.answers if each.contour and each.lines[0] <= line <= each.lines[-1]]
-
-
 @law(st.floats(0.01, 9), st.sampled_from(["", " CHF"]), few=2, many=3)
 def test_the_face_of_a_chamfer_beside_an_arc_has_its_length_between_ends_as_far_from_the_corner(face, behind):
     text = MILL + f"G1 X40 CHF={face:.6f}\nG2 X60 Y20 I20 J0{behind and behind + f'={face / 2:.6f}'}\nG1 X100 Y30"
@@ -72,9 +56,6 @@ def test_the_face_of_a_chamfer_beside_an_arc_has_its_length_between_ends_as_far_
         at = answer.contour.points[f"V{corner.name[-1]}"]
         assert dist(corner.start, corner.end) == pytest.approx(next(lengths), abs=1e-9)
         assert dist(corner.start, at) == pytest.approx(dist(corner.end, at), abs=1e-9)
-
-
-# How it is spelled ------------------------------------------------------------------------------------------------
 
 
 # Planes and diameters -----------------------------------------------------------------------------------------------
@@ -175,13 +156,6 @@ def test_a_long_stream_keeps_a_rounding_in_force():
 
 
 # Laws ---------------------------------------------------------------------------------------------------------------
-
-
-def heading(element: Element, at: complex) -> complex:
-    """The direction of travel at a place of an element."""
-    if element.center is None:
-        return (element.end - element.start) / abs(element.end - element.start)
-    return (at - element.center) / element.radius * (1j if element.turn == "ccw" else -1j)
 
 
 def test_an_increment_from_an_unknown_start_leads_to_no_place():

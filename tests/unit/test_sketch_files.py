@@ -9,7 +9,6 @@ import contoursolve
 from contoursolve.sketches import SketchError, read_sketch, sketch_schema, solve_sketch, write_sketch
 
 ROOT = Path(__file__).parents[2]
-EXAMPLES = sorted((ROOT / "tests" / "sketches").glob("*.toml"))
 
 
 def test_numbers_keep_their_digits():

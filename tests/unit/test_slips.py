@@ -5,31 +5,6 @@ import pytest
 from contoursolve import solve
 from contoursolve.diagnostics import Severity
 
-TAPER = "N10 G111 X100. A180. K-30. B120. P5. Q5."
-BLOCKS = {
-    "G111": ("yasnac-lx3", "G00 X40. Z0.\n", TAPER),
-    "G112": ("yasnac-lx3", "G00 X100. Z-50.\n", "G112 U0 I10. K-50. P5. Q5. R30."),
-    "G11": ("yasnac-lx3", "G00 X30. Z0\n", "G11 Z-20. I8. F30."),
-    "circle-line": ("nct-99m", "G17 G42 G0 X50 Y0\nG3 X-50 Y0 R50\n", "G1 X-50 Y42.857 ,A171.87 Q-1"),
-}
-SHAPES = {"1": "lI", "0": "Oo"}
-
-
-CASES = [
-    (name, block[:at] + letter + block[at + 1 :])
-    for name, (_, _, block) in BLOCKS.items()
-    for at, digit in enumerate(block)
-    for letter in SHAPES.get(digit, "")
-    if not block[:at].strip().startswith("N1")
-]
-"""Each block with each digit in turn that looks like a letter as that letter, numbers of blocks apart."""
-
-
-def fixes_of(text: str, **options: str) -> list[str]:
-    """The fixes of the finding that has some."""
-    return [fix.replacement for each in solve(text, **options).diagnostics for fix in each.fixes]
-
-
 ASKED = {
     "G11l X100. A180. K-30. B120.": ("number-missing", "letter l in G11l: did you mean the digit 1 (G111)?"),
     "GIII X100. A180. K-30. B120.": ("number-missing", "letter I in GIII: did you mean the digit 1 (G111)?"),

@@ -4,7 +4,6 @@ import re
 
 import pytest
 from click.testing import CliRunner
-from examples_fanuc import FL_G5, FM_G1, FM_G3
 
 from contoursolve import DIALECTS, Status, expand, solve, solve_file
 from contoursolve.cli import main
@@ -13,14 +12,6 @@ from contoursolve.output.document import to_json
 
 LATHE, MILL, SINUMERIK, KLARTEXT = "fanuc-lathe", "fanuc-mill", "siemens-840d", "heidenhain"
 TAPER = "G01 X60. ,A120."
-
-
-def paths(text: str, control: str, **options) -> list[object]:
-    found = []
-    for answer in solve(text, control=control, **options).answers:
-        ends = [each.end for each in answer.contour.elements] if answer.contour else []
-        found.append((answer.status, [tuple(round(at, 5) + 0.0 for at in end) for end in ends]))
-    return found
 
 
 def not_followed(result) -> list[tuple[int, str]]:
@@ -33,13 +24,6 @@ def run(command: str, *words: object) -> tuple[int, str]:
 
 
 # The same contours, written out and called ---------------------------------------------------------------------------
-
-
-EXAMPLES = {
-    "FL-G5": (LATHE, FL_G5, r"N10 [\s\S]*?(?=N80)"),
-    "FM-G1": (MILL, FM_G1, r"G01 X50\.[\s\S]*"),
-    "FM-G3": (MILL, FM_G3, r"N5 Y0[\s\S]*?(?=G00 Z50)"),
-}
 
 
 def test_calls_that_are_written_out_leave_each_block_number_once():
@@ -268,63 +252,6 @@ def test_each_pass_of_a_loop_is_told_with_its_own_values_and_the_first_ones_are_
 
 
 # What is told of calls and jumps -------------------------------------------------------------------------------------
-
-CORNER = "G1 X9. ,R1. F9.\nY9."
-IN_A_CALL = "calls itself again and again: nothing changes from call to call"
-FOR_EVER = "runs for ever: nothing changes from pass to pass"
-STANDS_AFTER = "repeats from program line 5 up to itself, but that line stands after it"
-TURNED = "O1\nG00 X60. Z2.\nG71 P10 Q{} U.5 W.1\nN10 G00 X20.\nG01 Z-20. ,R3. F.1\nN60 X40.\n{}M30"
-MILLED = "O1\nG17 G90 G0 X0. Y0.\n{}\nN10 G1 X10. ,R1. F1.\n{} Y10.\nM30"
-TWICE = "names {}, which stands twice, in program lines {} and {}: give each its own number"
-NOT_FOLLOWED = [
-    # Calls and loops that provably never end.
-    (LATHE, f"G00 X40. Z0.\nM98 P1\nM30\nO1\n{TAPER}\nM98 P1\nM99", 6, IN_A_CALL),
-    (MILL, f"M98 P2\nM30\nO2\nG0 X1. Y0.\n{CORNER}\nM98 P3 L9\nM99\nO3\nM98 P2 L9\nM99", 10, IN_A_CALL),
-    (MILL, f"G65 P2 A1.\nM30\nO2\nG0 X#1 Y0.\n{CORNER}\nG65 P2 A1. L9\nM99", 7, IN_A_CALL),
-    (SINUMERIK, "L1\nM30\n%_N_L1_SPF\nG17 G90 G0 X1 Y0\nG1 X9 RND=1\nY9\nL1 P99\nM17", 7, IN_A_CALL),
-    (KLARTEXT, "CALL LBL 1\nM30\nLBL 1\nL X+1 Y+0 F100\nFL X+9 AN+20\nCALL LBL 1\nLBL 0", 6, IN_A_CALL),
-    (MILL, f"#1=1\nN1 G0 X1. Y0.\n{CORNER}\nGOTO 1", 5, FOR_EVER),
-    (SINUMERIK, "R1=1\nG17 G90\nLOOP\nG0 X1 Y0\nG1 X9 RND=1\nY9\nENDLOOP", 7, FOR_EVER),
-    # Repetitions of what stands behind.
-    (KLARTEXT, "L X+0 Y+0 F100\nCALL LBL 1 REP2\nFL X+50 AN+20\nM30\nLBL 1\nL IX+5\nLBL 0", 2, STANDS_AFTER),
-    (SINUMERIK, "G17 G0 X0 Y0\nREPEAT AAA P=2\nG1 X50 ANG=20\nM30\nAAA: G1 X=IC(5)\nM17", 2, STANDS_AFTER),
-    (
-        *(SINUMERIK, "G17 G90 G0 X0 Y0\nBBB: X1\nAAA: X2\nREPEAT AAA BBB\nG1 X50 ANG=20", 4),
-        "runs from program line 3, but its last line, 2, stands before that",
-    ),
-    # Blocks that are named and stand nowhere or twice.
-    (SINUMERIK, "G17 G90 G0 X0 Y0\nAAA: G1 X5\nGOTOF AAA\nG1 X10 RND=1\nY10", 3, "jumps to AAA, which is not there"),
-    (SINUMERIK, "G17 G90 G0 X0 Y0\nGOTOB AAA\nAAA: G1 X10 RND=1\nY10", 2, "jumps to AAA, which is not there"),
-    (LATHE, TURNED.format(58, ""), 3, "names block 58, which is not there"),
-    (LATHE, TURNED.format(60, "N60 X42.\n"), 3, TWICE.format("block 60", 6, 7)),
-    (MILL, MILLED.format("GOTO 10", "N10"), 3, TWICE.format("block 10", 4, 5)),
-    ("haas-mill", MILLED.format("M97 P10\nM30", "N10"), 3, TWICE.format("block 10", 5, 6)),
-    ("haas-mill", MILLED.format("M97 P12", "N11"), 3, "names block 12, which is not there"),
-    (SINUMERIK, "G17 G90 G0 X0 Y0\nGOTOF N10\nN10 G1 X10 RND=1\nN10 Y10", 2, TWICE.format("block N10", 3, 4)),
-    (
-        *(KLARTEXT, "CALL LBL 1\nM30\nLBL 1\nL X+0 Y+0 F100\nFL X+10 AN+0\nLBL 0\nLBL 1\nLBL 0", 1),
-        TWICE.format("label 1", 3, 7),
-    ),
-    # Nothing jumps there; or the number stands in another program.
-    (MILL, MILLED.format("G0 Z1.", "N10"), 0, ""),
-    (MILL, MILLED.format("GOTO 10", "N11") + "\nO2\nN10 G0 Z1.\nM99", 0, ""),
-    (LATHE, "O1\nN10 G00 X60.\nM30\n" + TURNED.format(60, "").replace("O1", "O2"), 0, ""),
-]
-
-
-@pytest.mark.parametrize(("control", "text", "line", "told"), NOT_FOLLOWED)
-def test_what_is_not_followed_is_told_in_its_line(control, text, line, told):
-    found = not_followed(solve(text, control=control))
-    blocks = {f"{text.splitlines()[line - 1]} {told}", f"program line {line} {told}"}
-    assert [each for each, _ in found] == [line] * bool(line)
-    assert {each for _, each in found} <= blocks
-
-
-TOO_LARGE = "corner 1 does not fit: ,R5. is 5.000 mm, at most 1.000 mm fits on line 2"
-CALLED = (
-    "called in program line 2: from Z0.0000 X40.0000 mm solved; called in program line 4: from Z0.0000 X58.0000 mm "
-)
-BACK = "the profile of G71 turns back along X on its way to Z-25.7735 X30.0000 mm (program line 4)"
 
 
 def test_a_loop_that_ends_by_what_nobody_knows_is_not_said_to_run_for_ever():

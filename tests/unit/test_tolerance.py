@@ -46,18 +46,6 @@ def test_a_tolerance_that_makes_no_sense_is_refused(allowed, message):
         tolerances(BLOCK, allowed, start=START)
 
 
-FACTS = [
-    ("G111 X100. A180. K-30. B120. P?", "X40. Z0.", ["straight part of line 2 = 20"]),
-    ("G111 X100. A180. K-30. B120. P5. Q?", "X40. Z0.", ["radius of corner 1 = radius of corner 2"]),
-    (
-        "G111 X100. A180. K-30. B120. P? Q?",
-        "X40. Z0.",
-        ["radius of corner 1 = radius of corner 2", "straight part of line 2 = 20"],
-    ),
-    ("G112 X50. K-30. I-10. R? Q2.", "X40. Z0.", ["length of arc = 20"]),
-]
-
-
 run = partial(calling.run, "sensitivity", "--block", BLOCK, "--start", START)
 
 

@@ -16,19 +16,10 @@ from contoursolve.pictures import LIGHT_COLORS, Role
 
 SVG = "{http://www.w3.org/2000/svg}"
 TAPER = "G00 X20. Z2.\nG01 G42 X20. Z0. F0.2\nZ-10.\nX30. Z-20.\nZ-30.\nG40 X40."
-BORE = "G00 X50. Z3.\nG01 G41 X40. Z0. F0.2\nX36. Z-2.\nZ-18. ,R2.\nX24.\nZ-24.\nG40 X20."
-POCKET = "G17\nG00 X-20. Y20.\nG01 G41 X0. Y0. F300.\nX40. ,R8.\nY30.\nX10.\nG40 Y15."
 NECK = "G17\nG00 X-4. Y40.\nG01 G41 Y20. F300.\nY9.1652\nG03 X4. Y9.1652 I4. J-9.1652\nG01 Y20.\nG40 Y40."
 SMALL = "G00 X20. Z2.\nG01 G42 X20. Z0. F0.2\nZ-14.6\nG02 X20.8 Z-15. R0.4\nG01 X40.\nG40 X44."
-NOSE, CUTTER = ("fanuc-lathe", "--tool", "R0.8", "--tip", "3"), ("fanuc-mill", "--tool", "R5")
-LATHE = ("--control", "fanuc-lathe")
+NOSE = ("fanuc-lathe", "--tool", "R0.8", "--tip", "3")
 BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."
-RIGHT = {
-    "taper": (TAPER, NOSE),
-    "bore": (BORE, ("fanuc-lathe", "--tool", "R0.4", "--tip", "2")),
-    "pocket": (POCKET, CUTTER),
-    "intersect": (TAPER, (*NOSE, "--outside", "intersect")),
-}
 
 
 def call(*words: str | Path) -> str:

@@ -13,7 +13,6 @@ from contoursolve.families import FamilyError
 
 START = "G00 X40. Z0.\n"
 BLOCK = "G111 A180. K-30. B120. X#100 P5. Q#101"
-ONE = {"start": "X40. Z0.", "variables": {"#101": 5.0}}
 
 
 def notes(text, **options):
@@ -81,7 +80,6 @@ def test_the_explorer_takes_values_of_variables():
 
 
 MACRO_B = ("fanuc-lathe", "fanuc-mill", "haas-lathe", "haas-mill", "mitsubishi", "nct-99m", "yasnac-lx3")
-BLOCKS = {"X": "G01 X#24 ,R#18 F1.\n{axis}-40.", "G111": "G111 X#24 A180. K-30. B120. P#18"}
 
 
 COMPARED = {
@@ -141,9 +139,6 @@ def test_a_value_of_what_is_no_variable_is_told(control, name, told):
     named = ["--control", control] if control else []
     done = CliRunner().invoke(main, ["check", *named, "--block", "G0 X0", "--let", f"{name}=1"])
     assert (done.exit_code, told in done.output) == (2, True), done.output
-
-
-NAMES = {"fanuc-mill": ("#1", "#<depth>"), "siemens-840d": ("R1", "_ANG", "A[2]", "$AN"), "isg": ("P1", "V.L.B")}
 
 
 @pytest.mark.parametrize("command", ["solve", "range"])

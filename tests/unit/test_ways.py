@@ -224,21 +224,6 @@ def test_a_corner_finds_its_neighbour_behind_a_jump_and_keeps_it():
     assert not any("N5" not in fix.replacement for each in large.diagnostics for fix in each.fixes)
 
 
-S1 = """DEF INT NN
-G18 G90 DIAMOF
-G0 X30 Z2
-G1 X20 F0.2
-FOR NN=0 TO 2
- X=20 Z=-5-8*NN RND=0.6
- X=17 Z=-7-8*NN RND=0.4
- X=17 Z=-9-8*NN RND=0.4
- X=20 Z=-11-8*NN RND=0.6
-ENDFOR
-X=20 Z=-40
-X30
-M30"""
-
-
 @pytest.mark.parametrize("places", [(20, 30, 20), (20, 20, 30), (30, 20, 20), (20, 30, 40), (20, 20, 20)])
 def test_all_ways_of_case_meet(places):
     """The tool is where all ways that CASE opens end alike, else it is not known."""

@@ -10,12 +10,6 @@ from contoursolve import solve
 from contoursolve.program import changes_of
 
 SLIPS = json.loads((Path(__file__).parents[1] / "slips" / "by_hand.json").read_text())
-FUNCTION = ("fanuc-lathe", "G00 X16. Z2.\nG01 Z0. F0.2\nX30. ,C1.5\nZ-25. ,R3.\nM08\nX50. ,A120.\nZ-60.\n", 5)
-PLANE = ("fanuc-mill", "G17 G90\nG00 X0. Z0.\nG01 Z40. ,R6. F200\nX30. ,C3.\nZ-10. ,R4.\nX0.\n", 1)
-MENDED = {
-    FUNCTION: "G00 X16. Z2.\nG01 Z0. F0.2\nM08\nX30. ,C1.5\nZ-25. ,R3.\nX50. ,A120.\nZ-60.\n",
-    PLANE: PLANE[1].replace("G17", "G18"),
-}
 
 
 def solved(slip):

@@ -17,19 +17,6 @@ from contoursolve.sketches import read_sketch, solve_sketch
 SKETCHES = sorted((Path(__file__).parent.parent / "sketches").glob("*.toml"))
 
 
-PROGRAMS = {
-    "fanuc-lathe": "%\nO0001\n{}G21\n{}G00 X0 Z0\nG01 X40. ,C1.5\nZ-30.\nX80. ,A135. ,R2.\nZ-60.\nM30\n%\n",
-    "yasnac-lx3": "%\nO0001\n{}G21\n{}G00 X0 Z0\nG01 K-1.5 X40.\nZ-30.\nG111 A135. B180. X80. Z-60. P2.\nM30\n%\n",
-    "siemens-840d": "{}G71 G18 G90 DIAMON\n{}G00 X0 Z0\nG01 X40 CHR=1.5\nZ-30\nX80 ANG=135 RND=2\nZ-60\nM30\n",
-    "isg": "%CONTOUR\n{}G71 G18 G90 G51\n{}G00 X0 Z0\nG01 X40 #CHR=1.5\nZ-30\nX80 #ANG=135 #RND=2\nZ-60\nM30\n",
-}
-TOLD = (
-    "contoursolve control: {}",
-    "Add tool, speed, feed, approach and retract: they are not in it.",
-    "The next block is a rapid straight to the start of the contour. Make it a safe approach.",
-)
-
-
 @pytest.mark.parametrize(
     ("elements", "arguments", "status", "told"),
     [
