@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.edits import AT_LEAST, Edit, apply_edits, change, drop, has_plus, with_plus, write_word
 from contoursolve.diagnosis.explain import Context, report
-from contoursolve.diagnosis.wording import join, length_limit, length_text, limit_text
+from contoursolve.diagnosis.wording import MOST_FIXES, join, length_limit, length_text, limit_text
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, LineChange, Span
 from contoursolve.gcode import Block, Word, parse_block, spell
 from contoursolve.reading import (
@@ -26,9 +26,6 @@ from contoursolve.reading import (
     restate,
 )
 from contoursolve.tolerance import LENGTH
-
-MOST_FIXES = 4
-"""Fixes of an arc."""
 
 _PATHS = {
     Beyond.SPIRAL: "a spiral from the one radius to the other",

@@ -11,7 +11,7 @@ from contoursolve.diagnosis.edits import Edit, EditKind, edited
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.slip_kinds import SlipKind
 from contoursolve.diagnosis.slips_around import touches
-from contoursolve.diagnosis.wording import join, length_text, place_text
+from contoursolve.diagnosis.wording import MOST_FIXES, join, length_text, place_text
 from contoursolve.diagnostics import Diagnostic, Fix, Label, NumberRange, OpenNumber
 from contoursolve.gcode import Block
 from contoursolve.geometry import Profile
@@ -61,10 +61,6 @@ def fixes_of(answer: Answer, repairs: Sequence[Repair], typed: MendedText | None
     return tuple(_fix(answer, repair, outcome, typed) for repair, outcome in zip(repairs, outcomes, strict=True))
 
 
-MOST_FIXES = 4
-"""Fixes of one finding that are told, beside the choices among solutions."""
-
-
 def _told(answer: Answer, repairs: Sequence[Repair]) -> list[Repair]:
     """The repairs that are told: the first few, and all that only choose among the solutions. Of several that leave
     open numbers which nobody knows, the finding says enough."""
@@ -73,7 +69,7 @@ def _told(answer: Answer, repairs: Sequence[Repair]) -> list[Repair]:
         repairs = [repair for repair in repairs if repair not in unknown]
     claim = answer.claim
     choosing = {claim.vocabulary[name][0] for name in claim.form.choices if name in claim.vocabulary}
-    choosing.add(claim.form.free.picking)
+    choosing = {*choosing, claim.form.free.picking} - {""}
 
     def chooses(repair: Repair) -> bool:
         return all(edit.address in choosing and edit.kind is not EditKind.DROP for edit in repair.edits)

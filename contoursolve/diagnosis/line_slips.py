@@ -12,11 +12,10 @@ from contoursolve.diagnosis.plausibility import oddities, total
 from contoursolve.diagnosis.slip_kinds import FEW, LETTER_ALIKE, SlipKind
 from contoursolve.diagnosis.slips_around import MOST_TRIED, Candidate, Marked, drafts_around, is_lasting, touches
 from contoursolve.diagnosis.window import Seen, Window
+from contoursolve.diagnosis.wording import MOST_FIXES
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Severity, Span
 from contoursolve.gcode import Word
 from contoursolve.reading import ReadIssue, doubtful_words
-
-MOST_FIXES = 3
 
 
 def mend_line(context: Context, findings: Sequence[Diagnostic], window: Window) -> Iterator[Diagnostic]:

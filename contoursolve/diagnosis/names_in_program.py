@@ -131,7 +131,9 @@ Places = dict[str, list[float | None]]
 def _places(profile: Profile) -> Places:
     """The coordinates of points as far as single words say them, and straight lines along an axis carry them on."""
     figure, givens = profile.figure, profile.givens
-    places: Places = {name: [None, None] for name in figure.points}
+    places: Places = {name: [None, None] for name in (figure.start, *figure.points)}
+    if profile.start.is_relative:
+        return places
     places[figure.start] = [None if value is None else float(value) for value in profile.start.values]
     for _ in figure.path:
         for fact in profile.facts:
@@ -154,7 +156,7 @@ def _way(element: Line | Arc, places: Places, profile: Profile) -> str:
         ["" if value is None else _text(value, axis, profile) for axis, value in enumerate(each)]
         for each in (begin, end)
     )
-    if not all((*at, *to)):
+    if not all((*at, *to)) or at == to:
         return ""
     is_turned = any(profile.plane.diameters)
     if isinstance(element, Arc):

@@ -58,7 +58,7 @@ def find_repairs(
     """The repairs of a contour that was refused, or in which a word is ignored.
 
     A repair leaves no error and no warning. None of them contains another one. `window` are the blocks around. Where
-    the start is not known, G90 and G91 stay as they are, and if nothing else is wrong, a repair tells where it is.
+    nothing is wrong but that the start is not known, G90 and G91 stay as they are, and a repair tells where it is.
     """
     found, start = _find_repairs(answer, dialect, window), answer.start
     if start.is_known and not start.is_relative:
@@ -69,8 +69,8 @@ def find_repairs(
     kept = tuple(
         each
         for each in found.repairs
-        if codes.isdisjoint(edit.old.strip() for edit in each.edits)
-        and (not is_lost or (each.contour is not None and not any(each.contour.free)))
+        if not is_lost
+        or (codes.isdisjoint(edit.old.strip() for edit in each.edits) and each.contour and not any(each.contour.free))
     )
     return replace(found, repairs=kept, is_complete=False, is_cut=found.is_cut and not is_lost)
 

@@ -14,8 +14,6 @@ from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Diagnostic, Severity, Span
 from contoursolve.reading import ReadIssue
 
-MOST_FIXES = 3
-
 
 def mend_crossing(answer: Answer, window: Window) -> Answer:
     """An answer whose path crosses the spindle axis, with what was meant if that was not."""
@@ -24,7 +22,7 @@ def mend_crossing(answer: Answer, window: Window) -> Answer:
         if each.about is ReadIssue.AXIS_CROSSED and not each.fixes:
             stated = frozenset(word.span for word in answer.claim.words.values())
             found = [repair for repair in _repairs(answer, window, stated, each.message) if _stays(repair)]
-            each = with_fixes(each, answer, found[:MOST_FIXES])  # noqa: PLW2901
+            each = with_fixes(each, answer, found)  # noqa: PLW2901
         findings.append(each)
     return replace(answer, diagnostics=tuple(findings))
 
@@ -43,7 +41,7 @@ def mend_behind(answer: Answer, findings: Sequence[Diagnostic], window: Window) 
         marked = frozenset({*spans_of([each]), answer.claim.blocks[-1].words[0].span})
         # A habit of a program, which a rule warns of at each contour, costs little.
         found = _repairs(answer, window, marked, each.message, is_frequent=True) if is_open else ()
-        yield with_fixes(each, answer, found[:MOST_FIXES]) if found else each
+        yield with_fixes(each, answer, found) if found else each
 
 
 def _repairs(

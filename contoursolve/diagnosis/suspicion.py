@@ -37,7 +37,6 @@ from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.gcode import Word
 from contoursolve.reading import ParsedContour, ReadIssue
 
-MOST_FIXES = 3
 _TURNING = (SIGN_LOST, SIGN_ADDED, SUPPLEMENT, OPPOSITE, OTHER_AXIS, ZERO_LOST)
 """Slips after which a turned path runs back."""
 
@@ -60,7 +59,7 @@ def suspect(answer: Answer, window: Window) -> Answer:
     for reason, kinds, words in _doubtful(answer, window):
         found = sorted(_meant(answer, window, kinds, words), key=lambda repair: repair.cost)
         if found:
-            finding = _told(answer, window, found[:MOST_FIXES], reason)
+            finding = _told(answer, window, found, reason)
             return replace(answer, diagnostics=(*answer.diagnostics, finding))
     for reason, own, text, drafts in _unlike(answer, window):
         found = sorted(_tried(answer, window, drafts, lambda _: True), key=lambda repair: repair.cost)[:1]
