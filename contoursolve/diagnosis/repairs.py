@@ -36,7 +36,7 @@ from contoursolve.diagnosis.subsets import (
     smallest_changes,
     words_of,
 )
-from contoursolve.diagnosis.typo_fixes import point_slips
+from contoursolve.diagnosis.typo_fixes import forgotten_codes, point_slips
 from contoursolve.diagnosis.window import Window, alone
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FaultKind, number_of, spell
@@ -118,6 +118,7 @@ def _of_words(answer: Answer, trial: Trial, drop_sets: DropSets) -> Iterator[Ite
         yield _of_circles(answer, trial)
     yield from (commas(answer), marked(answer), fitting(answer))
     yield _lost_ends(answer)
+    yield forgotten_codes(answer, trial.dialect.modes)
     changes = (
         _values(answer, whole),
         *((first, then) if answer.status is Status.REJECTED else (then, first)),

@@ -21,8 +21,9 @@ SECOND = 1.0
 
 
 def two_slips(trial: Trial) -> list[Candidate]:
-    """Pairs of slips around a contour, the most plausible first; none of a long one, whose every trial takes longer."""
-    if len(trial.claim.blocks) > SHORT:
+    """Pairs of slips around a contour, the most plausible first; none of a long one, whose every trial takes longer, or
+    of one of which facts are stated or words are asked."""
+    if len(trial.claim.blocks) > SHORT or trial.claim.directives or trial.answer.profile.questions:
         return []
     found = dict[frozenset[Edit], Candidate]()
     drafts = dict[frozenset[tuple[str, int]], list[Candidate]]()

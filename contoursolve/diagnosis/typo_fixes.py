@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.drafts import missing_points
-from contoursolve.diagnosis.edits import Edit, apply_edits, change, mend
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, mend
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.explain import Context, report, spans_of
 from contoursolve.diagnosis.slip_kinds import POINT_LOST, Speech, Typed, texts_of
@@ -13,7 +13,16 @@ from contoursolve.diagnosis.spelling import meant_in
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Word, lookalike_at, parse_block
-from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, codes_of
+from contoursolve.reading import Dialect, Effect, Modes, ParsedContour, ReadIssue, State, codes_of
+
+
+def forgotten_codes(answer: Answer, modes: Modes) -> Iterator[tuple[Edit, ...]]:
+    """The codes of contours that may have been forgotten, where words mean nothing without one."""
+    words = (word for block in answer.claim.blocks for word in block.words if word.address == "G")
+    lines = dict.fromkeys(word.span.line for word in answer.claim.unknown)
+    codes = [f"G{number}" for number, code in modes.codes.items() if code.effect is Effect.CONTOUR]
+    for line in sorted(lines.keys() - {word.span.line for word in words}):
+        yield from ((Edit(EditKind.ADD, "G", text=code, line=line),) for code in codes)
 
 
 def point_slips(answer: Answer) -> Iterator[tuple[Edit, ...]]:

@@ -197,7 +197,8 @@ class Window(Struct, frozen=True, dict=True):
     @cached_property
     def _waiting(self) -> frozenset[int]:
         """The lines of contours of which nobody knows where they begin."""
-        return frozenset(each.span.line for each in self.before.problems if each.about in _FOLLOWING)
+        found = (each for part in self.before.parts for each in _findings(part))
+        return frozenset(each.span.line for each in found if each.about in _FOLLOWING)
 
     def mends(self, seen: Seen, meant: Collection[Enum] = ()) -> bool:
         """Whether nothing of its own is wrong then, nothing new elsewhere, and no contour has lost its place."""
@@ -212,8 +213,12 @@ class Window(Struct, frozen=True, dict=True):
         # The last blocks may belong to what is not seen any more.
         end = self.behind[-1].line if self.behind else last + 1
         found = list[Diagnostic]()
+        stated_more = {line for answer in seen.answers if answer.profile.is_extended for line in answer.lines}
         for each in seen.problems:
             line = each.span.line
+            if each.about is None and each.severity is Severity.WARNING and line in stated_more:
+                # Rules of the manual only warn where more is stated or asked than the control reads.
+                continue
             if each.about in _MEANT or each.about in meant or (agrees(each) and not old.has_code(each.code)):
                 continue
             is_new = (each.code, line) not in old.keys and line < end and line not in lost
@@ -272,8 +277,11 @@ def agrees(finding: Diagnostic) -> bool:
 
 
 def _problems(part: WindowPart) -> list[Diagnostic]:
-    found = (*part.findings, *(part.answer.diagnostics if part.answer else ()))
-    return [each for each in found if each.severity is not Severity.INFO]
+    return [each for each in _findings(part) if each.severity is not Severity.INFO]
+
+
+def _findings(part: WindowPart) -> tuple[Diagnostic, ...]:
+    return (*part.findings, *(part.answer.diagnostics if part.answer else ()))
 
 
 def _seen(parts: Sequence[WindowPart]) -> Seen:

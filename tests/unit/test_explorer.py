@@ -519,8 +519,8 @@ def test_a_solution_is_chosen_by_fselect_behind_its_element():
     now = Talk(PARTED, **TNC)
     assert now.answer.status is Status.AMBIGUOUS
     for number, end in ((2, (-37.947, -12.649)), (1, (37.947, 12.649))):
-        items = {each["selects"]: each["number"] for each in now.view["solutions"]["items"]}
-        solution = items[f"FSELECT {number} after line 2"]
+        items = {each["selects"].partition(" after ")[0]: each["number"] for each in now.view["solutions"]["items"]}
+        solution = items[f"FSELECT {number}"]
         ghost = now.do("ghost", solution=solution).own.state["ghost"]
         assert f"FSELECT {number}" in ghost["text"]
         assert len(ghost["paths"]) >= 1

@@ -52,7 +52,7 @@ def test_an_angle_that_is_asked_for_is_looked_for_in_its_range(within, turns):
 
 
 def test_a_block_that_leaves_something_open_has_no_answer():
-    with pytest.raises(FamilyError, match="radius of corner 1 is still open"):
+    with pytest.raises(FamilyError, match=r"radius of the rounding P\? is still open"):
         find_word("G111 X100. A180. K-30. B120. P?", "A", "end Z-50.", start=START)
     asked = find_word(BLOCK.replace("P5.", "P?"), "K", "end X300.", start=START, facts=["straight part of line 2 = 20"])
     assert (asked.hits, asked.remark.partition("; ")[0]) == ((), "K does not move end in this direction")
