@@ -377,7 +377,7 @@ class _Follower:
         return replace(self._travel(block, here, motion, (start, end), None), free=free)
 
     def _ends(self, before: State, after: State, moved: Sequence[str] = ()) -> tuple[Place, Place, tuple[str, ...]]:
-        """Where a move along some axes begins and ends, and the axes on which only its step is known."""
+        """The begin and the end of a move along some axes, and the axes on which only its step is known."""
         start, end = [*self._place(before)], [*self._place(after)]
         free = tuple(
             axis

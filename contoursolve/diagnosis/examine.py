@@ -188,7 +188,7 @@ class Answer(Shown, Struct, frozen=True):
 
     @property
     def led(self) -> tuple[float, float]:
-        """How far steps have led before it where its place is not known, mm: from the place that was lost."""
+        """The way that steps have led before it where its place is not known, mm: from the place that was lost."""
         of_axes = zip(self.plane.axes, self.start.free, strict=True)
         first, second = (float(self.claim.before.axes[axis].beyond) if is_free else 0.0 for axis, is_free in of_axes)
         return first, second

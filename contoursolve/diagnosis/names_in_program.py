@@ -12,7 +12,7 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import number_text
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import FACT, Block
-from contoursolve.geometry import FIRST, SECOND, Arc, Coordinate, CornerShape, Heading, Line, Offset, Profile, Unit
+from contoursolve.geometry import FIRST, SECOND, Arc, CornerShape, Line, Profile, Unit
 
 _NTH = ("first", "second", "third", "4th", "5th", "6th")
 _NAME = r"(?<!program )\b(?:line|arc|corner) \d+\b(?! = )"
@@ -135,22 +135,26 @@ def _places(profile: Profile) -> Places:
     if profile.start.is_relative:
         return places
     places[figure.start] = [None if value is None else float(value) for value in profile.start.values]
+    values = {name: float(given.value) for name, given in givens.items()}
     for _ in figure.path:
         for fact in profile.facts:
-            value = float(givens[fact.given].value) if getattr(fact, "given", "") in givens else 0.0
-            match fact:
-                case Coordinate():
-                    places[fact.point][fact.axis] = value
-                case Offset() if (origin := places[fact.origin][fact.axis]) is not None:
-                    places[fact.point][fact.axis] = origin + value
-                case Heading() if value % 90 == 0:
-                    across = SECOND if value % 180 == 0 else FIRST
-                    places[fact.head][across] = places[fact.tail][across]
+            placed = fact.placed
+            if placed is None or (placed.is_stepped and fact.given not in values):
+                continue
+            origin = places[placed.origin][placed.axis] if placed.origin else 0.0
+            if origin is not None:
+                step = values[fact.given] if placed.is_stepped else 0.0
+                places[placed.point][placed.axis] = origin + step
+        for line in figure.path:
+            heading = values.get(line.heading or "") if isinstance(line, Line) else None
+            if heading is not None and heading % 90 == 0:
+                across = SECOND if heading % 180 == 0 else FIRST
+                places[line.head][across] = places[line.tail][across]
     return places
 
 
 def _way(element: Line | Arc, places: Places, profile: Profile) -> str:
-    """What an element is and from where to where it runs; empty where the program does not say both ends."""
+    """The kind of an element, and from where to where it runs; empty where the program does not say both ends."""
     begin, end = places[element.tail], places[element.head]
     at, to = (
         ["" if value is None else _text(value, axis, profile) for axis, value in enumerate(each)]

@@ -105,6 +105,8 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
         styled(trial.with_numbers(each, may_try=at < _MOST_COUNTED) if each.example else each, trial)
         for at, each in enumerate(found)
     ]
+    # Of a word that may be of several sizes and one that may be of one alone, that is left to who knows the drawing.
+    found.sort(key=lambda each: (each.cost, not each.numbers))
     added = frozenset((edit.address, edit.line) for edits in tried for edit in edits if edit.kind is EditKind.ADD)
     is_cut = not (is_complete and are_all)
     return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added, is_cut=is_cut)

@@ -85,7 +85,9 @@ def _find_repairs(
     is_open = any(each.kind is FaultKind.COMMENT_NOT_CLOSED for block in answer.claim.blocks for each in block.faults)
     if is_open or (not answer.start.is_known and _waits(answer)):
         return Repairs((), is_complete=False)
-    trial = Trial(answer, dialect, window or alone(answer, dialect))
+    if window is None or not window.begins_at(answer.claim.before.start()):
+        window = alone(answer, dialect)
+    trial = Trial(answer, dialect, window)
     if answer.start.is_known and not problems(answer):
         return choose_repairs(trial, [point_slips(answer)])
     drop_sets = DropSets((), is_complete=False)

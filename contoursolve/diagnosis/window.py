@@ -14,7 +14,7 @@ from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
 from contoursolve.gcode import Block
-from contoursolve.geometry import Unit
+from contoursolve.geometry import Start, Unit
 from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, advance, leave
 from contoursolve.solving import ArcSegment, Contour, LineSegment, Point, Segment, opposes
 from contoursolve.tolerance import AGREEMENT
@@ -141,7 +141,12 @@ class Window(Struct, frozen=True, dict=True):
         """The result with edits, up to the first thing that is wrong with its own blocks; None where they change
         nothing."""
         texts = apply_edits(self.blocks, edits)
-        changed = [at for at, block in enumerate(self.blocks) if texts[at] != block.text]
+        facts = {edit.span for edit in edits if edit.span is not None and edit.span.line < 0}
+        changed = [
+            at
+            for at, block in enumerate(self.blocks)
+            if texts[at] != block.text or any(each.span in facts for each in block.directives)
+        ]
         if not changed:
             return None
         parts, places = self._parts, self._places
@@ -149,8 +154,10 @@ class Window(Struct, frozen=True, dict=True):
         kept = next(at for at, part in enumerate(parts) if places[at] + part.reach > changed[0])
         begin, seen = places[kept], parts[:kept]
         syntax, blocks = self.dialect.modes.syntax, list[Block]()
-        for block, text in zip(self.blocks[begin:], texts[begin:], strict=True):
-            if text == block.text:
+        for at, (block, text) in enumerate(zip(self.blocks, texts, strict=True)):
+            if at < begin:
+                continue
+            if at not in changed:
                 blocks.append(block)
             elif text.strip():
                 blocks += read_edited(block, text, syntax)
@@ -180,6 +187,11 @@ class Window(Struct, frozen=True, dict=True):
         is_left = self.has_contour(seen) or all(edit.kind is EditKind.DROP for edit in edits)
         is_whole = all(part.answer is None or part.answer.contour is not None for part in self._own(seen))
         return seen if is_left and is_whole else None
+
+    def begins_at(self, start: Start) -> bool:
+        """Whether its own blocks begin at a start; else that is assumed, and the blocks before do not lead there."""
+        first = next(self._own(self.before), None)
+        return first is None or first.before.start().values == start.values
 
     def has_contour(self, seen: Seen) -> bool:
         """Whether some of its own blocks are a contour then."""

@@ -191,7 +191,7 @@ class Consequences:
                 self._contours[id(finding)] = item.lines
 
     def beneath(self, error: Diagnostic) -> str:
-        """What follows from an error, in one line; empty if nothing does, or another error there has said it."""
+        """The contours that wait for an error, in one line; empty where another error has said it."""
         found = [each for line in self._contours.pop(id(error), ()) for each in self._waiting.pop(line, ())]
         told = []
         for about, (one, several) in WAITS.items():

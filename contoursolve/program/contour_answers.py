@@ -119,9 +119,13 @@ def _has_odd_points(answer: Answer) -> bool:
 
 
 def _window(dialect: Dialect, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts, own: int = 0) -> "Window":
-    """The blocks around a contour; its own are as many more as `own` says."""
+    """The blocks around a contour; its own are as many more as `own` says. Behind it, no contour is cut in two, as far
+    as so many blocks are known."""
     view, after = pending.view, pending.after + own
-    return window_of(ahead, view[:after], view[after : after + NEAR], answer.claim.before, dialect, parts)
+    behind, count = view[after : after + BEHIND], NEAR
+    while count < len(behind) and dialect.signs(behind[count - 1]):
+        count += 1
+    return window_of(ahead, view[:after], behind[:count], answer.claim.before, dialect, parts)
 
 
 def _around(pending: Pending, ahead: Ahead) -> Sequence[Block]:

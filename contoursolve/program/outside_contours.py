@@ -212,10 +212,10 @@ def _of_unread(
     context: Context, block: Block, here: State, dialect: Dialect, previous: Previous | None
 ) -> Iterator[Diagnostic]:
     """That a block is not read, which is told once of several in a row."""
-    unread = dialect.modes.unread(block, here)
-    if unread is None or is_read_by_arcs(unread, block, here, dialect.modes):
+    unread, is_needed = dialect.modes.unread(block, here), bool(dialect.signs(block))
+    if unread is None or (not is_needed and is_read_by_arcs(unread, block, here, dialect.modes)):
         return
-    last, is_needed = previous[0][-1].words if previous else (), bool(dialect.signs(block))
+    last = previous[0][-1].words if previous else ()
     is_first = unread in block.words and all(name_of(each) != name_of(unread) for each in last)
     if is_needed or is_first:
         yield not_read_yet(context, unread, is_needed=is_needed)

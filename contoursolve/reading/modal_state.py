@@ -69,7 +69,7 @@ class Position:
     assumed: Decimal | None = None
     """The place where it would be, mm, if the contour that lost it had its best fix."""
     beyond: Decimal = Decimal(0)
-    """How far increments have led beyond the place that is not known, mm."""
+    """The way that increments have led beyond the place that is not known, mm."""
 
     def step(self, by: Decimal) -> "Position":
         """An unknown place, some mm further."""

@@ -297,7 +297,7 @@ def _disagree(arc: PlainArc) -> bool:
 
 
 def _of_point_between(arc: PlainArc) -> Iterator[ArcFault]:
-    """Whether the point between the ends lies in line with them: then there is no circle, or a full one."""
+    """That the point between the ends lies in line with them: then there is no circle, or a full one."""
     first, second = (0.0 if each is None else each.value for each in arc.between)
     way = arc.way
     if way is None or first is None or second is None:

@@ -288,7 +288,8 @@ def test_a_finding_about_a_fact_that_is_stated_apart_stands_at_its_block():
     regions = [each["locations"][0]["physicalLocation"]["region"] for each in log["results"]]
     assert regions == [{"startLine": 1, "startColumn": 1, "endColumn": len(ONE[3]) + 1}] * 2
     fixes = [fix for each in log["results"] for fix in each.get("fixes", ())]
-    assert 'delete --fact "X of V1 = 42"; delete --fact "X of V2 = 100"' in fixes[0]["description"]["text"]
+    both = 'delete --fact "X of V1 = 42"; delete --fact "X of V2 = 100"'
+    assert any(both in each["description"]["text"] for each in fixes)
 
 
 def test_contours_behind_a_refused_one_are_checked_from_where_its_best_fix_ends(save):
@@ -306,8 +307,7 @@ def test_contours_behind_a_refused_one_are_checked_from_where_its_best_fix_ends(
     assert [each["end"] for each in document["contours"]] == [None] * 4
     told = [(each["code"], each["line"]) for each in document["diagnostics"]]
     errors = [("g111-corner-too-large", 2), ("g111-corner-too-large", 4)]
-    behind = [("position-unknown", 3), ("position-unknown", 4), ("position-unknown", 5)]
-    behind += [("start-assumed", 3), ("start-assumed", 4), ("contour-waits", 5)]
+    behind = [(code, line) for code in ("position-unknown", "start-assumed") for line in (3, 4, 5)]
     assert sorted(told) == sorted([*errors, *behind])
     # 20 mm is the largest P; with it line 2 ends at the same point.
     assert "checked from Z-35.7735 X60.0000 mm, where the best fix of program line 2 ends" in run("solve", path)[1]

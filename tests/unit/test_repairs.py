@@ -131,7 +131,7 @@ def zigzag(length: int, **changed: str) -> str:
         (zigzag(30, line_15="G1 X300 Y10 R2"), "write ,R2 for R2", 0),
         (zigzag(30, line_15="G1 X300 Y10 ,R2 ,C3"), "delete ,C3", 1),
         (zigzag(30, line_15="G1 X300 Y10 ,A30. ,R2"), "delete ,A30.", 0),
-        (zigzag(30, line_15="G1 ,A30. ,R2"), "add X?", 1),
+        (zigzag(30, line_15="G1 ,A30. ,R2"), "add X?", 0),
         (zigzag(30, line_15="G2 X300 Y10 ,R2"), "add R?", 0),
     ],
 )

@@ -104,7 +104,7 @@ def test_the_first_words_of_a_sketch_are_told_for_each_control(ask) -> None:
         (
             "sketch_words",
             {"element": [{"kind": "line", "AN": "180"}, {"kind": "line", "AN": "120", "X": "60"}]},
-            "the sketch is underdetermined: one entry is missing: Z, LEN or IZ of line 1, or Z of line 2",
+            "the sketch is not finished: one entry is missing: Z, LEN or IZ of line 1, or Z of line 2",
         ),
     ],
 )
