@@ -243,7 +243,7 @@ def test_a_description_tells_the_path_or_what_prevents_one():
         ("G111 X100. A180. K-30. B120. Z-95", {"Z-95"}, {"Z-95 = -0.095 mm"}),
         ("G111 X100. A180. K-30. B120. P5", set(), set()),
         # Its point alone would not mend this one.
-        ("G111 Z95 A180. X100. B120.", {"A180.", "Z95"}, {"A180."}),
+        ("G111 Z95 A180. X100. B120.", {"A180.", "Z95"}, {"A180.", "Z95 = 0.095 mm"}),
         ("G111 X100. A180. K-30. B120. E7.", {"E7."}, set()),
         ("G111 X100. A180. K-30. B12O.", {"B12O."}, {"B12"}),
         ("G111 X100. A180. K-30. B120. B130.", {"B120.", "B130."}, {"B120."}),
