@@ -81,8 +81,9 @@ def names_of(profile: Profile, blocks: Sequence[Block], numbers: Mapping[int, st
     the program says it, and its line if the contour has several; `numbers` are those of its blocks, if they count."""
     figure, names = profile.figure, dict[str, tuple[str, str, str]]()
     lines = {number: line for line, number in numbers.items()}
+    first = _first_lines(profile)
     own = {
-        each.name: lines.get(each.name.partition(" ")[2]) or _line_of(each, profile) or blocks[0].line
+        each.name: lines.get(each.name.partition(" ")[2]) or _line_of(each, first) or blocks[0].line
         for each in figure.path
     }
     several, places = len({*own.values()}) > 1, _places(profile)
@@ -113,16 +114,24 @@ def names_of(profile: Profile, blocks: Sequence[Block], numbers: Mapping[int, st
     return names
 
 
-def _line_of(element: Line | Arc, profile: Profile) -> int:
+def _first_lines(profile: Profile) -> dict[str, int]:
+    """The line of the first word that says something of each point and each number of a figure."""
+    found = dict[str, int]()
+    for fact in profile.facts:
+        given = profile.givens.get(getattr(fact, "given", ""))
+        word = given.word if given is not None else None
+        if word is None or word.address == FACT:
+            continue
+        for value in map(partial(getattr, fact), getattr(fact, "__struct_fields__", ())):
+            if isinstance(value, str):
+                found[value] = min(found.get(value, word.span.line), word.span.line)
+    return found
+
+
+def _line_of(element: Line | Arc, first: Mapping[str, int]) -> int:
     """The line of the first word that says something of an element; 0 if none does."""
-    parts = {element.name, element.head, *((element.center, element.radius) if isinstance(element, Arc) else ())}
-    words = [
-        profile.givens[given].word
-        for fact in profile.facts
-        if (given := getattr(fact, "given", "")) in profile.givens
-        and parts.intersection(value for value in map(partial(getattr, fact), getattr(fact, "__struct_fields__", ())))
-    ]
-    return min((word.span.line for word in words if word is not None and word.address != FACT), default=0)
+    parts = (element.name, element.head, *((element.center, element.radius) if isinstance(element, Arc) else ()))
+    return min((first[part] for part in parts if part in first), default=0)
 
 
 Places = dict[str, list[float | None]]
@@ -137,6 +146,7 @@ def _places(profile: Profile) -> Places:
     places[figure.start] = [None if value is None else float(value) for value in profile.start.values]
     values = {name: float(given.value) for name, given in givens.items()}
     for _ in figure.path:
+        before = {name: [*place] for name, place in places.items()}
         for fact in profile.facts:
             placed = fact.placed
             if placed is None or (placed.is_stepped and fact.given not in values):
@@ -150,6 +160,8 @@ def _places(profile: Profile) -> Places:
             if heading is not None and heading % 90 == 0:
                 across = SECOND if heading % 180 == 0 else FIRST
                 places[line.head][across] = places[line.tail][across]
+        if before == places:
+            break
     return places
 
 

@@ -207,6 +207,10 @@ class Window(Struct, frozen=True, dict=True):
                 yield LineChange(block.span, text, block.text)
 
     @cached_property
+    def _known_problems(self) -> frozenset[tuple[str, int]]:
+        return self.before.keys
+
+    @cached_property
     def _waiting(self) -> frozenset[int]:
         """The lines of contours of which nobody knows where they begin."""
         found = (each for part in self.before.parts for each in _findings(part))
@@ -220,7 +224,7 @@ class Window(Struct, frozen=True, dict=True):
         """The problems of its own blocks then, and new ones elsewhere. What is wrong with contours that waited for it
         shows only then."""
         first, last = self.lines[0], self.lines[-1]
-        old = self.before
+        old, keys = self.before, self._known_problems
         lost = self._waiting - seen.changed
         # The last blocks may belong to what is not seen any more.
         end = self.behind[-1].line if self.behind else last + 1
@@ -230,12 +234,12 @@ class Window(Struct, frozen=True, dict=True):
         for each in seen.problems:
             line = each.span.line
             is_rule = each.about is None and each.severity is Severity.WARNING
-            if is_rule and line in stated_more and (each.code, line) in old.keys:
+            if is_rule and line in stated_more and (each.code, line) in keys:
                 # Rules of the manual only warn where more is stated or asked than the control reads.
                 continue
             if each.about in _MEANT or each.about in meant or (agrees(each) and not old.has_code(each.code)):
                 continue
-            is_new = (each.code, line) not in old.keys and line < end and line not in lost
+            is_new = (each.code, line) not in keys and line < end and line not in lost
             found += [each] if is_new or first <= line <= last else []
         return found
 
