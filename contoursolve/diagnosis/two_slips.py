@@ -16,6 +16,9 @@ from contoursolve.diagnostics import Diagnostic
 MOST_FIRST, MOST_PAIRS = 60, 100
 """Slips of which each is looked at alone, and pairs that are tried."""
 
+MOST_LACKING = 2
+"""Facts that may be missing: each slip hides one word at most."""
+
 SECOND = 1.0
 """The cost of a second slip besides that of its kind: two are less likely than one."""
 
@@ -25,13 +28,17 @@ def two_slips(trial: Trial) -> list[Candidate]:
     of one of which facts are stated or words are asked."""
     if len(trial.claim.blocks) > SHORT or trial.claim.directives or trial.answer.profile.questions:
         return []
+    if trial.prospects is not None and trial.prospects.lacking > MOST_LACKING:
+        return []
     found = dict[frozenset[Edit], Candidate]()
     drafts = dict[frozenset[tuple[str, int]], list[Candidate]]()
     # What cannot be read is an error until an edit touches it.
     torn = {each.span for block in trial.window.own for each in block.faults}
     for first in islice(_drafts(trial, trial.marked), MOST_FIRST):
+        if torn and not any(touches(edit, span) for edit in first.edits for span in torn):
+            continue
         left = _left(trial, first.edits)
-        if not left or (torn and not any(touches(edit, span) for edit in first.edits for span in torn)):
+        if not left:
             continue
         key = frozenset((each.code, each.span.line) for each in left)
         if key not in drafts:

@@ -450,7 +450,7 @@ def test_sections_that_are_opened_show_the_equations_and_follow_each_word(desk, 
 def test_whatever_part_of_an_answer_comes_first_all_of_it_is_shown(desk, order):
     desk.page.evaluate("order => (window.order = order)", order)
     desk.page.locator("details.equations > summary").click()
-    for value, status in (("60", "without a solution"), ("9", "solved")):
+    for value, status in (("60", "cannot be cut"), ("9", "solved")):
         field = desk.page.locator(".row[data-word='P'] input.value")
         field.fill(value)
         field.press("Enter")
