@@ -229,13 +229,14 @@ class Window(Struct, frozen=True, dict=True):
         # The last blocks may belong to what is not seen any more.
         end = self.behind[-1].line if self.behind else last + 1
         found = list[Diagnostic]()
-        with_facts = (each for each in seen.answers if each.claim.directives or each.profile.questions)
-        stated_more = {line for answer in with_facts for line in answer.lines}
+        has_error = any(each.is_error and first <= each.span.line <= last for each in old.problems)
+        extended = (answer for answer in seen.answers if has_error and answer.profile.is_extended)
+        stated_more = {line for answer in extended for line in answer.lines}
         for each in seen.problems:
             line = each.span.line
             is_rule = each.about is None and each.severity is Severity.WARNING
             if is_rule and line in stated_more and (each.code, line) in keys:
-                # Rules of the manual only warn where more is stated or asked than the control reads.
+                # Beside an error, rules of the manual only warn where more is stated or asked than the control reads.
                 continue
             if each.about in _MEANT or each.about in meant or (agrees(each) and not old.has_code(each.code)):
                 continue
