@@ -344,7 +344,7 @@ def test_the_picture_follows_the_cursor_and_both_show_a_word(window, address, pr
     editor.command("Draw the Contour Beside")
     picture.locator("text[data-word='P'].marked").first.wait_for()
     page.screenshot(path=artefacts / "vscode-picture.png")
-    assert "corner 1 does not fit" in picture.locator("section").inner_text()
+    assert "the rounding P4. does not fit" in picture.locator("section").inner_text()
 
     # Another word, another contour, and a block that is none.
     editor.go_to(21, 12)
