@@ -27,7 +27,7 @@ KLARTEXT = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL AN+60\n3 FL X+Q1 Y+20 AN-30\n4 E
 def test_check_says_for_which_values_a_contour_exists_and_what_ends_them():
     first, below, why = notes(START + BLOCK.replace("#101", "5."))
     assert (first, why) == ("#100 makes a contour from 50.000 on", "#100: #100 is set by nothing before")
-    assert below.startswith("#100 below 50.000: P5. and Q5. overlap on line 2")
+    assert below.startswith("#100 below 50.000: P5. and Q5. overlap on the second straight")
     # Behind this (rounded into the range), the line of 60 deg runs past the end of the one of -30 deg.
     least = ceil(20_000 * cos(radians(60)) / cos(radians(30))) / 1000
     assert notes(KLARTEXT)[0] == f"Q1 makes a contour from {least} on"
