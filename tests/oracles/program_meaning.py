@@ -75,6 +75,9 @@ def _of_contour(
     lines: tuple[int, ...], answers: list[Answer], parts: list[tuple[list[Move], bool]], *, is_other: bool
 ) -> Iterator[Verdict]:
     """The verdict about a contour; if another pass of it `is_other`, it is refused or has other lines."""
+    if any(each.start.is_relative for each in answers):
+        yield Verdict("unknown", lines, "start-relative: a shape without a place")
+        return
     solved = [own for each in answers if each.status.value == "solved" and (own := path_told(each))]
     try:
         # Where a corner beside it is refused, a contour begins at its point, or ends there.

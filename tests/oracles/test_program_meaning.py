@@ -94,7 +94,9 @@ def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]
             # In whose coordinates such a path would be is not stated.
             raise Hard
         if isinstance(path, Open):
-            # Its corners are left as they are.
+            if len(chain) > 1:
+                # Its corners are made where all of it is increments, and else left as they are.
+                raise Hard
             for each in chain:
                 end = each.seen(each.end, each.zero)
                 found.append((complex(*end[:, 0]) if is_known(end) else None, None))
