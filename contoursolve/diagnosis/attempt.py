@@ -216,7 +216,8 @@ class Trial(Struct, frozen=True, dict=True):
         if several is not None and several.reach is not None:
             return True
         # Beside what is open, each trial gives up the same search again.
-        return answer.profile.is_extended and self.is_about(OPEN) and is_given_up(answer.profile)
+        is_open = answer.start.is_known and answer.profile.is_extended and self.is_about(OPEN)
+        return is_open and is_given_up(answer.profile)
 
     @cached_property
     def is_crossing_curves(self) -> bool:
