@@ -295,7 +295,7 @@ def test_a_new_program_is_empty_and_quiet_until_something_is_asked_of_it(opened)
     assert not page.locator(".trouble:not(:empty)").count()
     # Nothing is found where the controls differ, for nothing is checked.
     page.keyboard.press("Control+a")
-    page.keyboard.type("G18 G99\nG00 X20. Z2.\nG01 Z-10. ,R4.\nX24. ,C5.\nZ-30.\nX40. ,A100. Z-42.\n")
+    page.keyboard.type("G90\nG00 X0 Y0\nG01 X40 ,R4\nY30\nX9 Y90\n")
     page.get_by_role("heading", name="Not checked").wait_for()
     page.locator(".findings .scroll", has_text="differently").wait_for()
     page.get_by_label("Control").select_option("fanuc-lathe")
