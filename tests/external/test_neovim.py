@@ -36,7 +36,7 @@ local function ask(method, params)
 end
 
 local function drive()
-  vim.wait(longest, function() return #vim.diagnostic.get(0, errors) > 0 end)
+  vim.wait(longest, function() return #vim.diagnostic.get(0, errors) >= EXPECTED end)
   look("before")
   local found = vim.diagnostic.get(0, errors)[2]
   vim.api.nvim_win_set_cursor(0, { found.lnum + 1, found.col })
@@ -91,7 +91,9 @@ def test_neovim_shows_findings_and_applies_a_fix(tmp_path, request) -> None:
     expected = [each for each in check_file(program) if each.severity is Severity.ERROR]
     name = "neovim" if version_of(nvim) >= FIRST_WITH_CONFIG else "neovim-0.7"
     (tmp_path / "init.lua").write_text(lines_of(name), encoding="utf-8")
-    (tmp_path / "driver.lua").write_text(DRIVER.replace("LONGEST", str(LONGEST)), encoding="utf-8")
+    (tmp_path / "driver.lua").write_text(
+        DRIVER.replace("LONGEST", str(LONGEST)).replace("EXPECTED", str(len(expected))), encoding="utf-8"
+    )
 
     own = {"PATH": f"{command.parent}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}
     own |= {f"XDG_{each}_HOME": str(tmp_path / each.lower()) for each in ("CONFIG", "DATA", "STATE", "CACHE")}

@@ -235,7 +235,7 @@ def test_variables_and_the_start_point_are_followed_while_they_are_typed(opened,
     assert page.get_by_label("#18").get_attribute("placeholder") == "0.5"
     page.get_by_role("textbox", name="#24").fill("60")
     page.get_by_label("#4").fill("8,5")
-    page.get_by_label("Start point").fill("X60. Z2.")
+    page.get_by_role("textbox", name="Start point").fill("X60. Z2.")
     page.locator(".view.variables .contours button", has_text="solved").wait_for()
     assert "solved" in contour.inner_text()
     page.get_by_label("#4").fill("abc")
