@@ -152,7 +152,7 @@ def _slips(first: str, second: str) -> int:
 
 
 _STRETCH = re.compile(
-    r"(?:(?P<sign>[,#.]++)[ \t]*+)?+(?P<name>[A-Z]++)(?:(?<=[A-Z]{2})[ \t]++R(?![A-Z]))?+"
+    r"(?>(?:(?P<sign>[,#.]++)[ \t]*+)?)(?P<name>[A-Z]++)(?>(?:(?<=[A-Z]{2})[ \t]++R(?![A-Z]))?)"
     r"(?P<between>[ \t]*+[=:,]*+[ \t]*+)(?P<number>[+-]?+(?:\d[\d.,]*+|\.\d[\d.,]*+))",
     re.IGNORECASE | re.ASCII,
 )

@@ -218,7 +218,7 @@ def _define(line: LineReader, kind: re.Match[str]) -> Iterator[MacroStatement]:
     of_type = VariableType[kind["type"].upper()]
     empty = Quoted("") if of_type is VariableType.STRING else Constant(0.0)
     while True:
-        found = line.need(r"(?P<name>[A-Z_]\w*+)[ \t]*+(?P<size>\[[\d, \t]++\])?+")
+        found = line.need(r"(?P<name>[A-Z_]\w*+)[ \t]*+(?>(?P<size>\[[\d, \t]++\])?)")
         name = found["name"].upper()
         ends = [range(int(each)) for each in re.findall(r"\d+", found["size"] or "")]
         elements = [f"{name}[{','.join(map(str, each))}]" for each in itertools.product(*ends)] if ends else [name]
@@ -312,7 +312,7 @@ def _synchronous(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatem
 
 
 _TABLE = (
-    Spelling(rf"{SYNCHRONOUS}(?P<moves>{MOVES_BESIDE})?+.*+", _synchronous),
+    Spelling(rf"{SYNCHRONOUS}(?>(?P<moves>{MOVES_BESIDE})?).*+", _synchronous),
     Spelling(r"%.*+", nothing),
     Spelling(r"(?P<label>[A-Z_]\w++):(?!=)", _label),
     Spelling(
@@ -322,7 +322,7 @@ _TABLE = (
         ),
         _define,
     ),
-    Spelling(rf"PROC[ \t]++(?P<name>\w++)[ \t]*+(?P<formal>{IN_PARENTHESES})?+(?P<words>.*+)", _procedure),
+    Spelling(rf"PROC[ \t]++(?P<name>\w++)[ \t]*+(?>(?P<formal>{IN_PARENTHESES})?)(?P<words>.*+)", _procedure),
     Spelling(_key("(?:DEF|EXTERN|REDEF|DEFINE)") + ".*+", nothing),
     Spelling(_key("IF"), _if),
     Spelling(_key("ELSE"), lambda *_: [Else()]),
@@ -347,7 +347,7 @@ _TABLE = (
     Spelling(r"M0*+17(?![\w.=])", lambda *_: [Return()], stays=True),
     Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
     Spelling(
-        r"(?P<name>\$?(?:[A-Z_]{2}\w*+|[A-Z]\d*+))[ \t]*+(?P<index>" + IN_BRACKETS + r")?+[ \t]*+=(?!=)[ \t]*+",
+        r"(?P<name>\$?(?:[A-Z_]{2}\w*+|[A-Z]\d*+))[ \t]*+(?>(?P<index>" + IN_BRACKETS + r")?)[ \t]*+=(?!=)[ \t]*+",
         _equals,
     ),
     Spelling(r"(?P<name>L\d++)(?![\w.])", _call),

@@ -272,7 +272,7 @@ def _without_end(text: str, mark: str) -> str:
 
 _BETWEEN_WORDS = late_pattern(r";|,(?=\s)|,$")
 _NAMED = late_pattern(
-    r"(?:[(\[]|;\s*+\(?+)\s*+contoursolve\s*+:?+\s*+(?P<role>trust|reference)(?:ed|d|s)?+(?:\s*+:|(?=\s))",
+    r"(?:[(\[]|;\s*+\(?+)\s*+contoursolve\s*+:?+\s*+(?P<role>trust|reference)(?>(?:ed|d|s)?)(?:\s*+:|(?=\s))",
     re.IGNORECASE,
 )
 _DIRECTIVE = late_pattern(r"(?:[(\[]|;\s*+\(?+)\s*+contoursolve\s*+:", re.IGNORECASE)

@@ -49,7 +49,7 @@ def plain_spelling(words: str, comments: str, names: str = "", **others: Any) ->
     the letter of an axis."""
     behind, asides = zip(*(_COMMENTS[each] for each in comments), strict=True)
     aside = late_pattern("|".join((*asides, names or "(?!)")), _FLAGS)
-    line = rf"{_BLANKS}(?:{words})?+{''.join(behind)}(?:\r\n|\n|\r|\Z)"
+    line = rf"{_BLANKS}(?>(?:{words})?){''.join(behind)}(?:\r\n|\n|\r|\Z)"
     several = late_pattern(rf"(?>(?:{line}){{1,{MOST_TOGETHER}}})", _FLAGS)
     return PlainSpelling(late_pattern(line, _FLAGS), several, aside, **others)
 

@@ -355,3 +355,12 @@ def test_what_others_ask_of_a_constraint_is_a_field_of_its_kind():
         asking.update(used & imported if room_of(module) not in BUILDING else ())
     assert naming.total() / len(kinds) <= MOST_NAMING, naming
     assert asking.total() / len(kinds) <= MOST_ASKING, asking
+
+
+def test_no_pattern_repeats_a_group_possessively():
+    """Python before 3.11.5 reads that wrongly (gh-106052); an atomic group says the same."""
+    again = re.compile(r"(?<!\\)\)[?*+]\+")
+    texts = {short(module): code_of(module) for module in MODULES}
+    lines = ((name, line.strip()) for name, text in texts.items() for line in text.splitlines())
+    found = [f"{name}: {line}" for name, line in lines if again.search(line) and not line.startswith("#")]
+    assert found == []

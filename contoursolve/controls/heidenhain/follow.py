@@ -213,7 +213,7 @@ _MOVING: tuple[tuple[re.Pattern[str], ZeroRow], ...] = tuple(
 """The moves of the coordinate system: by numbers along axes, or in a way that is not followed."""
 ZERO = table_of((), {}, "XYZ", beside=(row for _, row in _MOVING))
 """At first, no shift is in force."""
-_SHIFT = re.compile(r"(?P<step>I?)(?P<axis>[XYZ])[ \t]*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))?+", re.IGNORECASE)
+_SHIFT = re.compile(r"(?P<step>I?)(?P<axis>[XYZ])[ \t]*+(?>(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))?)", re.IGNORECASE)
 _TOOL = re.compile(
     BLOCK_NUMBER + r"TOOL[ \t]+CALL[ \t]+(?:\"[^\"]*\"|\S+)[ \t]+(?P<axis>[XYZUVW])(?=[ \t;]|$)", re.IGNORECASE
 )

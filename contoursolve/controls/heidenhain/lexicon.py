@@ -206,7 +206,7 @@ def spelling(name: str, words: PlaneWords, senses: str = OF_SENSES, corners: str
         rf"|(?:{long})[ \t]*+[+-]?+[\d.,Q?]|(?:DR|CLSD)[ \t]*+[+-]|[FMS][ \t]*+[\dQ]"
     )
     own = (
-        rf"{_LACKS_R}|(?:F[LC]T?)?+(?:{long}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d=]|[A-Z]++(?<=Q)\d"
+        rf"{_LACKS_R}|(?>(?:F[LC]T?)?)(?:{long}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d=]|[A-Z]++(?<=Q)\d"
         r"|[A-Z]++(?<=Q[LRS])\d"
     )
     each_word = (
