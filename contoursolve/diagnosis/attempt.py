@@ -41,7 +41,7 @@ from contoursolve.diagnosis.slips_around import (
 from contoursolve.diagnosis.spelling import torn_codes
 from contoursolve.diagnosis.stated_values import Geometry
 from contoursolve.diagnosis.subsets import blamed_spans
-from contoursolve.diagnosis.window import Seen, Window, alone, parts_of, path_of
+from contoursolve.diagnosis.window import LINE, Seen, Window, alone, parts_of, path_of
 from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Span
 from contoursolve.gcode import Block, spell
 from contoursolve.geometry import FIRST, SECOND, Profile, Unit, assemble, scalar
@@ -266,7 +266,7 @@ class Trial(Struct, frozen=True, dict=True):
         if seen is None or not (is_parted or self._is_whole(seen)):
             return None
         contour = path_of(seen, self.lines)
-        if contour is None and any(part.after.motion != _LINE for part in parts_of(seen, self.lines)):
+        if contour is None and any(part.after.motion != LINE for part in parts_of(seen, self.lines)):
             contour = self._path_beside_arcs(edits)
         if contour is None or (contour.crossing is not None and self.is_about({ReadIssue.AXIS_CROSSED})):
             return None
@@ -542,8 +542,6 @@ _USUAL_ANGLES = [Decimal(each) for each in (45, 135, 90, 30, 60, 120, 150, 0)]
 _MOST_NUMBERS = 8
 """Numbers that are tried for one placeholder, where none can be computed."""
 
-_LINE = 1
-"""The motion along lines."""
 OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 _OF_CIRCLES = tuple(kind for kind in RefusalKind if re.search("radius|circle", kind.event.code))
 

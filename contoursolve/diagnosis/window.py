@@ -19,7 +19,7 @@ from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, Stat
 from contoursolve.solving import ArcSegment, Contour, LineSegment, Point, Segment, opposes
 from contoursolve.tolerance import AGREEMENT
 
-_LINE, _FEEDS = 1, (1, 2, 3)
+LINE, _FEEDS = 1, (1, 2, 3)
 """The motion along a line, and those that cut."""
 
 
@@ -259,7 +259,7 @@ def path_of(seen: Seen, lines: Collection[int]) -> Contour | None:
             contours.append(part.answer.contour)
             elements += part.answer.contour.elements
         elif moves := [*_moves(part)]:
-            if part.after.motion != _LINE:
+            if part.after.motion != LINE:
                 return None
             elements += [LineSegment(f"line {len(elements) + 1}", each.start, each.end) for each in moves]
     if contours and len(elements) == len(contours[0].elements):

@@ -192,7 +192,8 @@ class Examination:
         strange = [each for block in blocks for each in self._codes_beside(block, contour)]
         step = Step(blocks, here.state, findings=(*here.findings, *strange))
         told = self._explain_lost(lost, contour.blocks, here.state) if lost is not None else None
-        pending = self.queue.add(contour, step, view, len(blocks), here.ahead, told)
+        pending = Pending(contour, step, view, len(blocks), here.ahead, told)
+        self.queue.add(pending)
 
         def behind() -> Cursor:
             told = tuple(word.span for word in contour.unread if word.span.line > blocks[-1].line)

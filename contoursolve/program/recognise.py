@@ -215,6 +215,16 @@ class Recogniser:
         self._shown: set[str] = {SINUMERIK_FILE} if _OF_SINUMERIK.search(name) else set()
         self._is_turned = False
 
+    @classmethod
+    def of(cls, blocks: Iterable[Block], name: str) -> "Recogniser":
+        """What the blocks of a program of this name show, up to one that only one control's programs begin with."""
+        recogniser = cls(name)
+        for line in in_passages(blocks):
+            recogniser.look(line)
+            if recogniser.begun is not None:
+                break
+        return recogniser
+
     def look(self, line: Block | Passage) -> None:
         """Take a block, or plain lines, into account."""
         if isinstance(line, Block):
@@ -337,12 +347,7 @@ def recognise(blocks: Iterable[Block], name: str = "") -> Dialect | None:
 
     Raises UnknownControlError if its blocks show more than one.
     """
-    recogniser = Recogniser(name)
-    for line in in_passages(blocks):
-        recogniser.look(line)
-        if recogniser.begun is not None:
-            break
-    return recogniser.find()
+    return Recogniser.of(blocks, name).find()
 
 
 def has_arcs(text: str) -> bool:
@@ -355,9 +360,7 @@ def readers_of_arcs(program: Program) -> tuple[str, ...]:
     machine and the word of a radius tell."""
     if not has_arcs(program.text):
         return ()
-    recogniser = Recogniser(program.name)
-    for line in in_passages(program.blocks):
-        recogniser.look(line)
+    recogniser = Recogniser.of(program.blocks, program.name)
     has_radius = _RADIUS.search(ISO.comment.sub(" ", program.text)) is not None
     return tuple(
         name

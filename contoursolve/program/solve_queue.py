@@ -75,7 +75,8 @@ Ahead = tuple[tuple[Sequence[Block] | Passage, State], ...]
 
 
 class Pending:
-    """A contour that is found and not solved yet, in a state, and what follows it."""
+    """A contour that is found and not solved yet, in a state, and what follows it: it begins a view, and ends before
+    its block `after`."""
 
     def __init__(
         self,
@@ -123,21 +124,11 @@ class Queue:
         self.dialect, self.together, self.answers, self.goes_on = dialect, together, answers, goes_on
         self.pending: list[Pending] = []
 
-    def add(
-        self,
-        contour: ParsedContour,
-        step: Step,
-        view: View,
-        after: int,
-        ahead: Ahead = (),
-        lost: Diagnostic | None = None,
-    ) -> Pending:
-        """A contour that begins a view and ends before its block `after`; without company, it is solved at once."""
-        pending = Pending(contour, step, view, after, ahead, lost)
+    def add(self, pending: Pending) -> None:
+        """Take a contour; without company, it is solved at once."""
         self.pending.append(pending)
         if self.together is None:
             self.settle()
-        return pending
 
     def settle(self) -> None:
         """Solve what is pending: first what starts from a known point, then what begins where that ends, and so on."""

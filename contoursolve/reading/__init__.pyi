@@ -131,6 +131,7 @@ from .plain_arcs import (
     arc_of as arc_of,
     faults_of as faults_of,
     is_read_by_arcs as is_read_by_arcs,
+    is_surely_right as is_surely_right,
     suspected as suspected,
     table_in as table_in,
 )

@@ -410,6 +410,17 @@ def _modal_arcs(lines: tuple[str, ...], index: int, syntax: Syntax) -> Iterator[
             yield place
 
 
+def is_surely_right(table: ArcTable, way: Pair, shape: Pair | float) -> bool:
+    """Whether an arc along a way is right within all that its control allows, by its centre, counted from where it
+    begins, or by its radius."""
+    if isinstance(shape, float):
+        is_negative = shape < 0 and table.refuses_negative
+        return LENGTH < hypot(*way) / 2 <= abs(shape) and not is_negative
+    radius = hypot(*shape)
+    off = abs(radius - hypot(way[0] - shape[0], way[1] - shape[1]))
+    return radius > LENGTH and table.allows(off, radius)
+
+
 class _Quick:
     """Reads plain lines as a glance does, to pass those that are surely right."""
 
@@ -444,13 +455,9 @@ class _Quick:
         if has_center == has_radius or len(words.keys() & {"I", "J", "K"}) > (one in words) + (other in words):
             return False
         if has_radius:
-            size = abs(words[self.radius] * scale[self.radius])
-            is_negative = words[self.radius] < 0 and self.table.refuses_negative
-            return LENGTH < hypot(*way) / 2 <= size and not is_negative
+            return is_surely_right(self.table, way, words[self.radius] * scale[self.radius])
         spoke = words.get(one, 0.0) * scale[one], words.get(other, 0.0) * scale[other]
-        radius = hypot(*spoke)
-        off = abs(radius - hypot(way[0] - spoke[0], way[1] - spoke[1]))
-        return radius > LENGTH and self.table.allows(off, radius)
+        return is_surely_right(self.table, way, spoke)
 
     def _before(self, lines: tuple[str, ...], index: int, axis: str, syntax: Syntax) -> float | None:
         """The place of an axis before a line, mm."""

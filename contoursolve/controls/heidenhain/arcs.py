@@ -2,13 +2,11 @@
 
 import re
 from collections.abc import Iterator
-from math import hypot
 
 from contoursolve.controls.heidenhain.follow import CENTER, TOOL_AXIS, is_of_machine
 from contoursolve.controls.heidenhain.lexicon import ABOUT_CENTER, LEXICON, SYNTAX, function_of
 from contoursolve.gcode import Block, Passage, late_pattern, parse_block, words_of
-from contoursolve.reading import ArcWord, Mode, Modes, PlainArc, State, apply_modes, table_in
-from contoursolve.tolerance import LENGTH
+from contoursolve.reading import ArcWord, Mode, Modes, PlainArc, State, apply_modes, is_surely_right, table_in
 
 _BY_RADIUS = "CR"
 _POLAR = ("PR", "PA", "IPR", "IPA")
@@ -112,13 +110,9 @@ def suspected(passage: Passage, state: State, modes: Modes) -> Iterator[int]:
             continue
         (x, y), (to_x, to_y) = ((each or 0.0 for each in pair) for pair in (begin, end))
         to_x, to_y = to_x * scale, to_y * scale
-        if name == _BY_RADIUS:
-            is_right = LENGTH < hypot(to_x - x, to_y - y) / 2 <= abs(words.get("R", 0.0)) * scale
-        else:
-            first, second = (each or 0.0 for each in center)
-            radius = hypot(x - first, y - second)
-            is_right = radius > LENGTH and table.allows(abs(radius - hypot(to_x - first, to_y - second)), radius)
-        if not is_right:
+        first, second = (each or 0.0 for each in center)
+        shape = words.get("R", 0.0) * scale if name == _BY_RADIUS else (first - x, second - y)
+        if not is_surely_right(table, (to_x - x, to_y - y), shape):
             yield index
 
 
