@@ -13,8 +13,8 @@ from contoursolve.diagnosis.slips_around import Candidate, Marked, drafts_around
 from contoursolve.diagnosis.window import Seen
 from contoursolve.diagnostics import Diagnostic
 
-MOST_FIRST, MOST_PAIRS = 60, 100
-"""Slips of which each is looked at alone, and pairs that are tried."""
+MOST_FIRST, MOST_PAIRS = 16, 40
+"""Slips of which each is looked at alone, and pairs that are tried; the corpus of pairs gains nothing by more."""
 
 MOST_LACKING = 2
 """Facts that may be missing: each slip hides one word at most."""
@@ -24,11 +24,16 @@ SECOND = 1.0
 
 
 def two_slips(trial: Trial) -> list[Candidate]:
-    """Pairs of slips around a contour, the most plausible first; none of a long one, whose every trial takes longer, or
-    of one of which facts are stated or words are asked."""
+    """Pairs of slips around a contour, the most plausible first; none of a long one, whose every trial takes longer, of
+    one of which facts are stated or words are asked, or of one with the finding of the contour before: that has one
+    cause."""
     if len(trial.claim.blocks) > SHORT or trial.claim.directives or trial.answer.profile.questions:
         return []
     if trial.prospects is not None and trial.prospects.lacking > MOST_LACKING:
+        return []
+    first_line = trial.window.lines[0]
+    ahead = {each.code for each in trial.window.before.problems if each.span.line < first_line}
+    if any(each.code in ahead for each in _own(trial, trial.window.before)):
         return []
     found = dict[frozenset[Edit], Candidate]()
     drafts = dict[frozenset[tuple[str, int]], list[Candidate]]()

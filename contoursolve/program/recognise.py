@@ -217,7 +217,7 @@ class Recogniser:
 
     @classmethod
     def of(cls, blocks: Iterable[Block], name: str) -> "Recogniser":
-        """What the blocks of a program of this name show, up to one that only one control's programs begin with."""
+        """The recogniser of a program of this name, with its blocks up to one that only one control's programs have."""
         recogniser = cls(name)
         for line in in_passages(blocks):
             recogniser.look(line)
