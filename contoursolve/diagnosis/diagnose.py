@@ -98,7 +98,7 @@ def diagnose(
     return _with_both(known.answer, text, beside)
 
 
-_CUT = "no change that was tried mends it alone; the search ended early, so that others may"
+_CUT = "no change that was tried mends it alone; not all could be tried"
 """The note where a search for fixes ended before all that it thought of was tried."""
 
 _CERTAIN = 1.5

@@ -402,8 +402,8 @@ def problems(answer: Answer) -> list[Diagnostic]:
 
 def may_be_suspected(answer: Answer, beside: Iterable[Block], around: Callable[[], Sequence[Block]]) -> bool:
     """Whether a contour is worth a second look: a turned one that crosses its axis, or runs away from the chuck
-    somewhere, an arc of more than half a turn, a number that begins with a zero, a turning axis, a corner or a taper
-    unlike all others in the blocks around, of which some are beside it."""
+    somewhere, an arc of more than half a turn, a number that begins with a zero, a turning axis, a tool on the side of
+    the material, a corner or a taper unlike all others in the blocks around, of which some are beside it."""
     contour, claim = answer.contour, answer.claim
     if contour is None:
         return False
@@ -417,7 +417,21 @@ def may_be_suspected(answer: Answer, beside: Iterable[Block], around: Callable[[
             return True
     if next(leading_words(claim), None) or next(turning_words(claim), None):
         return True
+    if along is not None and is_compensated_inward(answer) is (contour.end[1 - along] > contour.start[1 - along]):
+        return True
     return stands_out(claim, beside, around)
+
+
+def is_compensated_inward(answer: Answer) -> bool | None:
+    """Whether the compensation of a turned contour leads the tool towards the axis on a way to the chuck; None where
+    none is in force."""
+    state = answer.claim.before
+    if state.compensation not in (_LEFT, _RIGHT) or not any(state.plane.diameters):
+        return None
+    return (state.compensation == _LEFT) is state.plane.diameters[1]
+
+
+_LEFT, _RIGHT = 41, 42
 
 
 def leading_words(claim: ParsedContour) -> Iterator[Word]:

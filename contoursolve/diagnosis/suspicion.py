@@ -8,10 +8,11 @@ from itertools import pairwise
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair, Trial
-from contoursolve.diagnosis.edits import Edit, EditKind
+from contoursolve.diagnosis.edits import Edit, EditKind, change
 from contoursolve.diagnosis.examine import SUSPICIONS, Answer, leading_words, problems, turning_words
 from contoursolve.diagnosis.explain import context_of, report
 from contoursolve.diagnosis.fix_text import with_fixes
+from contoursolve.diagnosis.material_side import in_material
 from contoursolve.diagnosis.odd_points import aslant, open_end
 from contoursolve.diagnosis.outliers import other_taper, sharp_corner, taper_of
 from contoursolve.diagnosis.plausibility import Feature, familiarity, numbers_of, oddities, rounding_of
@@ -73,6 +74,10 @@ def _unlike(answer: Answer, window: Window) -> Iterator[tuple[str, Sequence[Word
     """The reasons for which one block stands out from all others of the drawing, the words that it is about, what they
     were meant to be, and the drafts."""
     claim = answer.claim
+    if side := in_material(answer, window):
+        code, meant, what = side
+        reason = f"beside this {what}, the tool runs in the material"
+        yield reason, [code], meant, [Candidate((change(code, meant),), (None,), ())]
     if word := other_taper(claim, window.blocks):
         taper = taper_of(word)
         reason = f"it is a taper of {angle_text(taper)}, and all others are {angle_text(90 - taper)}"

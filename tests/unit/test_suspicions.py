@@ -41,6 +41,23 @@ def test_what_is_hardly_meant_is_a_warning_with_what_was_meant(control, text, li
     assert not check(text, control=control, settings={f"{control}.suspicions": "off"})
 
 
+OUTSIDE = "G00 X16. Z2.\n{} G01 Z0. F0.15\nX20. ,C1.\nZ-25. ,R3.\nX30.\nG40 G00 X{}."
+BORE = "G00 X60. Z2.\n{} G01 Z0. F0.15\nX40. ,C1.\nZ-25. ,R3.\nX30.\nZ-40.\nG40 G00 X{}."
+
+
+@pytest.mark.parametrize("control", ["fanuc-lathe", "haas-lathe"])
+@pytest.mark.parametrize(
+    ("text", "away", "wrong", "right"), [(OUTSIDE, 34, "G41", "G42"), (BORE, 26, "G42", "G41")], ids=["outside", "bore"]
+)
+def test_a_compensation_into_the_material_is_told_where_the_path_leaves_no_doubt(control, text, away, wrong, right):
+    (finding,) = check(text.format(wrong, away), control=control)
+    assert (finding.code, finding.span.line) == ("suspected", 2)
+    assert finding.fixes[0].description.startswith(f"write {right} for {wrong} in program line 2")
+    assert not check(text.format(right, away), control=control)
+    # A tool that leaves through what would be the material tells that it is the other side.
+    assert not check(text.format(wrong, 60 - away), control=control)
+
+
 @pytest.mark.parametrize("right", RIGHT)
 def test_right_programs_are_told_nothing(right):
     named = settings(right["control"], right)
