@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair, Repairs
 from contoursolve.diagnosis.certain_slips import MendedText, about, certain_slips
-from contoursolve.diagnosis.edits import EditKind, edited, write_word
+from contoursolve.diagnosis.edits import EditKind, edited
 from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Depth, Policy, examine, problems, rank
 from contoursolve.diagnosis.explain import (
     AGAINST,
@@ -184,7 +184,7 @@ class _Diagnosed(Struct, frozen=True):
         fixing = dict[int, Sequence[Repair]]()
         if main is not None:
             for number in (main, *_both(findings)):
-                fixing[number] = _expected_first(findings[number], repairs.repairs, answer.claim)
+                fixing[number] = repairs.repairs
                 findings[number] = with_fixes(findings[number], answer, fixing[number])
             if repairs.is_cut and not repairs.repairs:
                 findings[main] = replace(
@@ -193,25 +193,6 @@ class _Diagnosed(Struct, frozen=True):
         alone = (each.cost_of_edits for each in repairs.repairs if not each.is_double)
         cost = min(alone, default=float("inf"))
         return cls(replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis), fixing, cost)
-
-
-def _expected_first(finding: Diagnostic, repairs: tuple[Repair, ...], claim: ParsedContour) -> tuple[Repair, ...]:
-    """Repairs; where the first one writes a value in the word whose expected value an error tells, the one that writes
-    that value is first, if a slip explains it. A warning expects what the control takes anyway."""
-    given = next((each for each in claim.givens.values() if each.word and each.word.span == finding.span), None)
-    if given is None or given.word is None or "expected" not in finding.values or finding.severity != Severity.ERROR:
-        return repairs
-    value = given.of_typed(finding.values["expected"])
-    expected = write_word(given.word.address, value, claim.lexicon, claim.after.unit)
-
-    def changed(repair: Repair) -> str:
-        """The word as a repair that changes nothing else writes it."""
-        is_about = all(edit.kind is EditKind.CHANGE and edit.span == finding.span for edit in repair.edits)
-        return repair.edits[0].text.replace("+", "") if is_about else ""
-
-    if not repairs or not changed(repairs[0]):
-        return repairs
-    return tuple(sorted(repairs, key=lambda each: not (any(each.slips) and changed(each) == expected)))
 
 
 def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:

@@ -9,26 +9,12 @@ from math import copysign
 from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, change, drop, mend, write_word
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
-from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, unanswerable, with_comma
+from contoursolve.diagnosis.spelling import meant_words, respelled, unanswerable, with_comma
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at, number_of
-from contoursolve.reading import ParsedContour, ReadIssue
+from contoursolve.reading import ParsedContour
 from contoursolve.solving import RefusalKind
 from contoursolve.tolerance import INCREMENT
-
-_FEW = 8
-"""Slips of which each is tried alone; each of many would take time by the square of a line's length."""
-
-
-def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """Decimal points added to the words that lack them: each alone where others of the block have one, and all."""
-    missing = [each for each in answer.diagnostics if each.about is ReadIssue.POINT_MISSING]
-    spans = spans_of(missing)
-    edits = [change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
-    if len(missing) == len(spans):
-        yield from ((edit,) for edit in edits)
-    if len(edits) > 1:
-        yield tuple(edits)
 
 
 def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -45,22 +31,6 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     if edits:
         yield tuple(edits)
     if len(edits) > 1:
-        yield from ((edit,) for edit in edits)
-
-
-def mended_words(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """Text that is almost a word as the word that it is meant to be, in G codes and where something cannot be read:
-    all, and each of a few alone."""
-    claim = answer.claim
-    meant = {each.span: each for each in meant_words(claim)}
-    for block in claim.blocks:
-        unread = [fault.span for fault in block.faults]
-        unread += [word.span for word in claim.unknown if word.span.line == block.line]
-        meant |= {each.span: each for each in meant_in(block, unread)}
-    edits = [mend(each) for each in meant.values()]
-    if edits:
-        yield tuple(edits)
-    if 1 < len(edits) <= _FEW:
         yield from ((edit,) for edit in edits)
 
 

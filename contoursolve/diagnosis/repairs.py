@@ -15,7 +15,6 @@ from contoursolve.diagnosis.drafts import (
     fitting,
     has_faults,
     marked,
-    mended_words,
     moving,
     unreadable,
 )
@@ -92,15 +91,14 @@ def _find_repairs(
         return choose_repairs(trial, [point_slips(answer)])
     drop_sets = DropSets((), is_complete=False)
     stages: Iterable[Iterable[tuple[Edit, ...]]] = ()
-    if torn_codes(answer.claim):
-        # Without its letters the code is another one, which nobody has written.
-        stages = [mended_words(answer)]
-    elif answer.profile.is_extended:
+    # With letters in its number a code is another one, which nobody has written.
+    is_meant = not torn_codes(answer.claim)
+    if is_meant and answer.profile.is_extended:
         # Few blocks state more than their words.
         from contoursolve.diagnosis.drafts_beside_facts import further_drafts  # noqa: PLC0415
 
         stages = further_drafts(answer, trial)
-    elif answer.start.is_known:
+    elif is_meant and answer.start.is_known:
         drop_sets = find_drop_sets(answer, dialect)
         stages = _of_words(answer, trial, drop_sets)
     repairs = choose_repairs(trial, stages if answer.start.is_known else ())

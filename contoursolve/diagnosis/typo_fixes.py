@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.drafts import missing_points
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, mend
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.explain import Context, report, spans_of
@@ -26,8 +25,7 @@ def forgotten_codes(answer: Answer, modes: Modes) -> Iterator[tuple[Edit, ...]]:
 
 
 def point_slips(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """Points in the words that are said to lack one: in all of them, then in each."""
-    yield from missing_points(answer)
+    """Points in each of the words that are said to lack one."""
     lacking = spans_of(answer.diagnostics, ReadIssue.POINT_MISSING)
     claim, speech = answer.claim, Speech.of(answer.claim)
     words = [word for word in claim.words.values() if word.span in lacking]
