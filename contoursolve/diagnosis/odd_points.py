@@ -29,7 +29,7 @@ from contoursolve.tolerance import AGREEMENT
 _FEWEST = 4
 """Lines of a path in which one stands out."""
 
-SHIFTED = SlipKind("shifted", "the start of the corner", 1.5, "slips by hand, tests/slips")
+SHIFTED = SlipKind("shifted", "the start of the corner", "", 1.5, "slips by hand, tests/slips")
 
 
 class Vertex(NamedTuple):

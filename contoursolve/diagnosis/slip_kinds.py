@@ -370,13 +370,17 @@ SEEN = "slips by hand and at random, tests/slips and tests/unit/test_typing.py"
 
 
 class SlipKind(Struct, frozen=True):
-    """A kind of slip: its name, what happened in words, how unlikely it is, and what a word may have been meant to be.
+    """A kind of slip: its name, what happened in words, an example, how unlikely it is, and what a word may have been
+    meant to be.
 
+    `example` is what is typed for what is meant, behind the name of a control other than fanuc-lathe, with | between
+    blocks; empty for a kind that other drafts are explained by.
     `cost` is the negative natural logarithm of its share among slips, about, and `why` where that is known from.
     """
 
     name: str
     sentence: str
+    example: str
     cost: float
     why: str
     changes: Changes = Changes.ADDRESS
@@ -385,71 +389,101 @@ class SlipKind(Struct, frozen=True):
     """Whether it leaves few texts of each word; dozens else."""
 
 
-UNREADABLE = SlipKind("unreadable", "", 0.3, TYPING, _D, lambda typed: [mended(typed.word.text)])
+UNREADABLE = SlipKind("unreadable", "", "", 0.3, TYPING, _D)
 """Letters for digits, commas for points, two points or signs: told by the finding itself."""
-ZERO_FIRST = SlipKind("zero-first", "two digits swapped", 0.4, TYPING, _D, _zero_first)
-POINT_LOST = SlipKind("point-lost", "", 0.9, SEEN, _D, _point_lost)
-COMMA = SlipKind("comma", "", 0.9, SEEN, _A, _comma)
-SIGN_LOST = SlipKind("sign-lost", "a lost minus sign", 1.6, SEEN, _S, _sign_lost)
-NEIGHBOUR = SlipKind("neighbour", "the word of another corner", 1.7, MEANING, _A, _neighbour)
-SIGN_ADDED = SlipKind("sign-added", "a minus sign too many", 1.8, SEEN, _S, _sign_added)
+ZERO_FIRST = SlipKind("zero-first", "two digits swapped", "Z-06. for Z-60.", 0.4, TYPING, _D, _zero_first)
+POINT_LOST = SlipKind("point-lost", "", "X50 for X50.", 0.9, SEEN, _D, _point_lost)
+COMMA = SlipKind("comma", "", "C2. for ,C2.", 0.9, SEEN, _A, _comma)
+SIGN_LOST = SlipKind("sign-lost", "a lost minus sign", "Z60. for Z-60.", 1.6, SEEN, _S, _sign_lost)
+NEIGHBOUR = SlipKind(
+    "neighbour",
+    "the word of another corner",
+    "yasnac-lx3: G111 A180. K-28. B150. X64. P6. for G111 A180. K-28. B150. X64. Q6.",
+    1.7,
+    MEANING,
+    _A,
+    _neighbour,
+)
+SIGN_ADDED = SlipKind("sign-added", "a minus sign too many", "X-50. for X50.", 1.8, SEEN, _S, _sign_added)
 SUPPLEMENT = SlipKind(
-    *("supplement", "the angle from the other side", 1.9, MEANING, _D),
+    *("supplement", "the angle from the other side", ",A30. for ,A150.", 1.9, MEANING, _D),
     _angles(lambda angle: [(_HALF if angle > 0 else -_HALF) - angle] if abs(angle) < _HALF else ()),
 )
-POINT_LOST_IN_FEW = SlipKind("point-lost-few", "a lost decimal point", 2.2, TYPING, _D, _point_lost_in_few)
-POINT_MOVED = SlipKind("point-moved", "the decimal point moved", 2.0, SEEN, _D, _point_moved)
-ZERO_LOST = SlipKind("zero-lost", "a lost zero", 2.3, SEEN, _D, _zero_lost)
-LETTER_ALIKE = SlipKind("letter-alike", "another letter", 2.4, TYPING, _A, _letter_alike)
+POINT_LOST_IN_FEW = SlipKind(
+    "point-lost-few", "a lost decimal point", "siemens-840d: X125 for X12.5", 2.2, TYPING, _D, _point_lost_in_few
+)
+POINT_MOVED = SlipKind("point-moved", "the decimal point moved", "Z-2.5 for Z-25.", 2.0, SEEN, _D, _point_moved)
+ZERO_LOST = SlipKind("zero-lost", "a lost zero", ",A15. for ,A150.", 2.3, SEEN, _D, _zero_lost)
+LETTER_ALIKE = SlipKind("letter-alike", "another letter", "X-60. for Z-60.", 2.4, TYPING, _A, _letter_alike)
 OPPOSITE = SlipKind(
-    *("opposite", "the other way along the line", 2.3, MEANING, _D),
+    *("opposite", "the other way along the line", ",A-30. for ,A150.", 2.3, MEANING, _D),
     _angles(lambda angle: [angle - _HALF if angle >= _HALF else angle + _HALF]),
 )
 OTHER_AXIS = SlipKind(
-    *("other-axis", "the angle from the other axis", 2.9, MEANING, _D),
+    *("other-axis", "the angle from the other axis", ",A30. for ,A120.", 2.9, MEANING, _D),
     _angles(lambda angle: (angle + _QUARTER, _QUARTER - angle, angle - _QUARTER)),
 )
 COMPLEMENT = SlipKind(
-    *("complement", "the angle from the other axis", 2.9, MEANING, _D), _angles(lambda angle: [_complement(angle)])
+    *("complement", "the angle from the other axis", ",A150. for ,A120.", 2.9, MEANING, _D),
+    _angles(lambda angle: [_complement(angle)]),
 )
 FEW = (
-    UNREADABLE,
     ZERO_FIRST,
     POINT_LOST,
     COMMA,
     SIGN_LOST,
     NEIGHBOUR,
     SIGN_ADDED,
-    SlipKind("choice", "the other sign", 1.8, MEANING, _S, _sign_of_choice),
+    SlipKind("choice", "the other sign", "nct-99m: Q-1 for Q1", 1.8, MEANING, _S, _sign_of_choice),
     SUPPLEMENT,
     POINT_LOST_IN_FEW,
     POINT_MOVED,
-    SlipKind("zero-added", "a zero too many", 2.0, SEEN, _D, _zero_added),
+    SlipKind("zero-added", "a zero too many", "Z-600. for Z-60.", 2.0, SEEN, _D, _zero_added),
     ZERO_LOST,
-    SlipKind("other-address", "another word", 0.9, MEANING, _A, _other_address),
-    SlipKind("other-letter", "another letter", 2.1, TYPING, _A, _other_letter),
+    SlipKind(
+        "other-address",
+        "another word",
+        "siemens-840d: G1 ANGG=170 RND=6|X64 Z-60 ANG=110 for G1 ANG=170 RND=6|X64 Z-60 ANG=110",
+        0.9,
+        MEANING,
+        _A,
+        _other_address,
+    ),
+    SlipKind(
+        "other-letter",
+        "another letter",
+        "yasnac-lx3: G111 A180. K-28. E150. X64. for G111 A180. K-28. B150. X64.",
+        2.1,
+        TYPING,
+        _A,
+        _other_letter,
+    ),
     LETTER_ALIKE,
-    SlipKind("increment", "a word of another control", 1.0, MEANING, _A, _increment),
-    SlipKind("twice", "a digit typed twice", 2.2, TYPING, _D, _typed_twice),
-    SlipKind("swapped", "two digits swapped", 2.4, TYPING, _D, _swapped),
+    SlipKind("increment", "a word of another control", "siemens-840d: U10 for X=IC(10)", 1.0, MEANING, _A, _increment),
+    SlipKind("twice", "a digit typed twice", "Z-660. for Z-60.", 2.2, TYPING, _D, _typed_twice),
+    SlipKind("swapped", "two digits swapped", "Z-26. for Z-62.", 2.4, TYPING, _D, _swapped),
     OPPOSITE,
-    SlipKind("across", "a diameter for a radius", 1.8, MEANING, _D, _half_across),
-    SlipKind("diameter", "a diameter for a radius, or the reverse", 2.6, MEANING, _D, _twice_or_half),
+    SlipKind("across", "a diameter for a radius", "I8. for I4.", 1.8, MEANING, _D, _half_across),
+    SlipKind("diameter", "a diameter for a radius, or the reverse", "X25. for X50.", 2.6, MEANING, _D, _twice_or_half),
     OTHER_AXIS,
 )
 """Kinds that leave few texts of each word."""
 OF_DIGITS = (
-    SlipKind("key-beside", "a key beside", 3.8, TYPING, _D, _digits(_BESIDE_DIGIT.__getitem__), False),
-    SlipKind("digit-lost", "a lost digit", 4.0, TYPING, _D, _digit_lost, False),
-    SlipKind("digit-added", "a digit too many", 4.0, TYPING, _D, _digits(lambda _: [""]), False),
-    SlipKind("other-digit", "another digit", 4.8, TYPING, _D, _digits(lambda _: _BESIDE_DIGIT), False),
+    SlipKind(
+        "key-beside", "a key beside", "Z-70. for Z-60.", 3.8, TYPING, _D, _digits(_BESIDE_DIGIT.__getitem__), False
+    ),
+    SlipKind("digit-lost", "a lost digit", "Z-6. for Z-65.", 4.0, TYPING, _D, _digit_lost, False),
+    SlipKind("digit-added", "a digit too many", "Z-605. for Z-60.", 4.0, TYPING, _D, _digits(lambda _: [""]), False),
+    SlipKind(
+        "other-digit", "another digit", "Z-90. for Z-60.", 4.8, TYPING, _D, _digits(lambda _: _BESIDE_DIGIT), False
+    ),
 )
 """Kinds that leave dozens."""
-ROUND = SlipKind("round", "", 3.0, SEEN, _D)
+ROUND = SlipKind("round", "", "", 3.0, SEEN, _D)
 """Digits that are wrong: the others make it a round number."""
-CODE = SlipKind("code", "", 2.0, TYPING)
+CODE = SlipKind("code", "", "", 2.0, TYPING)
 """Another G code, or one that was forgotten."""
-SLIPS = (*FEW, CODE, *OF_DIGITS, ROUND)
+SLIPS = (UNREADABLE, *FEW, CODE, *OF_DIGITS, ROUND)
 
 
 def texts_of(slip: SlipKind, typed: Typed | None) -> Iterator[str]:

@@ -12,7 +12,7 @@ from contoursolve.diagnosis.edits import Edit, EditKind, change, drop
 from contoursolve.diagnosis.slip_kinds import MEANING, SlipKind, number_in, plain_code
 from contoursolve.diagnosis.vocabulary import names_like
 from contoursolve.diagnosis.window import Window
-from contoursolve.diagnostics import Span
+from contoursolve.diagnostics import Span, typing_distance
 from contoursolve.gcode import Block, Word, find_lookalikes
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Effect, State, WithoutPoint, advance
@@ -190,15 +190,6 @@ def _like(text: str, code: str) -> str:
     return f"G0{code[1:]}" if has_two and len(code) == 2 else code  # noqa: PLR2004
 
 
-def _is_near(one: str, two: str) -> bool:
-    """Whether two numbers have swapped digits, or one digit between them is another one."""
-    if len(one) == len(two):
-        apart = [(a, b) for a, b in zip(one, two, strict=True) if a != b]
-        return len(apart) == 1 or (len(apart) == 2 and apart[0] == apart[1][::-1])  # noqa: PLR2004
-    short, long = sorted((one, two), key=len)
-    return len(long) == len(short) + 1 and any(long[:at] + long[at + 1 :] == short for at in range(len(long)))
-
-
 def _pairs(*pairs: tuple[str, str]) -> Meant:
     return lambda _near, _block, word: (meant for typed, meant in pairs if typed == plain_code(word.text))
 
@@ -223,7 +214,7 @@ def _almost(word: Word, codes: Iterable[str]) -> list[str]:
     """The codes that differ from one by a slip of its digits."""
     text, own = word.text.strip(), plain_code(word.text)
     others = (code for code in codes if re.fullmatch(r"G\d+", code) and code != own)
-    return [code for code in others if _is_near(text[1:], _like(text, code)[1:])]
+    return [code for code in others if typing_distance(text.upper(), _like(text, code)) == 1]
 
 
 def _arc_for_line(near: Near, block: Block, word: Word) -> Sequence[str]:
@@ -383,8 +374,8 @@ class SeveralKind(Struct, frozen=True):
     edits: Callable[[Near], Iterator[Edits]]
 
 
-def _kind(name: str, sentence: str, cost: float, edits: Callable[[Near], Iterator[Edits]]) -> SeveralKind:
-    return SeveralKind(SlipKind(name, sentence, cost, MEANING), edits)
+def _kind(name: str, sentence: str, example: str, cost: float, edits: Callable[[Near], Iterator[Edits]]) -> SeveralKind:
+    return SeveralKind(SlipKind(name, sentence, example, cost, MEANING), edits)
 
 
 def _less(place: Place, other: Place) -> Place:
@@ -394,34 +385,91 @@ def _less(place: Place, other: Place) -> Place:
 _ORIGIN = Decimal(0), Decimal(0)
 
 SEVERAL = (
-    _kind("respelled", "", 0.5, _respelled),
-    _kind("misspelt", "", 0.7, _misspelt),
-    _kind("all-points", "", 0.4, _all_points),
-    _kind("words-swapped", "two words swapped", 1.4, _exchanged(*_CENTRES)),
-    _kind("ends-swapped", "two words swapped", 2.6, _exchanged(*_ENDS)),
+    _kind("respelled", "", "fanuc-mill: G01 X30. ,,C2. for G01 X30. ,C2.", 0.5, _respelled),
+    _kind("misspelt", "", "heidenhain: FTL X+10 for FLT X+10", 0.7, _misspelt),
+    _kind("all-points", "", "fanuc-mill: G01 X30 Y40 for G01 X30. Y40.", 0.4, _all_points),
     _kind(
-        *("from-start", "the centre counted from the start", 2.0),
+        "words-swapped",
+        "two words swapped",
+        "fanuc-mill: G03 X40. Y70. I0. J-20. for G03 X40. Y70. I-20. J0.",
+        1.4,
+        _exchanged(*_CENTRES),
+    ),
+    _kind("ends-swapped", "two words swapped", "fanuc-mill: G01 X70. Y40. for G01 X40. Y70.", 2.6, _exchanged(*_ENDS)),
+    _kind(
+        *(
+            "from-start",
+            "the centre counted from the start",
+            "fanuc-mill: G00 X60. Y50.|G03 X40. Y70. I40. J50. for G00 X60. Y50.|G03 X40. Y70. I-20. J0.",
+            2.0,
+        ),
         _centres(lambda start, end: (_less(_ORIGIN, start), _less(end, start))),
     ),
-    _kind("from-origin", "the centre counted from the origin", 3.0, _centres(lambda start, end: (start, end))),
-    _kind("both-signs", "two lost minus signs", 3.0, _both_signs),
-    _kind("turn", "the other way round", 2.1, _codes(_pairs(*_both("G2", "G3"), *_both("DR+", "DR-")))),
-    _kind("motion-lost", "", 1.6, _motion_lost),
-    _kind("line-for-arc", "an arc", 1.6, _codes(_arc_for_line)),
-    _kind("tangent", "the tangent", 1.9, _codes(_tangents)),
-    _kind("no-tangent", "no tangent", 3.4, _codes(_pairs(("FLT", "FL"), ("FCT", "FC")))),
-    _kind("free-line", "", 2.0, _codes(_pairs(("L", "FL"), ("C", "FC")))),
-    _kind("plane", "another plane", 1.6, _codes(_pairs(*_both("G17", "G18", "G19")), everywhere=True)),
-    _kind("increments", "", 2.6, _codes(_pairs(*_both("G90", "G91")), everywhere=True)),
-    _kind("increments-again", "", 1.2, _said_again),
-    _kind("compensation", "", 2.2, _codes(_sides, everywhere=True)),
-    _kind("code", "", 2.4, _codes(_digits(draws=False), everywhere=True)),
-    _kind("other-code", "", 4.8, _codes(_digits(draws=True), everywhere=True)),
-    _kind("rapid", "", 2.8, _codes(_pairs(("G0", "G1")))),
-    _kind("between", "", 0.0, _between),
-    _kind("blocks-swapped", "two blocks swapped", 3.2, _swapped_blocks),
-    _kind("other-block", "a word of the block beside", 4.2, _other_block),
-    _kind("reference-lost", "", 1.8, _references),
-    _kind("too-many", "", 4.2, _dropped),
+    _kind(
+        "from-origin",
+        "the centre counted from the origin",
+        "fanuc-mill: G00 X60. Y50.|G03 X40. Y70. I-20. J0. for G00 X60. Y50.|G03 X40. Y70. I40. J50.",
+        3.0,
+        _centres(lambda start, end: (start, end)),
+    ),
+    _kind(
+        "both-signs",
+        "two lost minus signs",
+        "fanuc-mill: G03 X40. Y70. I20. J10. for G03 X40. Y70. I-20. J-10.",
+        3.0,
+        _both_signs,
+    ),
+    _kind(
+        "turn",
+        "the other way round",
+        "fanuc-mill: G02 X40. Y70. R20. for G03 X40. Y70. R20.",
+        2.1,
+        _codes(_pairs(*_both("G2", "G3"), *_both("DR+", "DR-"))),
+    ),
+    _kind("motion-lost", "", "fanuc-mill: G03 X40. Y70. R20.|X0. for G03 X40. Y70. R20.|G01 X0.", 1.6, _motion_lost),
+    _kind(
+        "line-for-arc", "an arc", "fanuc-mill: G01 X40. Y70. R20. for G02 X40. Y70. R20.", 1.6, _codes(_arc_for_line)
+    ),
+    _kind("tangent", "the tangent", "heidenhain: FC DR+ R20|FL X+10 for FC DR+ R20|FLT X+10", 1.9, _codes(_tangents)),
+    _kind(
+        "no-tangent",
+        "no tangent",
+        "heidenhain: FLT X+10 for FL X+10",
+        3.4,
+        _codes(_pairs(("FLT", "FL"), ("FCT", "FC"))),
+    ),
+    _kind("free-line", "", "heidenhain: L PR+20 for FL PR+20", 2.0, _codes(_pairs(("L", "FL"), ("C", "FC")))),
+    _kind(
+        "plane",
+        "another plane",
+        "fanuc-mill: G18 for G17",
+        1.6,
+        _codes(_pairs(*_both("G17", "G18", "G19")), everywhere=True),
+    ),
+    _kind("increments", "", "fanuc-mill: G91 for G90", 2.6, _codes(_pairs(*_both("G90", "G91")), everywhere=True)),
+    _kind("increments-again", "", "fanuc-mill: G90|G90 X10. Y5. for G90|G91 X10. Y5.", 1.2, _said_again),
+    _kind("compensation", "", "fanuc-mill: G40 G01 X30. for G41 G01 X30.", 2.2, _codes(_sides, everywhere=True)),
+    _kind("code", "", "fanuc-mill: G91|G50 X10. for G91|G90 X10.", 2.4, _codes(_digits(draws=False), everywhere=True)),
+    _kind(
+        "other-code",
+        "",
+        "fanuc-mill: G19 for G17",
+        4.8,
+        _codes(_digits(draws=True), everywhere=True),
+    ),
+    _kind("rapid", "", "fanuc-mill: G00 X40. ,C2. for G01 X40. ,C2.", 2.8, _codes(_pairs(("G0", "G1")))),
+    _kind(
+        "between", "", "fanuc-mill: G00 X0.|G01 X40. ,C2.|M08|Y70. for G00 X0.|M08|G01 X40. ,C2.|Y70.", 0.0, _between
+    ),
+    _kind("blocks-swapped", "two blocks swapped", "fanuc-mill: G01 X40.|Y70. for Y70.|G01 X40.", 3.2, _swapped_blocks),
+    _kind(
+        "other-block",
+        "a word of the block beside",
+        "fanuc-mill: G01 X40.|Y70. ,C2. for G01 X40. ,C2.|Y70.",
+        4.2,
+        _other_block,
+    ),
+    _kind("reference-lost", "", "heidenhain: 5 FL AN+30|6 FL DP 10 for 5 FL AN+30|6 FL DP 10 PAR 5", 1.8, _references),
+    _kind("too-many", "", "fanuc-mill: G01 X40. ,C2. for G01 X40.", 4.2, _dropped),
 )
 """Kinds of slips that are not of one word."""

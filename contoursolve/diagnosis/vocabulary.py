@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import either
-from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span
+from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span, typing_distance
 from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
 from contoursolve.reading import Bearing, Code, Dialect, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
 
@@ -108,7 +108,7 @@ def _apart(typed: str, other: str) -> int | None:
     most = 2 if min(len(typed), len(meant)) >= _LONG else 1
     if abs(len(typed) - len(meant)) > most:
         return None
-    distance = _slips(typed, meant)
+    distance = typing_distance(typed, meant)
     return distance if distance <= most else None
 
 
@@ -132,23 +132,8 @@ def _is_like(typed: str, name: str) -> bool:
     return (
         typed == name
         or sorted(typed) == sorted(name)
-        or (max(len(typed), len(name)) > _SHORTEST and _slips(typed, name) == 1)
+        or (max(len(typed), len(name)) > _SHORTEST and typing_distance(typed, name) == 1)
     )
-
-
-@lru_cache(maxsize=4096)
-def _slips(first: str, second: str) -> int:
-    """The optimal string alignment distance of two words."""
-    rows = [list(range(len(second) + 1))]
-    for at, letter in enumerate(first, 1):
-        row = [at]
-        for other, meant in enumerate(second, 1):
-            best = min(rows[-1][other] + 1, row[-1] + 1, rows[-1][other - 1] + (letter != meant))
-            if at > 1 and other > 1 and letter == second[other - 2] and first[at - 2] == meant:
-                best = min(best, rows[-2][other - 2] + 1)
-            row.append(best)
-        rows.append(row)
-    return rows[-1][-1]
 
 
 _STRETCH = re.compile(
@@ -354,7 +339,7 @@ def _unknown_code(context: Context, word: Word, modes: Modes) -> Iterator[Diagno
     else:
         digits = f"{word.number:f}"
         codes = [code for code in modes.codes.values() if not code.name and code.text.lstrip("G0") != digits]
-        alike = [code for code in codes if _slips(digits, str(code.number)) == 1]
+        alike = [code for code in codes if typing_distance(digits, str(code.number)) == 1]
         likely = sorted(code.text for code in alike if _weight(code) == max(map(_weight, alike)))
         # Of several that are as near, none is more likely, unless they are those of contours.
         meant = likely if len(likely) == 1 or max(map(_weight, alike), default=0) > 1 else []

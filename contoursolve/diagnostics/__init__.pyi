@@ -2,6 +2,7 @@ from .choices import (
     choice_of as choice_of,
     did_you_mean as did_you_mean,
     names_like as names_like,
+    typing_distance as typing_distance,
 )
 from .display import (
     Renderer as Renderer,

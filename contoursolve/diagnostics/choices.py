@@ -3,6 +3,7 @@ that a misspelt one is close to."""
 
 from collections.abc import Iterable
 from enum import Enum
+from functools import lru_cache
 from typing import TypeVar
 
 Choice = TypeVar("Choice", bound=Enum)
@@ -28,3 +29,18 @@ def did_you_mean(word: str, names: Iterable[str]) -> str:
     """The question whether one of these names was meant, with a blank behind it; empty if none is close."""
     near = names_like(word, names)
     return f"did you mean {' or '.join(near)}? " if near else ""
+
+
+@lru_cache(maxsize=4096)
+def typing_distance(first: str, second: str) -> int:
+    """The slips between two words: the optimal string alignment distance, in which neighbours may be swapped."""
+    rows = [list(range(len(second) + 1))]
+    for at, letter in enumerate(first, 1):
+        row = [at]
+        for other, meant in enumerate(second, 1):
+            best = min(rows[-1][other] + 1, row[-1] + 1, rows[-1][other - 1] + (letter != meant))
+            if at > 1 and other > 1 and letter == second[other - 2] and first[at - 2] == meant:
+                best = min(best, rows[-2][other - 2] + 1)
+            row.append(best)
+        rows.append(row)
+    return rows[-1][-1]
