@@ -73,7 +73,7 @@ REASONS: dict[Why, float] = {
     Why.FITS: 3.3,
     Why.OTHER: 3.6,
     Why.MISSING: 3.0,
-    Why.NOT_NEEDED: 3.4,
+    Why.NOT_NEEDED: 3.7,
 }
 """The cost of an edit that no slip explains, by why it is proposed."""
 

@@ -36,7 +36,7 @@ _FULL_TURN, _HALF, _QUARTER = 360, 180, 90
 _BESIDE_DIGIT = dict(zip("1234567890", ("2", "13", "24", "35", "46", "57", "68", "79", "80", "9"), strict=True))
 _ROWS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
 """The digits beside each digit on a keyboard, and the letters of one, a row each."""
-_ALIKE = ("ABCE", "IJK", "XU", "ZW", "YV", "XYZ", "UVW", "PQ", "PR", "QR", "RC", "RI")
+_ALIKE = ("ABCE", "IJK", "XU", "ZW", "YV", "XYZ", "UVW", "PQ", "OQ", "PR", "QR", "RC", "RI")
 """Letters that mean something alike: angles, centres, an axis and its increment, axes, sizes."""
 _AXES, _STEPS, _NO_PATH = "XYZUVW", "UVW", "MSTFHD"
 """Letters of axes, of their increments, and of what has nothing to do with a path: their numbers have no point."""
@@ -166,6 +166,8 @@ def _point_lost(typed: Typed) -> Iterator[str]:
         if typed.counts or len(digits) >= _LONG + typed.is_angle:
             # With as many decimals as the least increment has, it is what was typed where numbers count increments.
             places = range(1, min(_DECIMALS + (not typed.counts), len(digits)))
+            # Nobody means Z-2.0 by Z-20.
+            places = places if len(digits) >= _LONG or not digits.endswith("0") else range(0)
             yield from typed.as_number(*(f"{digits[:-place]}.{digits[-place:]}" for place in places))
 
 
@@ -413,6 +415,7 @@ POINT_LOST_IN_FEW = SlipKind(
     "point-lost-few", "a lost decimal point", "siemens-840d: X125 for X12.5", 2.2, TYPING, _D, _point_lost_in_few
 )
 POINT_MOVED = SlipKind("point-moved", "the decimal point moved", "Z-2.5 for Z-25.", 2.0, SEEN, _D, _point_moved)
+ZERO_ADDED = SlipKind("zero-added", "a zero too many", "Z-600. for Z-60.", 2.0, SEEN, _D, _zero_added)
 ZERO_LOST = SlipKind("zero-lost", "a lost zero", ",A15. for ,A150.", 2.3, SEEN, _D, _zero_lost)
 LETTER_ALIKE = SlipKind("letter-alike", "another letter", "X-60. for Z-60.", 2.4, TYPING, _A, _letter_alike)
 OPPOSITE = SlipKind(
@@ -438,7 +441,7 @@ FEW = (
     SUPPLEMENT,
     POINT_LOST_IN_FEW,
     POINT_MOVED,
-    SlipKind("zero-added", "a zero too many", "Z-600. for Z-60.", 2.0, SEEN, _D, _zero_added),
+    ZERO_ADDED,
     ZERO_LOST,
     SlipKind(
         "other-address",

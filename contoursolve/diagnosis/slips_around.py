@@ -26,6 +26,7 @@ from contoursolve.diagnosis.slip_kinds import (
     POINT_LOST,
     POINT_LOST_IN_FEW,
     SIGN_LOST,
+    ZERO_ADDED,
     ZERO_LOST,
     Changes,
     SlipKind,
@@ -39,7 +40,7 @@ from contoursolve.diagnosis.slip_kinds import (
 from contoursolve.diagnosis.slips_of_blocks import CODES, SEVERAL, Edits, Near
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Span
-from contoursolve.gcode import Block, Word
+from contoursolve.gcode import AXES, Block, Word
 from contoursolve.reading import ParsedContour
 
 MOST_TRIED, MOST_OF_DIGITS = 30, 16
@@ -56,6 +57,8 @@ _NAMED, _ODD = 0.8, 0.6
 _READ, _NEGATIVE, _EARLIER, _SIZE, _OTHER_POINTS, _ACROSS = 1.1, 0.5, 0.6, 1.6, 1.5, 1.6
 """The costs of a wrong letter that has a meaning there, of a negative angle, of the first of two equal words, of a
 negative size, of one point that is lost where others are, and of a negative diameter."""
+_TENS = 0.3
+"""The cost of a zero too many in a place."""
 _SIZES = ("R", "CR", "P", "Q", "C", "D", "RND", "CHR", "CHF")
 _BESIDE_PLANE, _USUAL_ANGLE, _USUAL_STEP, _HALF_TURN = 1.5, 0.4, 30, 180
 """The cost of a wrong letter of an axis that lifts the tool, and by so much more plausible a lost zero is with which an
@@ -172,7 +175,8 @@ def _of_words(
     for block in near:
         stated = frozenset(word.address for word in block.words)
         for word in block.words:
-            if word.address in "GNOMF" or word.is_asked or is_in_vain(word.span):
+            is_apart = word.address in "GNMF" or (word.address == "O" and word.span not in prices.marked.spans)
+            if is_apart or word.is_asked or is_in_vain(word.span):
                 continue
             is_computed = any(each.is_within(block.typed_span(word.span)) for each in block.substituted)
             typed = {id(each): Typed.of(word, each, stated) for each in (prices.within, prices.outside)}
@@ -237,6 +241,9 @@ class Prices(Struct, frozen=True, dict=True):
             cost += _OTHER_POINTS * (sum(map(_is_pointless, block.words)) > _is_pointless(word))
         if kind in (POINT_LOST, POINT_LOST_IN_FEW):
             cost -= _POINTED * self._is_coarse
+        elif kind is ZERO_ADDED:
+            # Of places, tens are more frequent than those of one digit.
+            cost += _TENS * (edit.address[:1] in AXES)
         typed = Typed.of(word, self.speech(block, kind)) if kind in _OF_MEANING else None
         if typed is None:
             return cost
