@@ -290,6 +290,13 @@ def test_one_builder_makes_parsed_contours():
     assert made == ["reading/contour_builder.py"]
 
 
+def test_controls_write_a_rule_in_one_way():
+    """As a row, column by column; `row` alone makes the record."""
+    of_controls = [module for module in MODULES if room_of(module) == "controls"]
+    made = {module.name for module in of_controls if re.search(r"\bRule\(", code_of(module))}
+    assert made == {"rule_rows.py"}
+
+
 MOST_EQUAL_LINES = 12
 
 
