@@ -9,84 +9,59 @@ from typing import Any
 from msgspec import Struct
 
 from contoursolve.controls.control_settings import setting
-from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
+from contoursolve.controls.rule_rows import GEOMETRY, row
+from contoursolve.diagnostics import Severity, Source
 from contoursolve.gcode import Block, Word
 from contoursolve.reading import CENTRES, ArcIssue, ArcTable, Beyond, BothStated, Dialect, Rule, Setting
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 _APART = "{words}: the centre is {radius} from the start of the arc and {distance} from its end; "
-_TEXTS: Mapping[ArcIssue, tuple[str, str]] = {
-    ArcIssue.RADII_DIFFER: (
-        _APART + "that differs by {off}, allowed {limit}",
-        "correct the centre or the end",
-    ),
-    ArcIssue.RADII_UNCORRECTED: (
-        _APART + "under G164 that may differ by {limit}",
-        "correct the centre or the end",
-    ),
-    ArcIssue.SPIRAL: (
-        _APART + "the control cuts {path}",
-        "correct the centre or the end, if an arc is meant",
-    ),
-    ArcIssue.CENTRE_MOVES: (
-        _APART + "the control moves it by {off}, and cuts a radius of {actual}",
-        "correct the centre or the end",
-    ),
-    ArcIssue.RADIUS_SMALL: (
-        "{words}: the radius of {actual} is less than half the distance from the start to the end, {limit}",
-        "write at least {limit}, or correct the end",
-    ),
-    ArcIssue.FULL_BY_RADIUS: (
-        "{words}: the arc ends where it begins, and a radius does not say where its centre is",
-        "state the centre of a full circle; or correct the end",
-    ),
-    ArcIssue.MOVES_NOTHING: (
-        "{words}: the arc ends where it begins; by a radius the control moves nothing",
-        "state the centre of a full circle; or correct the end",
-    ),
-    ArcIssue.UNDEFINED: (
-        "the arc has neither a centre nor a radius",
-        "add its centre or its radius; for a line write a line",
-    ),
-    ArcIssue.RUNS_LINE: (
-        "the arc has neither a centre nor a radius; the control runs a straight line to its end",
-        "add its centre or its radius; for a line write G01",
-    ),
-    ArcIssue.BOTH: (
-        "{words}: the arc has both a centre and a radius",
-        "keep one of them",
-    ),
-    ArcIssue.OUTSIDE_PLANE: (
-        "{words}: an arc in {plane} has its centre by {center}",
-        "write {center}, or select the plane before",
-    ),
-    ArcIssue.OVER_HALF: (
-        "{words}: by a radius the control makes no arc of 180 deg or more",
-        "state the centre, or cut two arcs",
-    ),
-    ArcIssue.PROFILE_ARC: (
-        "the profile of {cycle} begins with an arc; its first block must be a line",
-        "begin the profile with G00 or G01 to where the arc begins",
-    ),
-    ArcIssue.PROFILE_CODE: (
-        "the first block of the profile of {cycle} has no G00 or G01; what was in force before does not count",
-        "write G00 or G01 into it",
-    ),
-    ArcIssue.EMPTY: (
-        "{words}: the arc has a radius of 0",
-        "correct its centre or its radius",
-    ),
-    ArcIssue.OPENING: (
-        "{words}: an opening angle is more than 0 deg and less than 360 deg",
-        "write the angle by which the arc turns",
-    ),
-    ArcIssue.IN_LINE: (
-        "{words}: the point between the ends lies in line with them, so that there is no arc",
-        "correct the point between the ends",
-    ),
-}
+ARCS = {
+    rule.code: rule
+    for rule in (
+        row("arc-radii-differ", _APART + "that differs by {off}, allowed {limit}", "correct the centre or the end",
+            GEOMETRY, ArcIssue.RADII_DIFFER),
+        row("arc-radii-uncorrected", _APART + "under G164 that may differ by {limit}", "correct the centre or the end",
+            GEOMETRY, ArcIssue.RADII_UNCORRECTED),
+        row("arc-spiral", _APART + "the control cuts {path}", "correct the centre or the end, if an arc is meant",
+            GEOMETRY, ArcIssue.SPIRAL, severity=Severity.WARNING),
+        row("arc-centre-moves", _APART + "the control moves it by {off}, and cuts a radius of {actual}",
+            "correct the centre or the end", GEOMETRY, ArcIssue.CENTRE_MOVES, severity=Severity.WARNING),
+        row("arc-radius-small",
+            "{words}: the radius of {actual} is less than half the distance from the start to the end, {limit}",
+            "write at least {limit}, or correct the end", GEOMETRY, ArcIssue.RADIUS_SMALL),
+        row("arc-full-by-radius",
+            "{words}: the arc ends where it begins, and a radius does not say where its centre is",
+            "state the centre of a full circle; or correct the end", GEOMETRY, ArcIssue.FULL_BY_RADIUS),
+        row("arc-moves-nothing", "{words}: the arc ends where it begins; by a radius the control moves nothing",
+            "state the centre of a full circle; or correct the end", GEOMETRY, ArcIssue.MOVES_NOTHING,
+            severity=Severity.WARNING),
+        row("arc-undefined", "the arc has neither a centre nor a radius",
+            "add its centre or its radius; for a line write a line", GEOMETRY, ArcIssue.UNDEFINED),
+        row("arc-runs-line", "the arc has neither a centre nor a radius; the control runs a straight line to its end",
+            "add its centre or its radius; for a line write G01", GEOMETRY, ArcIssue.RUNS_LINE,
+            severity=Severity.WARNING),
+        row("arc-both", "{words}: the arc has both a centre and a radius", "keep one of them", GEOMETRY, ArcIssue.BOTH),
+        row("arc-outside-plane", "{words}: an arc in {plane} has its centre by {center}",
+            "write {center}, or select the plane before", GEOMETRY, ArcIssue.OUTSIDE_PLANE),
+        row("arc-over-half", "{words}: by a radius the control makes no arc of 180 deg or more",
+            "state the centre, or cut two arcs", GEOMETRY, ArcIssue.OVER_HALF),
+        row("profile-begins-with-arc", "the profile of {cycle} begins with an arc; its first block must be a line",
+            "begin the profile with G00 or G01 to where the arc begins", GEOMETRY, ArcIssue.PROFILE_ARC),
+        row("profile-begins-without-code",
+            "the first block of the profile of {cycle} has no G00 or G01; what was in force before does not count",
+            "write G00 or G01 into it", GEOMETRY, ArcIssue.PROFILE_CODE),
+        row("arc-empty-circle", "{words}: the arc has a radius of 0", "correct its centre or its radius", GEOMETRY,
+            ArcIssue.EMPTY),
+        row("arc-opening-angle", "{words}: an opening angle is more than 0 deg and less than 360 deg",
+            "write the angle by which the arc turns", GEOMETRY, ArcIssue.OPENING),
+        row("arc-in-line", "{words}: the point between the ends lies in line with them, so that there is no arc",
+            "correct the point between the ends", GEOMETRY, ArcIssue.IN_LINE),
+    )
+}  # fmt: skip
+"""The rows about arcs, by their codes."""
+
 _BOTH_DISAGREE = "{words}: the arc has a centre and a radius, and the centre is not that far from its start"
-_WARNINGS = (ArcIssue.SPIRAL, ArcIssue.CENTRE_MOVES, ArcIssue.MOVES_NOTHING, ArcIssue.RUNS_LINE)
 
 
 class ArcExamples(Struct, frozen=True):
@@ -131,45 +106,28 @@ def _number(value: float) -> str:
 
 
 class ArcRows(Struct, frozen=True):
-    """The rows of a control: for each issue that it can meet, its source and the alarm; and the words of examples."""
+    """The rows of a control, one for each issue that it can meet; and the words of their examples."""
 
-    issues: Mapping[ArcIssue, tuple[Source, Alarm | None]]
+    rows: tuple[Rule, ...]
     examples: ArcExamples
     differs: float = 9
     """The first coordinate of a centre that is wrong for an end at 20."""
-    options: Mapping[ArcIssue, str] = {}
-    """Options of the examples of some issues."""
     before: Mapping[ArcIssue, str] = {}
     """A line before the arc of the wrong examples of some."""
-    notes: Mapping[ArcIssue, str] = {}
     wrong: Mapping[ArcIssue, str] = {}
     """Arcs that are wrong, where those of most controls are contours."""
-    warns_of: frozenset[ArcIssue] = frozenset()
-    """Issues that are warned of, as no page tells of an alarm."""
     is_by_agreement: bool = False
     """Whether a centre may stand beside a radius that agrees."""
 
     def rules(self) -> Iterator[Rule]:
-        """The rows."""
-        for issue, (source, alarm) in self.issues.items():
-            message, advice = _TEXTS[issue]
-            if issue is ArcIssue.BOTH and self.is_by_agreement:
-                message = _BOTH_DISAGREE
+        """The rows with their examples."""
+        for rule in self.rows:
+            issue = ArcIssue(rule.code)
             right, wrong = self._programs(issue)
-            wrong = (self.examples.begin + self.wrong[issue],) if issue in self.wrong else wrong
-            yield Rule(
-                issue.value,
-                message,
-                advice,
-                source,
-                accepted=right,
-                rejected=wrong,
-                about=issue,
-                alarm=alarm,
-                severity=Severity.WARNING if issue in (*_WARNINGS, *self.warns_of) else Severity.ERROR,
-                note=self.notes.get(issue, ""),
-                options=self.options.get(issue, ""),
-            )
+            if issue in self.wrong:
+                wrong = (self.examples.begin + self.wrong[issue],)
+            message = _BOTH_DISAGREE if issue is ArcIssue.BOTH and self.is_by_agreement else ""
+            yield row(rule.code, message, like=rule, examples=(right, *wrong))
 
     def _programs(self, issue: ArcIssue) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Right and wrong examples of a row."""
@@ -213,16 +171,6 @@ def _profiles(code: str, wrong: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
 # Settings --------------------------------------------------------------------------------------------------------
 
 
-def radius_difference_setting(source: Source, default: float = RADIUS_DIFFERENCE, least: str = "0.001") -> Setting:
-    """The setting of the difference of the radii that is allowed."""
-    meaning = "by how much the radii where an arc begins and ends may differ"
-    if not Decimal(least):
-        meaning += "; 0 where the control does not look"
-    return Setting(
-        "radius-difference", meaning, {f"{default}": "mm"}, f"{default}", source, bounds=(Decimal(least), Decimal(10))
-    )
-
-
 def number_of_arcs(name: str, meaning: str, default: str, source: Source, most: str, unit: str = "mm") -> Setting:
     """The setting of another number about arcs."""
     return Setting(name, meaning, {default: unit}, default, source, bounds=(Decimal(0), Decimal(most)), unit=unit)
@@ -238,66 +186,35 @@ def _with_fields(dialect: Dialect, *, fields: Mapping[str, Any]) -> Dialect:
     return replace(dialect, modes=replace(dialect.modes, arcs=arcs))
 
 
-def no_centre_setting(source: Source) -> Setting:
-    """The setting of an arc without a centre and a radius."""
-    return setting(
-        "no-centre",
-        "what the control makes of an arc without a centre and a radius",
-        {"error": "it stops", "line": "it runs a straight line to the end"},
-        source,
-        {"line": with_arcs(runs_line=True)},
+ARC_SETTINGS = {
+    each.name: each
+    for each in (
+        Setting("radius-difference", "by how much the radii where an arc begins and ends may differ",
+                {f"{RADIUS_DIFFERENCE}": "mm"}, f"{RADIUS_DIFFERENCE}", GEOMETRY, (Decimal("0.001"), Decimal(10))),
+        setting("no-centre", "what the control makes of an arc without a centre and a radius",
+                {"error": "it stops", "line": "it runs a straight line to the end"}, GEOMETRY,
+                {"line": with_arcs(runs_line=True)}),
+        setting("centre-and-radius", "what a centre beside a radius is",
+                {"agree": "it may stand there if it agrees", "error": "it must not stand there",
+                 "radius": "it is left out: the radius counts"}, GEOMETRY,
+                {"error": with_arcs(both=BothStated.REFUSED), "radius": with_arcs(both=BothStated.RADIUS_COUNTS)}),
+        setting("negative-radius", "what a negative radius of an arc is",
+                {"over_180": "an arc of more than 180 deg", "error": "refused: by a radius arcs are less than 180 deg"},
+                GEOMETRY, {"error": with_arcs(refuses_negative=True)}),
+        setting("off-arc", "what the control cuts where the radii differ and it does not stop",
+                {"spiral": "a spiral", "axis_line": "an arc, then a straight line along one axis"}, GEOMETRY,
+                {"axis_line": with_arcs(unchecked=Beyond.AXIS_LINE)}),
+        setting(CENTRES, "from where I, J and K of an arc count",
+                {"start": "from where the arc begins", "origin": "they are coordinates of the centre"}, GEOMETRY,
+                {"origin": with_arcs(counts_from_origin=True)}),
     )
+}  # fmt: skip
+"""The settings of arcs, by their names."""
 
 
-def both_setting(source: Source) -> Setting:
-    """The setting of a centre beside a radius, where no page tells."""
-    return setting(
-        "centre-and-radius",
-        "what a centre beside a radius is",
-        {
-            "agree": "it may stand there if it agrees",
-            "error": "it must not stand there",
-            "radius": "it is left out: the radius counts",
-        },
-        source,
-        {
-            "error": with_arcs(both=BothStated.REFUSED),
-            "radius": with_arcs(both=BothStated.RADIUS_COUNTS),
-        },
-    )
-
-
-def negative_radius_setting(source: Source) -> Setting:
-    """The setting of an arc of 180 degrees and more by its radius."""
-    return setting(
-        "negative-radius",
-        "what a negative radius of an arc is",
-        {"over_180": "an arc of more than 180 deg", "error": "refused: by a radius arcs are less than 180 deg"},
-        source,
-        {"error": with_arcs(refuses_negative=True)},
-    )
-
-
-def off_arc_setting(source: Source) -> Setting:
-    """The setting of the path where radii differ and the control does not look."""
-    return setting(
-        "off-arc",
-        "what the control cuts where the radii differ and it does not stop",
-        {"spiral": "a spiral", "axis_line": "an arc, then a straight line along one axis"},
-        source,
-        {"axis_line": with_arcs(unchecked=Beyond.AXIS_LINE)},
-    )
-
-
-def centres_setting(source: Source) -> Setting:
-    """The setting of from where the words of a centre count."""
-    return setting(
-        CENTRES,
-        "from where I, J and K of an arc count",
-        {"start": "from where the arc begins", "origin": "they are coordinates of the centre"},
-        source,
-        {"origin": with_arcs(counts_from_origin=True)},
-    )
+def arc_setting(name: str, source: Source, **otherwise: Any) -> Setting:
+    """A setting of arcs as a control has it, with what is otherwise."""
+    return replace(ARC_SETTINGS[name], source=source, **otherwise)
 
 
 # Words that stay in force ----------------------------------------------------------------------------------------
@@ -316,13 +233,3 @@ def remember_polar(memory: Mapping[str, Word], block: Block) -> Mapping[str, Wor
             elif POLAR in memory and word.number in _END:
                 memory = {name: kept for name, kept in memory.items() if name != POLAR}
     return memory
-
-
-def printed(manual: str, place: str) -> Source:
-    """The source of what a page prints."""
-    return Source(manual, place, Evidence.PRINTED)
-
-
-def assumed(manual: str, place: str) -> Source:
-    """The source of what is recalled, or taken to be so."""
-    return Source(manual, place, Evidence.ASSUMED)

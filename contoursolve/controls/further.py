@@ -71,13 +71,23 @@ WORDS = Setting(
 )
 
 
+_BY_THEMSELVES = frozenset({27, 28, 29, 30, 31, 36, 37})
+"""Codes of reference points, skip and measuring."""
+
+
+def leaving(code: Code) -> Code:
+    """The row of a code, which may leave the motion in force."""
+    is_leaving = code.effect is Effect.SINGLE and code.number in _BY_THEMSELVES
+    return replace(code, leaves_motion=True) if is_leaving else code
+
+
 def known_by_name(
     source: Source, table: Mapping[Effect, Mapping[int, str]], own: Mapping[int, Code]
 ) -> dict[int, Code]:
     """The codes of a control and those besides of which it is known that it has them: what changes the path, the motion
     or the coordinates is not read."""
     more = {
-        number: Code(number, effect, meaning, source, is_read=effect in (Effect.NONE, Effect.SHIFT))
+        number: leaving(Code(number, effect, meaning, source, is_read=effect in (Effect.NONE, Effect.SHIFT)))
         for effect, row in table.items()
         for number, meaning in row.items()
     }

@@ -3,29 +3,14 @@
 They end the rules of a control: rows of its own about the same events stand before them, and win.
 """
 
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
-from enum import Enum
-from typing import TypedDict, Unpack
+from collections.abc import Iterator
 
-from contoursolve.controls.common import COMMON_RULES, about_event
-from contoursolve.diagnostics import OWN, Alarm, Evidence, Severity, Source
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.rule_rows import EVENTS, GEOMETRY, row
+from contoursolve.diagnostics import Severity
 from contoursolve.reading import ReadIssue, Rule
 from contoursolve.solving import GeometricEventKind
 
-_SOURCE = Source(OWN, "the geometry of lines, arcs and corners", Evidence.ASSUMED)
-
-
-def _row(about: Enum, message: str, help_: str, slip: Mapping[str, str]) -> Rule:
-    return Rule(about.value, message, help_, _SOURCE, about=about, severity=Severity.WARNING, slip=slip)
-
-
-COMMA_MISSING = _row(
-    ReadIssue.COMMA_MISSING,
-    "{words} has no comma, so the control does not read it as {meant}",
-    "write {meant} if that is meant",
-    {"corner": "{comma_lost}"},
-)
 PLANE_CHANGES = ("the plane changes inside the contour", "select the plane before its first block")
 """Message and help of a row about a plane that is selected in a contour."""
 
@@ -45,73 +30,48 @@ ANGLE_RAPID = "{words}: the control works out a line by its angle in G01, not in
 """Message of a row about an angle in rapid traverse."""
 
 GEOMETRY_RULES = (
-    about_event(
-        "lines-parallel", _SOURCE, {"contour": "{vertex_blocks}", "closing": "{opening}", "options": "--rules off"}
-    ),
-    about_event(
-        "not-fixed",
-        _SOURCE,
-        {"contour": "{angled_block}", "end": "{at_start}", "degrees": "{across_end}", "options": "--rules off"},
-    ),
-    about_event("point-is-start", _SOURCE),
-    about_event("circle-missed", _SOURCE),
-    about_event("radius-too-small", _SOURCE, {"contour": "{arc_blocks}", "center": "{small_radius}"}),
-    about_event("circles-apart", _SOURCE),
-    about_event(
-        "circle-undefined",
-        _SOURCE,
-        {"contour": "{arc_blocks}", "arc_end": "", "center": "{radius}", "options": "--rules off"},
-    ),
-    about_event(
-        "radius-difference", _SOURCE, {"contour": "{arc_blocks}", "center": "{center_off}", "options": "--rules off"}
-    ),
-    about_event(
-        "line-reversed",
-        _SOURCE,
-        {"contour": "{angled_block}", "degrees": "{opposite}", "options": "--set CONTROL.angle-sense=ray"},
-    ),
-    about_event("line-backwards", _SOURCE),
-    about_event("corner-too-large", _SOURCE, {"size": "99."}),
-    about_event("corners-overlap", _SOURCE, {"contour": "{twice}", "each": "28."}),
-    about_event("corner-straight", _SOURCE, {"turn": "{straight_on}"}),
-    about_event("corner-reverses", _SOURCE, {"turn": "{turned_back}"}),
-    about_event("corner-sign", _SOURCE),
-    about_event("bevel-outside", _SOURCE),
-    about_event("bevel-in-band", _SOURCE),
-    about_event("landing-unknown", _SOURCE),
-    about_event("arc-empty", _SOURCE),
-    about_event("touches", _SOURCE),
-    about_event("double", _SOURCE),
-    about_event("radius-differs", _SOURCE),
-    about_event(
-        "half-circle", _SOURCE, {"contour": "{arc_blocks}", "arc_end": "{opposite_end}", "center": "{half_radius}"}
-    ),
-    _row(
-        ReadIssue.ANGLE_OPPOSITE,
+    row("lines-parallel", like=EVENTS,
+        examples={"contour": "{vertex_blocks}", "closing": "{opening}", "options": "--rules off"}),
+    row("not-fixed", like=EVENTS,
+        examples={"contour": "{angled_block}", "end": "{at_start}", "degrees": "{across_end}",
+         "options": "--rules off"}),
+    row("point-is-start", like=EVENTS),
+    row("circle-missed", like=EVENTS),
+    row("radius-too-small", like=EVENTS, examples={"contour": "{arc_blocks}", "center": "{small_radius}"}),
+    row("circles-apart", like=EVENTS),
+    row("circle-undefined", like=EVENTS,
+        examples={"contour": "{arc_blocks}", "arc_end": "", "center": "{radius}", "options": "--rules off"}),
+    row("radius-difference", like=EVENTS,
+        examples={"contour": "{arc_blocks}", "center": "{center_off}", "options": "--rules off"}),
+    row("line-reversed", like=EVENTS,
+        examples={"contour": "{angled_block}", "degrees": "{opposite}", "options": "--set CONTROL.angle-sense=ray"}),
+    row("line-backwards", like=EVENTS),
+    row("corner-too-large", like=EVENTS, examples={"size": "99."}),
+    row("corners-overlap", like=EVENTS, examples={"contour": "{twice}", "each": "28."}),
+    row("corner-straight", like=EVENTS, examples={"turn": "{straight_on}"}),
+    row("corner-reverses", like=EVENTS, examples={"turn": "{turned_back}"}),
+    row("corner-sign", like=EVENTS),
+    row("bevel-outside", like=EVENTS),
+    row("bevel-in-band", like=EVENTS),
+    row("landing-unknown", like=EVENTS),
+    row("arc-empty", like=EVENTS),
+    row("touches", like=EVENTS),
+    row("double", like=EVENTS),
+    row("radius-differs", like=EVENTS),
+    row("half-circle", like=EVENTS,
+        examples={"contour": "{arc_blocks}", "arc_end": "{opposite_end}", "center": "{half_radius}"}),
+    row("angle-opposite",
         "{words}: {subject} runs the other way, at {expected}; the control takes the angle of a line either way",
-        "as the line runs, its angle is {expected}: check the signs of the angle and of the end",
-        {"contour": "{angled_block}", "degrees": "{opposite}"},
-    ),
-    _row(
-        ReadIssue.CORNER_DROPPED,
+        "as the line runs, its angle is {expected}: check the signs of the angle and of the end", GEOMETRY,
+        ReadIssue.ANGLE_OPPOSITE, {"contour": "{angled_block}", "degrees": "{opposite}"}, severity=Severity.WARNING),
+    row("corner-dropped",
         "{words}: {subject} turns by {actual}; up to 1 deg the control leaves a corner out without an alarm",
-        "delete {words}, or correct the elements if they are meant to turn",
-        {"turn": "{hardly_turned}"},
-    ),
-    COMMA_MISSING,
-)
-
-
-class Otherwise(TypedDict, total=False):
-    """The fields that a control may state otherwise, or besides."""
-
-    message: str
-    help: str
-    source: Source
-    roles: tuple[str, ...]
-    alarm: Alarm | None
-    severity: Severity
-    note: str
+        "delete {words}, or correct the elements if they are meant to turn", GEOMETRY,
+        ReadIssue.CORNER_DROPPED, {"turn": "{hardly_turned}"}, severity=Severity.WARNING),
+    row("comma-missing", "{words} has no comma, so the control does not read it as {meant}",
+        "write {meant} if that is meant", GEOMETRY, ReadIssue.COMMA_MISSING, {"corner": "{comma_lost}"},
+        severity=Severity.WARNING),
+)  # fmt: skip
 
 
 def _ends_of(rule: Rule) -> Iterator[str]:
@@ -121,18 +81,5 @@ def _ends_of(rule: Rule) -> Iterator[str]:
         yield from rule.about.event.codes
 
 
-_GENERAL = {end: rule for rule in (*COMMON_RULES, *GEOMETRY_RULES) for end in _ends_of(rule)}
-
-
-def told(
-    code: str, good: str | tuple[str, ...], *bad: str | tuple[str, str], as_: str = "", **otherwise: Unpack[Otherwise]
-) -> Rule:
-    """The general row that the end of a code names, or `as_`, as a control tells it: with that code and examples of its
-    own, and with what its manual says otherwise. Of the examples, `good` are right; what is wrong is a program, or two
-    texts, of which the second stands for the first in the first right program."""
-    accepted = (good,) if isinstance(good, str) else good
-    rejected = tuple(each if isinstance(each, str) else accepted[0].replace(*each) for each in bad)
-    parts = (as_ or code).split("-")
-    ends = ("-".join(parts[number:]) for number in range(len(parts)))
-    row = next(_GENERAL[end] for end in ends if end in _GENERAL)
-    return replace(row, code=code, accepted=accepted, rejected=rejected, **otherwise)
+GENERAL = {end: rule for rule in (*COMMON_RULES, *GEOMETRY_RULES) for end in _ends_of(rule)}
+"""The rows that a control may tell with what its manual says otherwise, by the end of a code."""

@@ -6,7 +6,7 @@ from decimal import Decimal
 from enum import Enum
 
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.further import letters
+from contoursolve.controls.further import leaving, letters
 from contoursolve.diagnostics import Evidence, Source
 from contoursolve.gcode import Block
 from contoursolve.geometry import Length, Plane, Unit
@@ -90,7 +90,7 @@ def coming_back(code: Code) -> Code:
     """The row of a code; G70 to G76 of lathes end where the tool was before them, G53 is about coordinates alone."""
     is_cycle = code.effect is Effect.SINGLE and ("cycle" in code.meaning or "roughing" in code.meaning)
     needs_axes = code.effect is Effect.SINGLE and code.meaning in _OF_COORDINATES
-    return replace(code, comes_back=is_cycle, needs_axes=needs_axes) if is_cycle or needs_axes else code
+    return replace(code, comes_back=is_cycle, needs_axes=needs_axes) if is_cycle or needs_axes else leaving(code)
 
 
 _OF_COORDINATES = ("machine coordinates", "no offset")

@@ -11,7 +11,6 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.legality_table import legal_samples
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.subsets import smallest_sets
-from contoursolve.gcode import spell
 from contoursolve.geometry import assemble
 from contoursolve.reading import Dialect, ParsedContour, check, read, stating
 from contoursolve.solving import Contour, analyse
@@ -71,7 +70,7 @@ def words_to_add(answer: Answer, dialect: Dialect) -> tuple[Addition, ...]:
         # What follows from the others for most values does not where their lines are parallel.
         if name not in possible and (name in claim.words or (address, line) not in completing):
             continue
-        text, contour = completing.get((address, line), (spell(address, "?"), None))
+        text, contour = completing.get((address, line), (claim.lexicon.spell(address, "?"), None))
         blocks = apply_edits(claim.blocks, [Edit(EditKind.ADD, address, text=text, line=line)])
         meaning = claim.form.meanings.get(name) or (row.meaning if row else "")
         found.append(Addition(address, meaning, text, line, "\n".join(blocks), contour))

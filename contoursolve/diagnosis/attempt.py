@@ -43,7 +43,7 @@ from contoursolve.diagnosis.stated_values import Geometry
 from contoursolve.diagnosis.subsets import blamed_spans
 from contoursolve.diagnosis.window import LINE, Seen, Window, alone, parts_of, path_of
 from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Span
-from contoursolve.gcode import Block, spell
+from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND, Profile, Unit, assemble, scalar
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, advance, read
 from contoursolve.solving import (
@@ -431,7 +431,7 @@ class Trial(Struct, frozen=True, dict=True):
     def _example(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
         """The edits with a number for every placeholder that makes a contour; as they are where further facts determine
         a drawing that has no closed form. None if nothing is found."""
-        found = self.find(sampled(edits))
+        found = self.find(sampled(edits, self.claim.lexicon))
         profile = self._stated(found) if found else None
         if found is None or profile is None or not profile.start.is_known:
             return None
@@ -458,7 +458,7 @@ class Trial(Struct, frozen=True, dict=True):
         if not before or not behind:
             return None
         number = f"{(before[-1] + behind[0]) / 2:f}"
-        text = spell(edits[0].address, number if "." in number else f"{number}.")
+        text = self.claim.lexicon.spell(edits[0].address, number if "." in number else f"{number}.")
         example = (dataclasses.replace(edits[0], text=text),)
         seen = window.after(example)
         return example if seen is not None and any(seen.answers) and window.mends(seen) else None
@@ -519,7 +519,7 @@ class Trial(Struct, frozen=True, dict=True):
             # Nothing has a size of 0.
             numbers = [each for each in numbers if each > 0]
         for number in numbers[:_MOST_NUMBERS]:
-            edit = dataclasses.replace(edits[place], text=spell(edits[place].address, f"{number:f}"))
+            edit = dataclasses.replace(edits[place], text=self.claim.lexicon.spell(edits[place].address, f"{number:f}"))
             tried = (*edits[:place], edit, *edits[place + 1 :])
             if self._solve(tried, self.own) is not None:
                 return tried

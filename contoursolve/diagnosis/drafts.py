@@ -11,7 +11,7 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import meant_words, respelled, unanswerable, with_comma
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at, number_of
+from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import RefusalKind
 from contoursolve.tolerance import INCREMENT
@@ -80,7 +80,7 @@ def _written(answer: Answer, sizes: Iterable[Mapping[Span, float]]) -> Iterator[
         # A control may tell a chamfer from a rounding by the sign, which is none of the size's.
         signed = copysign(size, given.value if word.number is None else word.number)
         text = write_word(word.address, signed, claim.lexicon, unit, AT_MOST)
-        if Decimal(number_of(text, word.address)):
+        if Decimal(claim.lexicon.number_of(text, word.address)):
             is_rounded = float(abs(given.value)) - size < _ROUNDED
             yield change(word, text, Why.ROUNDED if is_rounded else Why.FITS)
 

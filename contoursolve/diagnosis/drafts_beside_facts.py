@@ -19,9 +19,9 @@ from contoursolve.diagnosis.explain import SAID_AGAIN, facts_at, spans_of
 from contoursolve.diagnosis.sample_drawing import sample_drawing
 from contoursolve.diagnosis.slip_kinds import partners
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import FACT, Word, number_of, spell
+from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Fact, Line, Profile, Unit, assemble, both, word_of
-from contoursolve.reading import ParsedContour, ReadIssue, check, read
+from contoursolve.reading import Lexicon, ParsedContour, ReadIssue, check, read
 from contoursolve.solving import (
     Status,
     Topic,
@@ -96,7 +96,7 @@ def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     for item in paths:
         picks = numbers_of(item, paths, profile)
         places = [lines[profile.figure.path[each.element - 1].name] for each in picks]
-        texts = [f"\n{spell(word, str(each.number))}" for each in picks]
+        texts = [f"\n{answer.claim.lexicon.spell(word, str(each.number))}" for each in picks]
         yield tuple(Edit(EditKind.ADD, word, text=text, line=line) for text, line in zip(texts, places, strict=True))
 
 
@@ -160,7 +160,7 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     claim = answer.claim
 
     def freedom(edits: tuple[Edit, ...]) -> int:
-        found = trial.find(sampled(edits))
+        found = trial.find(sampled(edits, claim.lexicon))
         system = assemble(read(found, frozenset())) if found else None
         return len(system.unknowns) - analyse(system).rank if system else len(claim.vocabulary)
 
@@ -222,21 +222,22 @@ def _coordinate(fact: Fact) -> tuple[str, int] | None:
 
 def _corrected(answer: Answer, twice: list[Diagnostic], trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """One word or fact of those that disagree with the value that the others give it: it is asked for instead."""
+    lexicon = answer.claim.lexicon
     for finding in twice if any(each.is_error for each in twice) else ():
         for word in _blamed(answer, finding):
-            asking = _with_value(word, PLACEHOLDER)
+            asking = _with_value(word, PLACEHOLDER, lexicon)
             if not asking:
                 continue
             other = trial.examine((change(word, asking),))
             for asked in other.answers if other else ():
                 if asked.value is not None and asked.question.word.text == asking:
-                    yield (change(word, _with_value(word, _shown(asked, word, answer)), Why.AGREES),)
+                    yield (change(word, _with_value(word, _shown(asked, word, answer), lexicon), Why.AGREES),)
 
 
-def _with_value(word: Word, value: str) -> str:
+def _with_value(word: Word, value: str, lexicon: Lexicon) -> str:
     """A word or a fact with another value; empty if it has none."""
     if word.address != FACT:
-        return spell(word.address, value) if word.number is not None else ""
+        return lexicon.spell(word.address, value) if word.number is not None else ""
     match = _VALUE.search(word.text)
     return f"{word.text[: match.start('number')]}{value}" if match else ""
 
@@ -249,7 +250,7 @@ def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
     if unit is Unit.DEGREE and stated is not None:
         value += 360 * round((float(stated) - value) / 360)
     if word.address != FACT:
-        return number_of(write_word(word.address, value, lexicon, answer.unit), word.address)
+        return lexicon.number_of(write_word(word.address, value, lexicon, answer.unit), word.address)
     number = rounded(value, unit, lexicon, answer.unit, is_diameter=asked.question.is_diameter)
     text = f"{number:f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
@@ -266,7 +267,7 @@ def lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
         if name in claim.words or line not in lines or row is None:
             continue
         numbers = ("1", "-1") if row.unit is Unit.SIGN else (PLACEHOLDER,)
-        edits = (add(claim, name, spell(address, number)) for number in numbers)
+        edits = (add(claim, name, claim.lexicon.spell(address, number)) for number in numbers)
         yield from ((edit,) for edit in edits if _is_lawful((edit,), trial))
     for each in offences:
         edits = (drop(claim.words[name]) for name in each.names if name in claim.words)
@@ -275,5 +276,5 @@ def lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
 
 def _is_lawful(edits: tuple[Edit, ...], trial: Trial) -> bool:
     """Whether no rule refuses the edited blocks."""
-    found = trial.find(sampled(edits))
+    found = trial.find(sampled(edits, trial.claim.lexicon))
     return found is not None and not found.unknown and not check(trial.dialect.rules, found.form.roles, found.stated())

@@ -13,16 +13,15 @@ from contoursolve.diagnosis.wording import shorten
 from contoursolve.diagnostics import Evidence, Source, Span
 from contoursolve.gcode import (
     FACT,
+    PLAIN,
     Block,
     Directive,
     Lookalike,
     Substitution,
     Syntax,
     Word,
-    number_of,
     parse_block,
     read_directive,
-    spell,
 )
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Lexicon, ParsedContour, WithoutPoint, restate
@@ -79,7 +78,7 @@ ERRANDS = (
 
 def errand_of(address: str, text: str) -> Errand | None:
     """The effect of a word, as it is written, besides the contour; None for the words of a contour."""
-    number = re.fullmatch(r"0*(\d+)\.?0*", number_of(text, address))
+    number = re.fullmatch(r"0*(\d+)\.?0*", PLAIN.number_of(text, address))
     fitting = (
         row
         for row in ERRANDS
@@ -194,7 +193,8 @@ def mend(word: Lookalike) -> Edit:
 def add(claim: ParsedContour, name: str, text: str = "") -> Edit:
     """The word for a name added, with its number still to be chosen unless its text is given."""
     address, index = claim.vocabulary[name]
-    return Edit(EditKind.ADD, address, text=text or spell(address, PLACEHOLDER), line=claim.blocks[index].line)
+    text = text or claim.lexicon.spell(address, PLACEHOLDER)
+    return Edit(EditKind.ADD, address, text=text, line=claim.blocks[index].line)
 
 
 _REASONS = {EditKind.DROP: Why.NOT_NEEDED, EditKind.ADD: Why.MISSING, EditKind.MOVE: Why.AGREES}
@@ -344,7 +344,7 @@ def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, round
     text = f"{number:f}".rstrip("0")
     if text.endswith(".") and (lexicon.numbers.without_point is WithoutPoint.AS_WRITTEN or number == 0):
         text = text[:-1]
-    return spell(address, text)
+    return lexicon.spell(address, text)
 
 
 def rounded(

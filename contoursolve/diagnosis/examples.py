@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
 from contoursolve.diagnostics import NumberRange, OpenNumber
-from contoursolve.gcode import spell
 from contoursolve.geometry import Profile, Unit
 from contoursolve.numeric import Array, section
-from contoursolve.reading import ParsedContour
+from contoursolve.reading import Lexicon, ParsedContour
 from contoursolve.solving import agreement_rows, last_holding, passed_rows
 
 MOST_PROPOSED = 8
@@ -52,9 +51,11 @@ SAMPLE = "37.123"
 """Stands for any number where only the words matter."""
 
 
-def sampled(edits: Sequence[Edit]) -> tuple[Edit, ...]:
+def sampled(edits: Sequence[Edit], lexicon: Lexicon) -> tuple[Edit, ...]:
     """The edits with some number for every placeholder."""
-    return tuple(_numbered(edit, spell(edit.address, SAMPLE)) if edit.is_placeholder else edit for edit in edits)
+    return tuple(
+        _numbered(edit, lexicon.spell(edit.address, SAMPLE)) if edit.is_placeholder else edit for edit in edits
+    )
 
 
 def propose(claim: ParsedContour, profile: Profile, edits: Sequence[Edit]) -> Iterator[tuple[Edit, ...]]:

@@ -31,7 +31,7 @@ from contoursolve.diagnosis.wording import (
     unknowns_text,
 )
 from contoursolve.diagnostics import Basis, Diagnostic, Label, Span
-from contoursolve.gcode import FACT, Word, spell
+from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Arc, BlockRole, Fact, Length, Profile, Unit, assemble
 from contoursolve.reading import VERBS, Offence, ParsedContour, ReadIssue, Rule
 from contoursolve.solving import (
@@ -230,7 +230,7 @@ def explain_offence(context: Context, offence: Offence, claim: ParsedContour) ->
         if block and min(block).line != context.place.line:
             context = replace(context, place=min(block))
     turned = (givens[name] for name in offence.names if name in givens and givens[name].unit is Unit.DEGREE)
-    within = [spell(each.word.address, _pointed(each.value % _FULL_TURN)) for each in turned if each.word]
+    within = [claim.lexicon.spell(each.word.address, _pointed(each.value % _FULL_TURN)) for each in turned if each.word]
     is_asked = "{lacking" in offence.rule.message + offence.rule.help
     lacking = join(_lacking(claim, prefix)) if is_asked else ""
     return report(context, offence.rule, Basis.RULE, words, comparison="", within=join(within), lacking=lacking)

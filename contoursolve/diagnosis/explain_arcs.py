@@ -10,7 +10,7 @@ from contoursolve.diagnosis.edits import AT_LEAST, Edit, apply_edits, change, dr
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import MOST_FIXES, join, length_limit, length_text, limit_text
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, LineChange, Span
-from contoursolve.gcode import Block, Word, parse_block, spell
+from contoursolve.gcode import Block, Word, parse_block
 from contoursolve.reading import (
     CENTRES,
     ArcFault,
@@ -264,7 +264,7 @@ def _written(arc: PlainArc, own: ArcWord, value: float, rounding: str) -> str | 
     write: Callable[..., str] = write_word
     more = {"rounding": rounding} if rounding else {}
     text = write(word.address, value + own.base, lexicon, arc.here.unit, **more)
-    bare = spell(word.address, "")
+    bare = lexicon.spell(word.address, "")
     if word.has_point and "." not in text.removeprefix(bare):
         text += "."
     return with_plus(text, is_like="+" in word.text) if has_plus([arc.block]) else text

@@ -38,7 +38,7 @@ from contoursolve.diagnosis.subsets import (
 from contoursolve.diagnosis.typo_fixes import forgotten_codes, point_slips
 from contoursolve.diagnosis.window import Window, alone
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import FaultKind, number_of, spell
+from contoursolve.gcode import FaultKind
 from contoursolve.geometry import Given, Unit
 from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, check
 from contoursolve.solving import (
@@ -167,7 +167,7 @@ def _lost_ends(answer: Answer) -> Iterator[tuple[Edit, ...]]:
             continue
         for axis in claim.before.plane.axes:
             if behind.find(axis) is None and any(map(behind.find, claim.before.plane.axes)):
-                yield (Edit(EditKind.ADD, axis, text=spell(axis, PLACEHOLDER), line=block.line),)
+                yield (Edit(EditKind.ADD, axis, text=claim.lexicon.spell(axis, PLACEHOLDER), line=block.line),)
 
 
 def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[Edit, ...]]:
@@ -312,7 +312,7 @@ def _values(answer: Answer, whole: Geometry) -> Iterator[tuple[Edit, ...]]:
                 value += 360 * round((float(given.value) - value) / 360)
             agreeing = [write_word(word.address, value, lexicon, unit)] if value is not None else []
             texts += agreeing
-        new = (text for text in dict.fromkeys(texts) if Decimal(number_of(text, word.address)) != word.number)
+        new = (text for text in dict.fromkeys(texts) if Decimal(lexicon.number_of(text, word.address)) != word.number)
         why |= dict.fromkeys(agreeing, Why.AGREES)
         yield from ((*forced, change(word, text, why.get(text, Why.OTHER))) for text in new)
     if len(asked_together) > 1:

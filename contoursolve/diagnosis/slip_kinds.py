@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import LEADING
 from contoursolve.diagnosis.spelling import respelled
-from contoursolve.gcode import FACT, Word, mended, spell
+from contoursolve.gcode import FACT, Word, mended
 from contoursolve.geometry import CornerShape, Plane, Unit
 from contoursolve.reading import Address, Dialect, Effect, Lexicon, Modes, ParsedContour, WithoutPoint
 
@@ -23,8 +23,6 @@ _WORD = re.compile(
     r"[ \t]*[=(]?[ \t]*(?P<sign>[+-]?)(?P<number>\d+\.?\d*|\.\d+)\)?",
     re.ASCII,
 )
-_TWO_WORDS = {"RND R": "ROUNDING", "CHF": "CHAMFER"}
-"""The addresses of Klartext's words whose text is two words."""
 _DECIMALS = 3
 """Decimals that a word of either control has at most."""
 _ABOUT, _NEARLY = 0.01, 0.003
@@ -55,6 +53,11 @@ class Speech(Struct, frozen=True):
     shapes: Mapping[str, CornerShape] = {}
     claim: ParsedContour | None = None
     turned: str = ""
+
+    def address(self, match: re.Match[str]) -> str:
+        """The address of a word."""
+        name = " ".join(match["address"].upper().split())
+        return match["address"] if "=" in match[0] else self.lexicon.spelling.addresses.get(name, match["address"])
 
     @classmethod
     def of(cls, claim: ParsedContour) -> "Speech":
@@ -92,11 +95,15 @@ class Typed(Struct, frozen=True, dict=True):
     def of(cls, word: Word, speech: Speech, stated: frozenset[str] = frozenset()) -> "Typed | None":
         """The word in parts; None if it has no number."""
         match = _WORD.fullmatch(word.text.strip())
-        return cls(speech, word, _address_in(match), match["sign"], match["number"], stated) if match else None
+        return cls(speech, word, speech.address(match), match["sign"], match["number"], stated) if match else None
+
+    def spelled(self, number: str) -> str:
+        """The word with another text of its number."""
+        return self.speech.lexicon.spell(self.address, number)
 
     def as_number(self, *numbers: str) -> Iterator[str]:
         """The word with other digits."""
-        return (spell(self.address, self.sign + number) for number in numbers)
+        return (self.spelled(self.sign + number) for number in numbers)
 
     def as_value(self, *values: Decimal) -> Iterator[str]:
         """The word with another number, spelled as this one is."""
@@ -105,11 +112,11 @@ class Typed(Struct, frozen=True, dict=True):
             text = text.rstrip("0").rstrip(".") if "." in text else text
             is_pointed = self.number.endswith(".") or ("." in self.number and self.counts)
             sign = "-" if value < 0 else "+" if self.sign == "+" else ""
-            yield spell(self.address, sign + text + "." * (is_pointed and "." not in text))
+            yield self.spelled(sign + text + "." * (is_pointed and "." not in text))
 
     def as_address(self, *addresses: str) -> Iterator[str]:
         """The word with another address."""
-        return (spell(address, self.sign + self.number) for address in addresses)
+        return (self.speech.lexicon.spell(address, self.sign + self.number) for address in addresses)
 
     @cached_property
     def row(self) -> Address | None:
@@ -147,12 +154,6 @@ class Typed(Struct, frozen=True, dict=True):
         """The word, if the contour has no such address."""
         unknown = self.speech.claim.unknown if self.speech.claim is not None else ()
         return next((each for each in unknown if each.span == self.word.span), None)
-
-
-def _address_in(match: re.Match[str]) -> str:
-    """The address of a word, as `spell` takes it."""
-    name = " ".join(match["address"].upper().split())
-    return match["address"] if "=" in match[0] else _TWO_WORDS.get(name, match["address"])
 
 
 Texts = Iterable[str]
@@ -212,16 +213,16 @@ def _zero_first(typed: Typed) -> Texts:
 def _sign_lost(typed: Typed) -> Texts:
     is_turned_far = typed.is_angle and abs(typed.value) > _HALF
     is_positive = typed.sign != "-" and typed.value and not typed.is_choice and not is_turned_far
-    return [spell(typed.address, "-" + typed.number)] if is_positive else ()
+    return [typed.spelled("-" + typed.number)] if is_positive else ()
 
 
 def _sign_added(typed: Typed) -> Texts:
-    return [spell(typed.address, typed.number)] if typed.sign == "-" and not typed.is_choice else ()
+    return [typed.spelled(typed.number)] if typed.sign == "-" and not typed.is_choice else ()
 
 
 def _sign_of_choice(typed: Typed) -> Texts:
     sign = "" if typed.sign == "-" else "-"
-    return [spell(typed.address, sign + typed.number)] if typed.is_choice and typed.value else ()
+    return [typed.spelled(sign + typed.number)] if typed.is_choice and typed.value else ()
 
 
 def _angles(others: Callable[[Decimal], Iterable[Decimal]]) -> Callable[[Typed], Texts]:
@@ -497,13 +498,13 @@ def texts_of(slip: SlipKind, typed: Typed | None) -> Iterator[str]:
     decimals = max(_DECIMALS, len(typed.number.partition(".")[2]))
     for text in dict.fromkeys(slip.texts(typed)):
         match = _WORD.fullmatch(text)
-        address = _address_in(match).replace(" ", "").upper() if match else ""
+        address = speech.address(match).replace(" ", "").upper() if match else ""
         if match is None or address not in speech.lexicon.addresses or address not in speech.allowed:
             continue
         # Zeros say nothing, no drawing has idle turns, and nobody writes a leading zero or a corner of no size.
         is_same = text == own or ("." in text and "." in own and text.rstrip("0") == own.rstrip("0"))
         is_idle = LEADING.search(text) or (typed.is_angle and _is_idle_turn(match, typed))
-        is_nothing = not match["number"].strip("0.") and _address_in(match) in speech.shapes
+        is_nothing = not match["number"].strip("0.") and speech.address(match) in speech.shapes
         if not (is_same or is_idle or is_nothing) and len(match["number"].partition(".")[2]) <= decimals:
             yield text
 
@@ -541,11 +542,12 @@ def recognise(edit: Edit, claim: ParsedContour) -> SlipKind | None:
 
 def explained(word: Word, value: float, claim: ParsedContour, kinds: Iterable[SlipKind] = SLIPS) -> Iterator[str]:
     """Words that a word may have been meant to be with about this value, mm (radius) or degrees, by a slip."""
-    typed = Typed.of(word, Speech.of(claim))
+    speech = Speech.of(claim)
+    typed = Typed.of(word, speech)
     for slip in kinds:
         for text in texts_of(slip, typed):
             match = _WORD.fullmatch(text)
-            if match is None or _address_in(match).replace(" ", "").upper() != word.address:
+            if match is None or speech.address(match).replace(" ", "").upper() != word.address:
                 continue
             number = match["sign"] + match["number"]
             meant = replace(word, number=Decimal(number), has_point="." in number)

@@ -16,7 +16,7 @@ from contoursolve.diagnosis.examine import (
     is_rounded,
     list_alternatives,
 )
-from contoursolve.gcode import FACT, spell
+from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Pick
 from contoursolve.solving import (
     DECIMALS,
@@ -151,7 +151,8 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
         numbered = {number: f"block {number}" for number in block_numbers(answer.claim.blocks).values()}
         labels = [(each.number, path[each.element - 1].name) for each in picks]
         return [
-            f"{spell(word, str(number))} after {numbered.get(name.partition(' ')[2], name)}" for number, name in labels
+            f"{answer.claim.lexicon.spell(word, str(number))} after {numbered.get(name.partition(' ')[2], name)}"
+            for number, name in labels
         ]
     words = [
         selector.word

@@ -24,8 +24,6 @@ from contoursolve.gcode import (
     lookalike_at,
     looks_like,
     mended,
-    number_of,
-    spell,
 )
 from contoursolve.geometry import Arc, CornerShape, Given, Length, Start, Unit
 from contoursolve.reading import (
@@ -278,13 +276,13 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         meant = lookalike_at(mendable, word.span)
         other = "" if meant else other
         sizes = [] if word.address != "R" else [radius] if (radius := _radius(word, claim)) else _roundings(claim)
-        texts = [spell(address, number_of(word.text, word.address)) for address in sizes]
+        texts = [claim.lexicon.spell(address, claim.lexicon.number_of(word.text, word.address)) for address in sizes]
         ways = [*dict.fromkeys((*texts, *filter(None, [other]))), *([f"{meant.new} for {meant.old}"] if meant else [])]
         do = f"write {' or '.join(ways)}" if ways else "delete it"
         name = form.name if form.name.startswith("G") else form.title
         finding = report(context, ReadIssue.UNKNOWN_ADDRESS, Basis.RULE, [word], form=name, allowed=allowed, advice=do)
         if texts and not meant:
-            sizes = [spell(each, "").split()[0].strip("=") for each in sizes]
+            sizes = [claim.lexicon.spell(each, "").split()[0].strip("=") for each in sizes]
             told = f"the radius of an arc is {join(sizes)}" if radius else f"roundings are {join(sizes)}"
             finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; {told}")
         if other and len(word.address) > 1:
@@ -310,7 +308,7 @@ def _roundings(claim: ParsedContour) -> list[str]:
 def respelled(word: Word, claim: ParsedContour) -> str:
     """The address that a word of a contour was most plausibly meant to have; empty if it is like none."""
     if word.address == "R" and (radius := _radius(word, claim)):
-        return spell(radius, number_of(word.text, word.address))
+        return claim.lexicon.spell(radius, claim.lexicon.number_of(word.text, word.address))
     allowed = [each for each in claim.lexicon.addresses if each in claim.form.allowed]
     return next(iter(meant_by(word, allowed, claim.lexicon)), "")
 
@@ -519,7 +517,7 @@ def readings(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str, str]
     for the first."""
     number, step = word.number or Decimal(0), lexicon.numbers.step(Unit.MM, unit)
     actual, expected = (length_text(float(number * scale * unit.in_mm), unit) for scale in (step, 1))
-    return actual, expected, spell(word.address, f"{number * step:f}".rstrip("0"))
+    return actual, expected, lexicon.spell(word.address, f"{number * step:f}".rstrip("0"))
 
 
 def tell_points(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:

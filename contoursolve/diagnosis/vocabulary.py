@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span, typing_distance
-from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
+from contoursolve.gcode import Block, FaultKind, Word
 from contoursolve.reading import Bearing, Code, Dialect, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
 
 _SHORTEST = 2
@@ -32,8 +32,8 @@ _ROLES = (
 def meant_by(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
     """The words that one was meant to be that the control has not, the most plausible first: the same with a comma or a
     number sign or without it, one with the same letters but for a slip, what another control calls so."""
-    number = _number(word)
-    return [spell(each, number) for each in _meant(word, known, lexicon)] if number else []
+    number = _number(word, lexicon)
+    return [lexicon.spell(each, number) for each in _meant(word, known, lexicon)] if number else []
 
 
 def _meant(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
@@ -42,7 +42,7 @@ def _meant(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
     others = [each for each in known if each != word.address and each.lstrip(",#")]
     own = lexicon.addresses
     same = [each for each in others if each.lstrip(",#") == bare and each in own]
-    near = sorted((distance, each) for each in others if (distance := _apart(bare, _typed(each))) is not None)
+    near = sorted((distance, each) for each in others if (distance := _apart(bare, _typed(each, lexicon))) is not None)
     near = [each for each in near if each[1] in own] or near
     roles = [each for each in others if _role(each, lexicon) and _role(each, lexicon) == _begins_like(word.address)]
     corners = [each for each in others if word.address.startswith(",") and each.startswith(",")]
@@ -55,17 +55,18 @@ def _meant(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
     return [*dict.fromkeys([*same, *(each for _, each in near), *roles, *corners])]
 
 
-def _typed(address: str) -> str:
+def _typed(address: str, lexicon: Lexicon) -> str:
     """The pattern of the name of a word."""
-    return spell(address, "").split()[0].strip("=") if " " in spell(address, "") else address
+    text = lexicon.spell(address, "")
+    return text.split()[0].strip("=") if " " in text else address
 
 
 _LARGEST_CORNER = 44
 """A number beyond which it is an angle rather than the size of a corner."""
 
 
-def _number(word: Word) -> str:
-    number = number_of(word.text, word.address)
+def _number(word: Word, lexicon: Lexicon) -> str:
+    number = lexicon.number_of(word.text, word.address)
     return number if number and (number.strip("+-.0123456789,?") == "") else ""
 
 
@@ -115,15 +116,15 @@ def _apart(typed: str, other: str) -> int | None:
 def names_like(typed: str, lexicon: Lexicon, codes: Iterable[str]) -> Iterator[str]:
     """The names that a word or a code may have been meant to have, as they are typed: one letter too many, lost or
     exchanged, or the same letters in another order."""
-    bare, known = typed.upper(), (*codes, *(_name(each) for each in lexicon.plain_names()))
+    bare, known = typed.upper(), (*codes, *(_name(each, lexicon) for each in lexicon.plain_names()))
     for name in dict.fromkeys(known):
         if name.strip("#,").isalpha() and name != bare and _is_like(bare.lstrip("#"), name.lstrip("#")):
             yield name
 
 
-def _name(address: str) -> str:
+def _name(address: str, lexicon: Lexicon) -> str:
     """The name of a word as it is typed, without what its number needs before it."""
-    return spell(address, "").partition("(")[0].split("=")[0].split()[0]
+    return lexicon.spell(address, "").partition("(")[0].split("=")[0].split()[0]
 
 
 def _is_like(typed: str, name: str) -> bool:
@@ -164,10 +165,11 @@ def corner_at(text: str, span: Span, lexicon: Lexicon, *, in_contour: bool = Fal
     word = Word(f"#{name}" if is_signed else name, None, False, found[0], span)
     place = Span(span.line, found.start() + 1, found.end() + 1)
     known = [each for each in lexicon.addresses if _role(each, lexicon) or (in_contour and _part(each, lexicon))]
-    meant = [spell(each, number) for each in _meant(word, known, lexicon)]
-    own = [spell(each, number) for each in known if _typed(each).partition(" ")[0].lstrip(",#") == name]
+    meant = [lexicon.spell(each, number) for each in _meant(word, known, lexicon)]
+    alike = [each for each in known if _typed(each, lexicon).partition(" ")[0].lstrip(",#") == name]
+    own = [lexicon.spell(each, number) for each in alike]
     if in_contour and not (own or meant):
-        meant = [spell(each, number) for each in known if _part(each, lexicon) == _begins_like(word.address)]
+        meant = [lexicon.spell(each, number) for each in known if _part(each, lexicon) == _begins_like(word.address)]
     meant = [each for each in dict.fromkeys([*own, *meant]) if each != found[0].strip()]
     typed = replace(word, address=(found["sign"] or "") + name, span=place)
     is_torn = len(name) > 1 and not own and not is_signed
@@ -218,7 +220,7 @@ def is_corner_word(address: str, lexicon: Lexicon) -> bool:
 
 def _is_spelled(name: str, lexicon: Lexicon) -> bool:
     """Whether a name of several characters is that of a word of the control."""
-    return len(name) > 1 and any(_typed(each) == name for each in lexicon.addresses)
+    return len(name) > 1 and any(_typed(each, lexicon) == name for each in lexicon.addresses)
 
 
 _UNREADABLE: frozenset[Enum | None] = frozenset(
@@ -300,7 +302,7 @@ def like_corners(block: Block, modes: Modes, others: Container[str]) -> bool:
     corners = [*corner_words(lexicon)] if names else []
     return any(
         each.address.lstrip(",#") in _NAMES
-        or any(_apart(each.address.lstrip(",#"), _typed(corner)) is not None for corner in corners)
+        or any(_apart(each.address.lstrip(",#"), _typed(corner, lexicon)) is not None for corner in corners)
         for each in names
     )
 
@@ -408,7 +410,7 @@ def _unknown_word(
 ) -> Diagnostic:
     """A word that the control has not: an error where the control stops at it, else a warning; `likely` are addresses
     that are meant before all others."""
-    sure = [spell(each, _number(word)) for each in likely if _number(word)]
+    sure = [lexicon.spell(each, _number(word, lexicon)) for each in likely if _number(word, lexicon)]
     meant = sure or meant_by(word, lexicon.plain_names(), lexicon)
     if word.address in others:
         advice = f"write {either(meant[:_MOST])} if that is meant" if meant else "write out what it means"

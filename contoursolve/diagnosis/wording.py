@@ -7,7 +7,7 @@ from enum import Enum
 from functools import lru_cache
 
 from contoursolve.diagnostics import Span
-from contoursolve.gcode import FACT, Word, call, spell
+from contoursolve.gcode import FACT, Word, call
 from contoursolve.geometry import Arc, CornerShape, Given, Layout, Length, Plane, Profile, Unit
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import Status
@@ -70,7 +70,8 @@ def statement_text(given: Given, value: float, profile: Profile) -> str:
     if word is None or word.address == FACT:
         return f"{word.text.partition('=')[0].strip() if word else given.name} = {number}"
     lines = {each.word.span.line for each in profile.givens.values() if each.word}
-    return spell(word.address, number) + (f" (program line {word.span.line})" if len(lines) > 1 else "")
+    text = profile.blocks[0].syntax.words.spell(word.address, number)
+    return f"{text} (program line {word.span.line})" if len(lines) > 1 else text
 
 
 def meaning_of(name: str, word: Word, claim: ParsedContour) -> str:

@@ -16,7 +16,7 @@ from contoursolve.diagnosis import Answer, Depth, join
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
-from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
+from contoursolve.gcode import FACT, Directive, Program, Word, WordSpelling, call
 from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run
 from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.solving import Point
@@ -143,8 +143,9 @@ class Template(Struct, frozen=True, eq=False):
 
     def filled(self, values: Mapping[str, float]) -> "Template":
         """The block with these values written in it, and no word free."""
-        words = self.words.items()
-        return self.typed({name: with_value(word, write(values[name])) for name, word in words if name in values})
+        words, spelling = self.words.items(), self.program.syntax.words
+        texts = {name: with_value(word, write(values[name]), spelling) for name, word in words if name in values}
+        return self.typed(texts)
 
     def typed(self, texts: Mapping[str, str]) -> "Template":
         """The block with these texts in place of free words, and no word free."""
@@ -262,9 +263,9 @@ def unit_word(word: Word, *, has_point: bool) -> Word:
     return replace(word, number=Decimal(1), has_point=has_point)
 
 
-def with_value(word: Word, value: str) -> str:
+def with_value(word: Word, value: str, words: WordSpelling) -> str:
     """The text of a word, or of a fact, with another value."""
-    return re.sub(r"=.*", f"= {value}", word.text) if word.address == FACT else spell(word.address, value)
+    return re.sub(r"=.*", f"= {value}", word.text) if word.address == FACT else words.spell(word.address, value)
 
 
 _NEVER = ("G", "N", "M")

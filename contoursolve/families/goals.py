@@ -206,7 +206,7 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
     """Every value of a word or a fact, as written, with which a point has one coordinate, and why these are not proven
     to be all; nothing if they are. `answer` is that of the block as it is. Raises NotMovedError, FamilyError."""
     typed = template.words[word]
-    asking = template.typed({word: with_value(typed, "?")})
+    asking = template.typed({word: with_value(typed, "?", template.program.syntax.words)})
     facts = asking.asked.facts
     facts = (*facts, read_directive(_stated(goal, answer), -len(facts) - 1))
     result = replace(asking, asked=replace(asking.asked, facts=facts)).examined(Depth.VERDICT)

@@ -373,7 +373,7 @@ class _TargetSearch:
         template, word = self.search.template, self.search.word
         typed = template.words[word]
         if typed.address == FACT:
-            texts = {word: with_value(typed, write(value))}
+            texts = {word: with_value(typed, write(value), template.program.syntax.words)}
         else:
             lexicon, unit = answer.claim.lexicon, answer.unit
             texts = {word: write_word(typed.address, value * self.search.scale, lexicon, unit)}

@@ -64,7 +64,9 @@ from .syntax import (
     IN_BRACKETS as IN_BRACKETS,
     IN_PARENTHESES as IN_PARENTHESES,
     ISO as ISO,
+    PLAIN as PLAIN,
     Syntax as Syntax,
+    WordSpelling as WordSpelling,
     long_parts as long_parts,
     nested as nested,
 )
@@ -88,8 +90,6 @@ from .word import (
     TypedPlace as TypedPlace,
     Word as Word,
     call as call,
-    number_of as number_of,
-    spell as spell,
     typed_places as typed_places,
     typed_span as typed_span,
 )

@@ -10,7 +10,7 @@ from msgspec import Struct
 from contoursolve.diagnostics import Span
 from contoursolve.gcode.late_pattern import late_pattern
 from contoursolve.gcode.syntax import ISO
-from contoursolve.gcode.word import Block, Fault, FaultKind, spell
+from contoursolve.gcode.word import Block, Fault, FaultKind
 
 _DIGITS = str.maketrans("lI|Oo", "11100")
 _NUMBER = r"(?>(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*+(?:[;(]|$)))+)"
@@ -99,20 +99,15 @@ def _torn(block: Block) -> tuple[Lookalike, ...]:
 def _meant(block: Block, fault: Fault) -> Lookalike | None:
     """The word that a fault was meant to be: digits for letters, and an equals sign behind a long address. None if that
     is no word."""
-    # A chamfer has no R: its size stands behind CHF.
-    match = _LONG.fullmatch(_CHAMFER.sub(r"\1 ", fault.text))
+    words = block.syntax.words
+    match = _LONG.fullmatch(words.spare.sub(r"\1 ", fault.text) if words.spare else fault.text)
     if match is None or fault.kind is not FaultKind.NUMBER_MALFORMED:
         return None
-    address = (
-        _NAMES.get(match["address"].upper(), match["address"]) if block.syntax.name == "klartext" else match["address"]
-    )
-    new = spell(address, match["number"].translate(_DIGITS).replace(",", "."))
+    address = words.names.get(match["address"].upper(), match["address"])
+    new = words.spell(address, match["number"].translate(_DIGITS).replace(",", "."))
     return Lookalike(fault.span, fault.text, new) if new != fault.text else None
 
 
-_NAMES = {"RND": "ROUNDING", "CHF": "CHAMFER"}
-"""Names of the sizes that these words of Klartext state."""
-_CHAMFER = late_pattern(r"\b(CHF)[ \t]*R[ \t]*(?=\d)", re.IGNORECASE)
 _LONG = late_pattern(r"(?P<address>#?[A-Za-z_]\w*?)[ \t]*=?[ \t]*(?P<number>[+-]?\d[\d.,Ool|]*)", re.ASCII)
 
 

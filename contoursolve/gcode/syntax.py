@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from contoursolve.gcode.plain_spelling import ISO_LINES, PlainSpelling
 
@@ -24,6 +25,47 @@ def long_parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
     address = (found["letter"] or found["long"]) + (f"={function}" if function else "")
     is_asked = any(found[name] is not None for name in ("unset", "wanted", "asked"))
     return address.upper(), number and number.replace(",", "."), is_asked
+
+
+_LAST_NUMBER = re.compile(r"[+-]?+[\d.,]++(?=\s*+$)|\?(?=\s*+$)")
+
+
+@dataclass(frozen=True, eq=False)
+class WordSpelling:
+    """One way to spell words. `before` is the text before the numbers of words that have no equals sign there, by their
+    addresses; those of `signs` have a sign and no number. `names` are the addresses whose values words of other names
+    state, and `spare` is text before a number that belongs to another word, but for its first group."""
+
+    before: Mapping[str, str] = field(default_factory=dict)
+    signs: frozenset[str] = frozenset()
+    names: Mapping[str, str] = field(default_factory=dict)
+    spare: re.Pattern[str] | None = None
+
+    @cached_property
+    def addresses(self) -> Mapping[str, str]:
+        """The addresses of words whose text before the number is another one, by that text."""
+        return {text.strip(): address for address, text in self.before.items() if text.strip() != address}
+
+    def spell(self, address: str, number: str) -> str:
+        """A word of an address and a number: `X40.`, `,A30.`, `ANG=30`, `X=IC(5)`, `LEN40`, `DR-`."""
+        if address in self.before:
+            return self.before[address] + number
+        if address in self.signs:
+            return address + ("-" if number.startswith("-") else "+")
+        if "=" in address:
+            return f"{address}({number})"
+        return f"{address}={number}" if len(address.lstrip(", \t")) > 1 else address + number
+
+    def number_of(self, text: str, address: str) -> str:
+        """The number of a word that is spelled so, as it is written."""
+        if address in self.before:
+            found = _LAST_NUMBER.search(text)
+            return found[0] if found else ""
+        return text.strip()[len(address) :].strip("=() \t")
+
+
+PLAIN = WordSpelling()
+"""The spelling of words by letters, and by names with an equals sign."""
 
 
 _SKIP = re.compile(r"[ \t]*+/[1-9]?+(?!\d)")
@@ -56,6 +98,8 @@ class Syntax:
     """Whether whoever writes such programs counts by the numbers of blocks, not by lines."""
     plain: PlainSpelling = ISO_LINES
     """The lines that do nothing but move."""
+    words: WordSpelling = PLAIN
+    """The spelling of its words."""
 
 
 # Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.

@@ -72,56 +72,9 @@ class Fault(Struct, frozen=True):
 
 _ADDRESS = re.compile(
     r"[ \t]*(,?)[ \t]*"
-    r"(#?[A-Za-z_]\w*(?=[ \t]*=)|(?:RND|CHF)(?=[ \t]+[+-]?[RQ])|[A-Za-z]{2,}(?=[ \t]*[+-]?\.?\d)|[A-Za-z])",
+    r"(#?[A-Za-z_]\w*(?=[ \t]*=)|[A-Za-z]{2,}(?=[ \t]+[+-]?[RQ])|[A-Za-z]{2,}(?=[ \t]*[+-]?\.?\d)|[A-Za-z])",
     re.ASCII,
 )
-
-
-_BEFORE_NUMBER = {
-    **{f"{axis}{name}": f"{axis}{name}" for axis in ("", "I") for name in ("CCX", "CCY", "CCZ", "CCPR", "CCPA", "AN")},
-    **{f"I{name}": f"I{name}" for name in ("X", "Y", "Z", "A", "B", "C", "PR", "PA")},
-    **{f"P{point}{axis}": f"P{point}{axis}" for point in "123D" for axis in "XYZ"},
-    **{f"R{name}": f"R{name} " for name in ("X", "Y", "Z", "PR", "PA", "AN", "CCX", "CCY", "CCZ", "CCPR", "CCPA")},
-    "PR": "PR",
-    "PA": "PA",
-    "LEN": "LEN",
-    "CCA": "CCA",
-    "DP": "DP",
-    "PAR": "PAR ",
-    "FSELECT": "FSELECT ",
-    "ROUNDING": "RND R",
-    "CHAMFER": "CHF ",
-    # As a drawing has them.
-    "rounding": "rounding ",
-    "chamfer": "chamfer ",
-}
-"""Text that Klartext, and a drawing, writes before the numbers of words with several letters; there is no equals
-sign."""
-
-_SIGN_ALONE = frozenset({"DR", "CLSD"})
-"""Words of Klartext that are a sign and no number."""
-
-
-def spell(address: str, number: str) -> str:
-    """A word of an address and a number: `X40.`, `,A30.`, `ANG=30`, `X=IC(5)`, `LEN40`, `DR-`."""
-    if address in _BEFORE_NUMBER:
-        return _BEFORE_NUMBER[address] + number
-    if address in _SIGN_ALONE:
-        return address + ("-" if number.startswith("-") else "+")
-    if "=" in address:
-        return f"{address}({number})"
-    return f"{address}={number}" if len(address.lstrip(", \t")) > 1 else address + number
-
-
-def number_of(text: str, address: str) -> str:
-    """The number of a word that is spelled so, as it is written."""
-    if address in _BEFORE_NUMBER:
-        found = _LAST_NUMBER.search(text)
-        return found[0] if found else ""
-    return text.strip()[len(address) :].strip("=() \t")
-
-
-_LAST_NUMBER = re.compile(r"[+-]?+[\d.,]++(?=\s*+$)|\?(?=\s*+$)")
 
 
 def call(word: Word, words: Sequence[Word]) -> str:

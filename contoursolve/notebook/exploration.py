@@ -23,12 +23,12 @@ from contoursolve.diagnosis import (
     write_word,
 )
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import FACT, TypedPlace, Word, number_of, parse, spell, split_lines, typed_places
+from contoursolve.gcode import FACT, TypedPlace, Word, parse, split_lines, typed_places
 from contoursolve.geometry import Pick, Unit
 from contoursolve.notebook.block_place import BlockPlace
 from contoursolve.output import stated_words
 from contoursolve.program import Changes, Result, UnknownControlError, changed, changes_of
-from contoursolve.reading import Dialect
+from contoursolve.reading import Dialect, Lexicon
 from contoursolve.solving import Status
 from contoursolve.tool_radius import Tool, ToolReport, make_tool, radius_in, read_tool, tool_in
 
@@ -332,13 +332,13 @@ def free(exploration: Exploration, key: str) -> Exploration:
     that it had."""
     answer, word = _find(exploration, key)
     if not word.is_asked:
-        freed = _edited(exploration, [_change(answer, word, spell(word.address, "?"))])
+        freed = _edited(exploration, [_change(answer, word, answer.claim.lexicon.spell(word.address, "?"))])
         return replace(freed, last={**exploration.last, key: word.text})
     found = next((each for each in answer.answers if each.question.word.span == word.span), None)
-    text = exploration.last.get(key, spell(word.address, "0."))
+    text = exploration.last.get(key, answer.claim.lexicon.spell(word.address, "0."))
     if found is not None and found.value is not None:
         text = write_word(word.address, found.value, answer.claim.lexicon, answer.unit)
-        text = _signed(text, word.address, exploration.last.get(key, ""))
+        text = _signed(text, word.address, exploration.last.get(key, ""), answer.claim.lexicon)
     return _edited(exploration, [_change(answer, word, text)])
 
 
@@ -390,10 +390,10 @@ def _picking(answer: Answer, picks: Sequence[Pick]) -> Iterator[Edit]:
     wanted = {each.element: each.number for each in picks}
     present = {each.element: claim.words[each.given] for each in answer.profile.picks if each.given}
     for element, old in present.items():
-        yield _change(answer, old, spell(word, str(wanted.get(element, 1))))
+        yield _change(answer, old, claim.lexicon.spell(word, str(wanted.get(element, 1))))
     for element in wanted.keys() - present.keys():
         line = lines[answer.profile.figure.path[element - 1].name]
-        yield Edit(EditKind.ADD, word, text="\n" + spell(word, str(wanted[element])), line=line)
+        yield Edit(EditKind.ADD, word, text="\n" + claim.lexicon.spell(word, str(wanted[element])), line=line)
 
 
 def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iterator[Sequence[Edit]]:
@@ -448,13 +448,12 @@ def _written(answer: Answer, word: Word, value: float | str) -> str:
     number = _decimal(word.address, value)
     lexicon = answer.claim.lexicon
     if lexicon.addresses[word.address].unit is Unit.SIGN:
-        return spell(word.address, "-1" if number < 0 else "1")
+        return lexicon.spell(word.address, "-1" if number < 0 else "1")
     meant = lexicon.value(replace(word, number=number, has_point=True, is_asked=False), answer.unit)
     text = write_word(word.address, float(meant or 0), lexicon, answer.unit)
     is_signed = any("+" in each.text for each in answer.claim.words.values())
-    return _signed(
-        text, word.address, "+" if is_signed and number_of(word.text, word.address)[:1] == "-" else word.text
-    )
+    is_negative = lexicon.number_of(word.text, word.address)[:1] == "-"
+    return _signed(text, word.address, "+" if is_signed and is_negative else word.text, lexicon)
 
 
 def _decimal(name: str, value: float | str) -> Decimal:
@@ -470,10 +469,10 @@ def _decimal(name: str, value: float | str) -> Decimal:
     return number
 
 
-def _signed(text: str, address: str, like: str) -> str:
+def _signed(text: str, address: str, like: str, lexicon: Lexicon) -> str:
     """A word whose number has a plus as another one's has, unless it is negative."""
-    number = number_of(text, address)
-    return spell(address, f"+{number}") if "+" in like and number[:1] not in ("-", "+") else text
+    number = lexicon.number_of(text, address)
+    return lexicon.spell(address, f"+{number}") if "+" in like and number[:1] not in ("-", "+") else text
 
 
 def _without_echoes(exploration: Exploration, wanted: Listed) -> Exploration:

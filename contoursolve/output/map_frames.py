@@ -126,8 +126,8 @@ class LiveMap:
     def filled(self, values: Sequence[float]) -> Template:
         """The block with values of both words written in it."""
         own = {**self.plane.fixed, **dict(zip(self.plane.words, map(float, values), strict=True))}
-        words = self.template.words
-        return self.template.typed({name: with_value(words[name], _typed(value)) for name, value in own.items()})
+        words, spelling = self.template.words, self.template.program.syntax.words
+        return self.template.typed({name: with_value(words[name], _typed(at), spelling) for name, at in own.items()})
 
     def look(self, values: Sequence[float]) -> MapFrame:
         """The frame at values of both words, with what is wrong in the words of the first finding. Raises ValueError

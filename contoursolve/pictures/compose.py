@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, list_solutions
 from contoursolve.diagnostics import Diagnostic, Severity
-from contoursolve.gcode import FACT, spell
+from contoursolve.gcode import FACT
 from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
@@ -138,7 +138,7 @@ def _other_ways(subject: Subject) -> tuple[list[Trail], Others]:
             picks = [each for each in picks if each.element not in stated]
         if picks and answer.claim.form.free.picking:
             numbers = "-".join(str(each.number) for each in picks)
-            told = numbers if is_solved else spell(answer.claim.form.free.picking, numbers)
+            told = numbers if is_solved else answer.claim.lexicon.spell(answer.claim.form.free.picking, numbers)
             name = profile.figure.path[picks[-1].element - 1].head
             places.setdefault(name, []).append((item.solution.points[name], told))
     return trails, places

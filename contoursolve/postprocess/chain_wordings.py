@@ -6,7 +6,7 @@ from itertools import pairwise, product
 from msgspec.structs import replace
 
 from contoursolve.controls import ChainFinder, Element, Joining, Language, compose, names_of
-from contoursolve.gcode import spell
+from contoursolve.gcode import PLAIN
 from contoursolve.geometry import Turn
 from contoursolve.postprocess.contour_drawing import ContourDrawing, DrawnElement, begins_smoothly
 from contoursolve.postprocess.wordings import (
@@ -137,10 +137,10 @@ class ChainWordings(GCodeSpeller):
         yield words
         pair = kinds[number - 1 : number + 1] if kind.is_over else ()
         if meeting.selector and any(each.turn is not None for each in pair):
-            yield from ((*words, WrittenWord(spell(meeting.selector, sign))) for sign in ("-1", "1"))
+            yield from ((*words, WrittenWord(PLAIN.spell(meeting.selector, sign))) for sign in ("-1", "1"))
         is_crossed = len({each.turn is None for each in kinds}) > 1 and not any(each.touches for each in kinds)
         if meeting.picks and kind.turn is not None and is_crossed:
-            yield (*words, WrittenWord(spell(meeting.picks, "1")))
+            yield (*words, WrittenWord(PLAIN.spell(meeting.picks, "1")))
 
     def _motion(self, kind: Element) -> int:
         if kind.is_smooth and self.language.arc.tangent is not None:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from contoursolve.gcode import spell
+from contoursolve.gcode import PLAIN, WordSpelling
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.postprocess.post_processors import Arcs
 from contoursolve.reading import State
@@ -39,6 +39,7 @@ class Format:
     """Whether centres are coordinates, and not counted from where the arc begins."""
     letters: tuple[str, ...] = ()
     """The addresses of the plane's axes, where these are not their names."""
+    words: WordSpelling = PLAIN
     mm: float = field(init=False)
     """Millimetres of one unit."""
     step: float = field(init=False)
@@ -165,7 +166,9 @@ class _Writer:
         off = hypot(exact[0] - end[0] * mm, exact[1] - end[1] * mm)
         if hypot(end[0] - here, end[1] - there) < self.step / 4 or self._is_turned_back(end):
             return MotionBlock(1, (), self._in_mm(self.here), off)
-        words = sorted(spell(*each) for each in zip(form.letters or form.plane.axes, (first, second), strict=True))
+        words = sorted(
+            form.words.spell(*each) for each in zip(form.letters or form.plane.axes, (first, second), strict=True)
+        )
         more: list[str] = []
         if isinstance(self.segment, LineSegment):
             code = 0 if is_rapid else 1
@@ -227,7 +230,7 @@ class _Writer:
         text = self.form.number(radius, spec)
         height = sqrt(max(radius**2 - half**2, 0.0)) * arc.turn.sign / (2 * half)
         center = (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height
-        return [spell(self.form.radius, text)], center, radius
+        return [self.form.words.spell(self.form.radius, text)], center, radius
 
     def _arc(self) -> ArcSegment:
         if isinstance(self.segment, LineSegment):

@@ -22,7 +22,6 @@ from contoursolve.gcode import (
     own_comments,
     parse_block,
     remark,
-    spell,
     with_comments_of,
     words_of,
 )
@@ -455,6 +454,7 @@ class Expander:
                 self._radius,
                 self.has_absolute_centers,
                 letters,
+                self.modes.lexicon.spelling,
             )
         return self.formats[key]
 
@@ -463,7 +463,7 @@ class Expander:
         value = (self.modes.words(state).value(word, state.unit) or Decimal(0)) / state.unit.in_mm
         exponent = value.normalize().as_tuple().exponent
         places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
-        return spell(word.address, form.number(float(value), f"%.{places}f"))
+        return self.modes.lexicon.spell(word.address, form.number(float(value), f"%.{places}f"))
 
     def _write(self, block: Block, moves: list[MotionBlock], end: str, state: State, solved: Block) -> str:
         """The lines in place of a block; `solved` is the same with numbers for variables. Its number and what it sets

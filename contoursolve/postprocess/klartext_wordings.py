@@ -7,7 +7,7 @@ from itertools import islice
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
-from contoursolve.gcode import Word, spell
+from contoursolve.gcode import Word
 from contoursolve.geometry import Arc, CornerShape, Turn, Unit
 from contoursolve.postprocess.contour_drawing import ContourDrawing, DrawnElement, begins_smoothly
 from contoursolve.postprocess.small_program import SmallProgram
@@ -132,7 +132,9 @@ class KlartextWordings(Speller):
         code = ("FL" if isinstance(element.segment, LineSegment) else "FC") + ("T" if is_smooth else "")
         yield WrittenBlock(None, code, (*words, *sense), element.place)
         picks = [word for word in own.values() if word.address == _PICK]
-        yield from (WrittenBlock(None, "", (WrittenWord(spell(_PICK, f"{word.number}")),)) for word in picks)
+        yield from (
+            WrittenBlock(None, "", (WrittenWord(self.lexicon.spell(_PICK, f"{word.number}")),)) for word in picks
+        )
 
     def _as_said(self, name: str, word: Word) -> WrittenWord:
         """A word of a free contour for the same element."""
@@ -140,9 +142,9 @@ class KlartextWordings(Speller):
         if address in _REFERENCES:
             path = self.answer.profile.figure.path
             place = next((n for n, each in enumerate(path) if each.name.endswith(f" {word.number}")), len(path))
-            return WrittenWord(spell(address, f"{REFERENCE}{place}{REFERENCE}"))
+            return WrittenWord(self.lexicon.spell(address, f"{REFERENCE}{place}{REFERENCE}"))
         if given is None or given.unit is Unit.SIGN:
-            return WrittenWord(spell(address, f"{word.number}"))
+            return WrittenWord(self.lexicon.spell(address, f"{word.number}"))
         is_coordinate = address[-1] in "XY" and not address.startswith("I")
         return self.word(address, float(given.value), "XY".index(address[-1]) if is_coordinate else None)
 

@@ -9,7 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import join
-from contoursolve.gcode import Block, Macro, Word, spell
+from contoursolve.gcode import Block, Macro, Word
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import Other, Post, Risk, SupportedCodes
 from contoursolve.reading import Dialect, Diameter, Effect, State, WithoutPoint, rows_of
@@ -236,7 +236,8 @@ class Watch:
         unit = "in" if state.unit is Length.INCH else "mm"
         problem = f"has no point and is {there.normalize():f} {unit}"
         meant = f"{here.normalize():f} {unit} on {self.control}"
-        advice = "; write " + spell(word.address, f"{here.normalize():f}" + "." * (here == here.to_integral_value()))
+        pointed = f"{here.normalize():f}" + "." * (here == here.to_integral_value())
+        advice = "; write " + self.lexicon.spell(word.address, pointed)
         found = Unfamiliar(text, problem, block.line, Risk.PATH, meant, advice=advice)
         self._note(_PATH_WITHOUT_POINT, found)
 

@@ -10,7 +10,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import write_word
-from contoursolve.gcode import number_of
 from contoursolve.geometry import Arc, CornerShape, Unit, Values as Known, scalar
 from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, size_as
 from contoursolve.postprocess.emit import Format, emit, parts_of
@@ -134,7 +133,7 @@ class Speller:
         own = self.drawn.number(value, axis, row.unit)
         exact = value if own is None else float(own)
         text = text or write_word(address, exact, self.lexicon, self.unit)
-        number = Decimal(number_of(text, address) or 0)
+        number = Decimal(self.lexicon.number_of(text, address) or 0)
         if row.unit is not Unit.DEGREE:
             number *= self.unit.in_mm / (2 if row.is_diameter else 1)
         elif row.clockwise_from is not None:

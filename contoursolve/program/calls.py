@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report, status_text
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.execution import ARGUMENT, MACHINES, Call, Limit, Machine, ModalCall, Surroundings, When, counts_in
-from contoursolve.gcode import Block, Caller, Program, Substitution, late_pattern, parse_block, spell, typed_span
+from contoursolve.gcode import PLAIN, Block, Caller, Program, Substitution, late_pattern, parse_block, typed_span
 from contoursolve.geometry import Length
 from contoursolve.program.cycle_profiles import CycleProfile, begins_wrongly, profiles_of, turns_back
 from contoursolve.program.request import Request
@@ -57,7 +57,7 @@ def arguments_without_point(machine: Machine, asked: Request) -> Iterator[Diagno
             actual=join(texts) if None not in scales else "least increments",
             expected=join([f"{each:f}" for each in numbers]),
             meant=join([f"{each.text.strip()}." for each in words]),
-            same=join([spell(each.address, text) for each, text in zip(words, texts, strict=True)]),
+            same=join([PLAIN.spell(each.address, text) for each, text in zip(words, texts, strict=True)]),
         )
 
 

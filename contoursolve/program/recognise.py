@@ -25,9 +25,9 @@ from contoursolve.gcode import (
 )
 from contoursolve.program.project_file import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
 from contoursolve.reading import (
+    NAMED_FILE,
     POLAR_WORDS,
     SEMICOLON_COMMENT,
-    SINUMERIK_FILE,
     Y_AXIS,
     Dialect,
     ReadIssue,
@@ -212,7 +212,7 @@ class Recogniser:
         """The controls that words of their own showed."""
         self._arcs: set[str] = set()
         """The controls that words of an arc showed, which others have too, though not together."""
-        self._shown: set[str] = {SINUMERIK_FILE} if _OF_SINUMERIK.search(name) else set()
+        self._shown: set[str] = {NAMED_FILE} if _OF_SINUMERIK.search(name) else set()
         self._is_turned = False
 
     @classmethod

@@ -22,7 +22,7 @@ from enum import Enum
 
 from contoursolve.diagnosis import Answer, are_points_usual, corner_words, moves, spans_of
 from contoursolve.diagnostics import Diagnostic, Fix, Span
-from contoursolve.gcode import Block, FaultKind, Passage, Word, parse_block, spell, words_of
+from contoursolve.gcode import Block, FaultKind, Passage, Word, parse_block, words_of
 from contoursolve.program.lookahead import Line, each_block
 from contoursolve.reading import Dialect, ReadIssue, State, apply_modes
 
@@ -44,7 +44,7 @@ class Outside:
         self._signs = dialect.signs if dialect else _no_signs
         self._modes = dialect.modes if dialect else None
         own = [each for each in dialect.modes.lexicon.addresses if len(each) > 1] if dialect else []
-        self._long = {*own, *(spell(each, "").split(" ")[0] for each in own)}
+        self._long = {*own, *(dialect.modes.lexicon.spell(each, "").split(" ")[0] for each in own if dialect)}
         """Addresses with a comma or several letters: those of contours."""
         self._corners = {*corner_words(dialect.modes.lexicon)} if dialect else set[str]()
         self._held: list[Diagnostic] = []

@@ -36,9 +36,9 @@ from .control_flow import (
     Ways as Ways,
 )
 from .dialect import (
+    NAMED_FILE as NAMED_FILE,
     POLAR_WORDS as POLAR_WORDS,
     SEMICOLON_COMMENT as SEMICOLON_COMMENT,
-    SINUMERIK_FILE as SINUMERIK_FILE,
     Y_AXIS as Y_AXIS,
     Behind as Behind,
     Dialect as Dialect,

@@ -50,7 +50,7 @@ class Taken(Struct, frozen=True):
     fields: Mapping[str, str]
 
 
-Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, SINUMERIK_FILE = "Y", "polar words", "comment behind ;", "file of SINUMERIK"
+Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, NAMED_FILE = "Y", "polar words", "comment behind ;", "ending of the file"
 """Marks of a program, by which `Dialect.excluded_by` says that it is for another control."""
 
 

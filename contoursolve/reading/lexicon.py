@@ -6,7 +6,7 @@ from decimal import Decimal
 from enum import Enum
 
 from contoursolve.diagnostics import Source
-from contoursolve.gcode import Word
+from contoursolve.gcode import PLAIN, Word, WordSpelling
 from contoursolve.geometry import Given, Length, Plane, Unit
 
 
@@ -68,6 +68,11 @@ class Code:
     """Whether it is a cycle that ends where the tool was before it."""
     needs_axes: bool = False
     """Whether it does nothing without axis words in its block."""
+    leaves_motion: bool = False
+    """Whether it moves in a way of its own, as to a reference point, and leaves the motion in force."""
+    says_all: bool = False
+    """Whether it is a cycle of which every block says all that it needs. The others keep words from one block to the
+    next, and a motion between them ends that."""
     is_read: bool = True
     """Whether contoursolve follows what it does; else it is told, and a contour that depends on it is refused."""
     group: str = ""
@@ -174,6 +179,8 @@ class Lexicon:
     """The other words of the control; of two rows for one word, the later one counts."""
     unknown: Source | None = None
     """By what it is told that the control stops at a word that it does not know; None where it leaves it out."""
+    spelling: WordSpelling = PLAIN
+    """The spelling of its words."""
     rows: dict[str, Beside | None] = field(default_factory=dict, init=False, repr=False, compare=False)
     """The rows of those, as far as they were asked for, by address."""
     factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, init=False, repr=False, compare=False)
@@ -189,6 +196,14 @@ class Lexicon:
     def __post_init__(self) -> None:
         letters = frozenset(name[1:] for name in self.addresses if name.startswith(","))
         object.__setattr__(self, "after_comma", letters)
+
+    def spell(self, address: str, number: str) -> str:
+        """A word of an address and a number, as the control has it."""
+        return self.spelling.spell(address, number)
+
+    def number_of(self, text: str, address: str) -> str:
+        """The number of a word that is spelled so, as it is written."""
+        return self.spelling.number_of(text, address)
 
     def turned(self, *, absolute: bool, increment: bool, word: bool) -> "Lexicon":
         """The same where X is a diameter or not: as a coordinate or an increment that is always one, and by a plain

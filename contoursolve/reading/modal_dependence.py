@@ -17,13 +17,6 @@ STANDING_ALONE = (0, 1)
 _OWN_WORDS = (Effect.NO_MOTION, Effect.PRESET, Effect.FRAME, Effect.CONTOUR)
 """G codes whose blocks use their words themselves, whatever motion is in force."""
 
-_BY_THEMSELVES = frozenset({27, 28, 29, 30, 31, 36, 37})
-"""Reference points, skip and measuring: they move in their own way, and leave the motion in force."""
-
-_MODAL_CORNERS = frozenset({11, 12})
-"""Cycles of which every block says all that it needs. The others keep words from one block to the next, and a
-motion between them ends that."""
-
 
 class Reliance(Enum):
     """The part in a block of the motion that is in force before it."""
@@ -51,9 +44,9 @@ def reliance(block: Block, modes: Modes) -> Reliance:
         return Reliance.BESIDE
     if block.find("O"):
         return Reliance.ENDS
-    single = [code.number for code in known if code.effect is Effect.SINGLE]
+    single = [code for code in known if code.effect is Effect.SINGLE]
     if single:
-        return Reliance.NONE if _BY_THEMSELVES.issuperset(single) else Reliance.BESIDE
+        return Reliance.NONE if all(code.leaves_motion for code in single) else Reliance.BESIDE
     if any(code.effect in _OWN_WORDS for code in known):
         return Reliance.NONE
     is_faulty = any(fault.kind is not FaultKind.COMMENT_NOT_CLOSED for fault in block.faults)
@@ -65,7 +58,7 @@ def why_unmet(motion: int | None, blocks: Iterable[Block], modes: Modes) -> str:
     """The reason why a motion that has been ended is missed by the blocks behind, of which no more are read than
     needed; empty if it can be said again for the one that relies on it."""
     code = modes.codes.get(motion) if motion is not None else None
-    is_free = code is not None and (code.effect is Effect.MOTION or code.number in _MODAL_CORNERS)
+    is_free = code is not None and (code.effect is Effect.MOTION or code.says_all)
     for block in blocks:
         need = reliance(block, modes)
         if need is Reliance.BESIDE or (need is Reliance.WORDS and not is_free):
@@ -94,8 +87,8 @@ _PROGRAM_ENDS = frozenset({2, 30})
 _DROPPED = (*MOTIONS, Effect.CONTOUR, Effect.CORNER)
 """G codes in whose place those of the plain motions stand."""
 
-_AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
-"""M codes that act after the motion of their block: stop, end, spindle and coolant off, pallet, calls."""
+_AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60})
+"""M codes that act after the motion of their block, as calls do: stop, end, spindle and coolant off, pallet."""
 
 
 class Frame(NamedTuple):
@@ -156,7 +149,7 @@ def carried(block: Block, modes: Modes) -> Carried:
             numbers.append(text)
         elif word.address in modes.lexicon.addresses:
             continue
-        elif word.address == "M" and word.number in _AFTER_MOTION:
+        elif word.address == "M" and (word.number in _AFTER_MOTION or word.number in modes.calls):
             last.append(text)
         else:
             words.append(text)

@@ -254,7 +254,7 @@ class State(Struct, frozen=True):
     def counts_diameters(self) -> bool:
         """Whether a plain word of X is a diameter, where codes switch that."""
         if self.diameter is Diameter.BY_PLANE:
-            return self.plane.code == "G18"
+            return {*self.plane.axes} == {"X", "Z"}
         return self.diameter is Diameter.ON or (self.diameter is Diameter.ABSOLUTE and not self.is_incremental)
 
     def lose(self, axes: Mapping[str, Position] | tuple[str, ...], reason: str, span: Span) -> "State":

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from contoursolve import parse, solve
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.spelling import Meanings
-from contoursolve.gcode import number_of, parse_block, spell
+from contoursolve.gcode import parse_block
 
 LETTERS = st.sampled_from("ABCDFGIJKMNOPQRSTUWXYZabcxyz,/%#[]();.+-0123456789 \t$\0\u00e9\u0663\u20ac\U0001f600")
 ANYTHING = st.one_of(st.text(), st.text(alphabet=LETTERS), st.text(alphabet="\r\n\x0b\x0c\x1c\x85\u2028X1. ;("))
@@ -56,7 +56,7 @@ LONG = st.sampled_from(
 
 @law(st.lists(LONG, max_size=40).map("".join), st.sampled_from(["siemens-840d", "isg"]), few=2, many=10)
 def test_words_with_long_addresses_stand_where_they_say_and_are_spelled_as_they_were_typed(text, control):
-    syntax = DIALECTS[control].modes.syntax
+    syntax, lexicon = DIALECTS[control].modes.syntax, DIALECTS[control].modes.lexicon
     block, here = parse_block(text, 1, syntax), 0
     for part in sorted((*block.words, *block.faults), key=lambda part: part.span):
         begin, end = part.span.column - 1, part.span.end_column - 1
@@ -65,7 +65,7 @@ def test_words_with_long_addresses_stand_where_they_say_and_are_spelled_as_they_
         here = end
     for word in block.words:
         if word.number is not None and word.address != "G":
-            again = parse_block(spell(word.address, number_of(word.text, word.address)), 1, syntax)
+            again = parse_block(lexicon.spell(word.address, lexicon.number_of(word.text, word.address)), 1, syntax)
             assert [(each.address, each.number) for each in again.words] == [(word.address, word.number)]
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 import contoursolve
+from contoursolve.controls import DIALECTS
 from contoursolve.solving import RefusalKind
 
 FLOORS = (
@@ -244,6 +245,42 @@ def test_no_control_stands_in_where_none_is_named():
     assert [(short(module), found) for module in MODULES for found in by_name.findall(code_of(module))] == []
 
 
+UNDER_CONTROLS = ["tolerance", "diagnostics", "numeric", "gcode", "geometry", "reading", "solving"]
+STANDARD = {*range(10), 17, 18, 19, 30, 40, 41, 42, 60, 90, 91}
+"""Codes that mean the same on all controls: ISO 6983."""
+CODE = re.compile(r"\bG0*(\d+)")
+
+
+def literals(module: Path) -> Iterator[str]:
+    """The texts of a module that are no docstrings."""
+    tree = parsed(module)
+    told = {id(each.value) for each in ast.walk(tree) if isinstance(each, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in told:
+            yield node.value
+
+
+def test_no_control_is_known_below_the_tables_of_the_controls():
+    """Not by its name, its words or its codes: what differs is a field of a table."""
+    names = {part for name in DIALECTS for part in name.split("-")} - {"lathe", "mill", "cnc"}
+    named = re.compile(rf"\b({'|'.join(sorted(names))}|sinumerik|klartext|tnc)\b", re.IGNORECASE)
+    lexicons = [dialect.modes.lexicon for dialect in DIALECTS.values()]
+    addresses = {each for one in lexicons for each in (*one.addresses, *one.spelling.names)}
+    words = {each for each in addresses if len(each.lstrip(",#")) > 1}
+    found = []
+    for module in MODULES:
+        is_under = room_of(module) in UNDER_CONTROLS
+        for text in literals(module) if is_under or room_of(module) == "diagnosis" else ():
+            is_code = any(int(number) not in STANDARD for number in CODE.findall(text))
+            if named.search(text) or (is_under and (text.strip() in words or is_code)):
+                found.append((short(module), text))
+        for node in ast.walk(parsed(module)) if is_under else ():
+            if isinstance(node, ast.Set) and all(isinstance(each, ast.Constant) for each in node.elts):
+                codes = {each.value for each in node.elts if isinstance(each.value, int)}
+                found += [(short(module), ast.unparse(node))] if codes - STANDARD else []
+    assert found == []
+
+
 def described(tree: ast.Module) -> Iterator[tuple[str, bool]]:
     """The docstrings of a module, also those below a value, and whether each is that of a predicate."""
     for node in ast.walk(tree):
@@ -288,6 +325,13 @@ def test_one_builder_makes_parsed_contours():
     """Of all controls: what their readers share is written once."""
     made = [short(module) for module in MODULES for _ in re.findall(r"\bParsedContour\(", code_of(module))]
     assert made == ["reading/contour_builder.py"]
+
+
+def test_controls_write_a_rule_in_one_way():
+    """As a row, column by column; `row` alone makes the record."""
+    of_controls = [module for module in MODULES if room_of(module) == "controls"]
+    made = {module.name for module in of_controls if re.search(r"\bRule\(", code_of(module))}
+    assert made == {"rule_rows.py"}
 
 
 MOST_EQUAL_LINES = 12

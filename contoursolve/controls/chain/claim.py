@@ -48,7 +48,7 @@ from contoursolve.controls.chain.language import (
     Member,
     pair_role,
 )
-from contoursolve.gcode import Block, Word, number_of, spell
+from contoursolve.gcode import PLAIN, Block, Word
 from contoursolve.geometry import Choice, Given, Plane, Side, Turn, Unit
 from contoursolve.reading import Bearing, ContourBuilder, ContourForm, Lexicon, Modes, ParsedContour, Selector, State
 
@@ -424,7 +424,8 @@ def _selectors(
         word = words.get(f"{each.prefix}R")
         is_chosen = element.turn is not None and (element.touches or not element.is_over)
         if element.turn is not None and is_chosen and word is not None and word.number is not None:
-            size = number_of(word.text, word.address).lstrip("+- \t")
-            yield Selector(each.center, _center_side(element.turn, is_short=True), spell(word.address, size))
-            yield Selector(each.center, _center_side(element.turn, is_short=False), spell(word.address, f"-{size}"))
+            size = PLAIN.number_of(word.text, word.address).lstrip("+- \t")
+            for is_short, text in ((True, size), (False, f"-{size}")):
+                side = _center_side(element.turn, is_short=is_short)
+                yield Selector(each.center, side, PLAIN.spell(word.address, text))
         previous = element

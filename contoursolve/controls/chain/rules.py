@@ -1,9 +1,8 @@
 """The rules that every control with lines and arcs in a row has: which words may stand in one block."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from typing import Any
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -23,12 +22,11 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import ANGLE_RANGE, GEOMETRY_RULES, PLANE_CHANGES, ZERO_MOVES, told
+from contoursolve.controls.geometry_rules import ANGLE_RANGE, GENERAL, GEOMETRY_RULES, PLANE_CHANGES, ZERO_MOVES
 from contoursolve.controls.own_words import G_CODES
-from contoursolve.controls.rule_rows import rule_row
+from contoursolve.controls.rule_rows import Examples, row, with_rows
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
-from contoursolve.gcode import FaultKind
-from contoursolve.reading import AnglesParallel, Condition, Rule, Value, all_of, some
+from contoursolve.reading import AnglesParallel, Rule, Value, all_of, some
 
 ANY, LINES = (LINE, OVER_LINE, ARC), (LINE, OVER_LINE)
 BESIDE = ("beside-X", "beside-Y", "beside-Z")
@@ -139,190 +137,77 @@ class Manual:
         """A line with a corner before an arc."""
         return self.examples.arc()
 
-    def row(
-        self,
-        code: str,
-        message: str,
-        help_: str,
-        when: Condition,
-        roles: tuple[str, ...],
-        good: str,
-        *bad: tuple[str, str] | str,
-        evidence: Evidence = Evidence.ASSUMED,
-        **more: Any,
-    ) -> Rule:
-        """A row; what is wrong is a program, or two texts of which the second stands for the first in the right one."""
-        source = self.sources.get(code, Source(self.source.manual, self.source.place, evidence))
-        alarm = self.alarms.get(code)
-        return rule_row(self.prefix, code, message, help_, source, when, roles, good, *bad, alarm=alarm, **more)
+    @property
+    def assumed(self) -> Source:
+        """Its source, of what no page prints."""
+        return Source(self.source.manual, self.source.place, Evidence.ASSUMED)
+
+    def told(self, rule: Rule) -> Rule:
+        """A row of all such controls in its terms."""
+        source, alarm = self.sources.get(rule.code, rule.source), self.alarms.get(rule.code)
+        return row(f"{self.prefix}-{rule.code}", like=rule, source=source, alarm=alarm)
 
 
-def chain_rules(manual: Manual) -> Iterator[Rule]:
+def chain_rules(manual: Manual) -> tuple[Rule, ...]:
     """The rows that hold for all of them."""
-    row, angle, corners, example = manual.row, manual.angle, (*manual.chamfers, manual.rounding), manual.examples
-    cut, arc, angled, vertex = manual.cut, manual.arc, manual.angled, manual.vertex
-    yield row(
-        "corner-without-next",
-        "{words}: a corner needs an element after it, and none follows",
-        "put the next cutting move right after it, or delete it",
-        some(*corners) & some(LAST) & (~some(RAPID) | some(RAPID_CORNER)) & ~some(LEFT_OUT),
-        ANY,
-        cut,
-        example.cut(turn="M30"),
-        example.cut(turn=f"G0 {example.turn}"),
-    )
-    yield row(
-        "corner-rapid",
-        "{words}: the control makes a corner in a cutting move, not in G0",
-        "write G1",
-        some(*corners) & some(RAPID) & ~some(RAPID_CORNER),
-        ANY,
-        cut,
-        example.cut(line=""),
-    )
-    yield row(
-        "corner-negative",
-        "{words}: a chamfer or a rounding has no sign",
-        "delete the minus sign: the elements tell on which side the corner lies",
-        Value(corners, least=Decimal(0)),
-        ANY,
-        cut,
-        example.cut(size=f"-{example.size}"),
-    )
-    yield row(
-        "outside-plane",
-        "{words} does not belong to the plane of the contour",
-        "move that axis in a block of its own, or select its plane by G17, G18 or G19" + manual.plane,
-        some(*BESIDE, "wrong-center"),
-        ANY,
-        cut,
-        example.cut(turn=f"{example.turn} Z-5"),
-    )
-    yield row(
-        "plane-changes",
-        *PLANE_CHANGES,
-        some(OTHER_PLANE),
-        ANY,
-        cut,
-        example.cut(turn="G18 X40 Z40"),
-    )
-    yield row(
-        "zero-moves",
-        *ZERO_MOVES,
-        some(OTHER_ZERO),
-        ANY,
-        cut,
-        example.cut(turn=f"G55 {example.turn}"),
-    )
-    yield row(
-        "center-on-line",
-        "{words}: a line has no centre and no radius",
-        f"delete it; a rounding is {manual.rounding}",
-        some(*STATED_CENTER, "R") & ~some(CORNER_ALONE),
-        LINES,
-        cut,
-        example.cut(turn=f"{example.turn} I5"),
-    )
-    yield row(
-        "center-and-radius",
-        "{words}: the arc has both a centre and a radius",
-        "keep one of them",
-        all_of(STATED_CENTER, "R"),
-        (ARC,),
-        arc,
-        example.arc(center=f"{example.center} {example.radius}"),
-    )
-    yield row(
-        "circle-undefined",
-        "the arc has neither a centre nor a radius",
-        f"add I, J or K of the plane, or {manual.radius}; for a line write G1",
-        ~some(*STATED_CENTER, "R", SMOOTH),
-        (ARC,),
-        arc,
-        example.arc(center=""),
-    )
-    yield row(
-        "radius-without-end",
-        "{words}: with a radius the arc needs its end",
-        "add the coordinates of its end, or give the centre instead",
-        some("R") & ~some(*STATED_POINT),
-        (ARC,),
-        arc,
-        example.arc(arc_end="", center=example.radius),
-    )
-    yield row(
-        "angle-on-arc",
-        "{words}: the control works out angles of lines, not of arcs",
-        "write G1, or delete {words}",
-        some(angle),
-        (ARC,),
-        arc,
-        example.arc(center=f"{example.center} {example.angle}{example.degrees}"),
-    )
-    yield row(
-        "end-missing",
-        "{words} alone does not say where the line ends",
-        f"add a coordinate; or let a line with both coordinates and {angle} follow, which it meets",
-        some(angle) & ~some(*STATED_POINT, FOLLOWED),
-        (LINE,),
-        vertex,
-        example.vertex(closing_end="M30", closing=""),
-    )
-    yield row(
-        "closing-incomplete",
-        f"the line before has an angle and no end, so this block needs both coordinates and {angle}: "
-        "it lacks {lacking}",
-        "add {lacking}",
-        ~all_of(FIRST, SECOND, angle),
-        (OVER_LINE,),
-        vertex,
-        example.vertex(closing=""),
-        example.vertex(closing_end=example.closing_end.rpartition(" ")[2]),
-    )
-    yield row(
-        "angles-parallel",
-        "{words}: the two lines are parallel, so they have no vertex",
-        "correct one of the angles",
-        AnglesParallel((f"1:{angle}", f"2:{angle}"), _GUARD),
-        (LINE_LINE,),
-        vertex,
-        example.vertex(closing=example.opening),
-        is_about_geometry=True,
-    )
-    yield row(
-        "angle-range",
-        *ANGLE_RANGE,
-        Value((angle,), least=Decimal(-360), most=Decimal(360)),
-        LINES,
-        angled,
-        example.angled(degrees="390."),
-        severity=Severity.WARNING,
-    )
+    angle, corners, example = manual.angle, (*manual.chamfers, manual.rounding), manual.examples
+    cut, arc, angled, vertex, assumed = manual.cut, manual.arc, manual.angled, manual.vertex, manual.assumed
+    rows = (
+        row("corner-without-next", "{words}: a corner needs an element after it, and none follows",
+            "put the next cutting move right after it, or delete it", assumed,
+            some(*corners) & some(LAST) & (~some(RAPID) | some(RAPID_CORNER)) & ~some(LEFT_OUT),
+            (cut, example.cut(turn="M30"), example.cut(turn=f"G0 {example.turn}")), ANY),
+        row("corner-rapid", "{words}: the control makes a corner in a cutting move, not in G0", "write G1", assumed,
+            some(*corners) & some(RAPID) & ~some(RAPID_CORNER), (cut, example.cut(line="")), ANY),
+        row("corner-negative", "{words}: a chamfer or a rounding has no sign",
+            "delete the minus sign: the elements tell on which side the corner lies", assumed,
+            Value(corners, least=Decimal(0)), (cut, example.cut(size=f"-{example.size}")), ANY),
+        row("outside-plane", "{words} does not belong to the plane of the contour",
+            "move that axis in a block of its own, or select its plane by G17, G18 or G19" + manual.plane, assumed,
+            some(*BESIDE, "wrong-center"), (cut, example.cut(turn=f"{example.turn} Z-5")), ANY),
+        row("plane-changes", *PLANE_CHANGES, assumed, some(OTHER_PLANE), (cut, example.cut(turn="G18 X40 Z40")), ANY),
+        row("zero-moves", *ZERO_MOVES, assumed, some(OTHER_ZERO), (cut, example.cut(turn=f"G55 {example.turn}")), ANY),
+        row("center-on-line", "{words}: a line has no centre and no radius",
+            f"delete it; a rounding is {manual.rounding}", assumed, some(*STATED_CENTER, "R") & ~some(CORNER_ALONE),
+            (cut, example.cut(turn=f"{example.turn} I5")), LINES),
+        row("center-and-radius", "{words}: the arc has both a centre and a radius", "keep one of them", assumed,
+            all_of(STATED_CENTER, "R"), (arc, example.arc(center=f"{example.center} {example.radius}")), (ARC,)),
+        row("circle-undefined", "the arc has neither a centre nor a radius",
+            f"add I, J or K of the plane, or {manual.radius}; for a line write G1", assumed,
+            ~some(*STATED_CENTER, "R", SMOOTH), (arc, example.arc(center="")), (ARC,)),
+        row("radius-without-end", "{words}: with a radius the arc needs its end",
+            "add the coordinates of its end, or give the centre instead", assumed, some("R") & ~some(*STATED_POINT),
+            (arc, example.arc(arc_end="", center=example.radius)), (ARC,)),
+        row("angle-on-arc", "{words}: the control works out angles of lines, not of arcs",
+            "write G1, or delete {words}", assumed, some(angle),
+            (arc, example.arc(center=f"{example.center} {example.angle}{example.degrees}")), (ARC,)),
+        row("end-missing", "{words} alone does not say where the line ends",
+            f"add a coordinate; or let a line with both coordinates and {angle} follow, which it meets", assumed,
+            some(angle) & ~some(*STATED_POINT, FOLLOWED), (vertex, example.vertex(closing_end="M30", closing="")),
+            (LINE,)),
+        row("closing-incomplete", "the line before has an angle and no end, so this block needs both coordinates and "
+            f"{angle}: it lacks {{lacking}}", "add {lacking}", assumed, ~all_of(FIRST, SECOND, angle),
+            (vertex, example.vertex(closing=""),
+             example.vertex(closing_end=example.closing_end.rpartition(" ")[2])), (OVER_LINE,)),
+        row("angles-parallel", "{words}: the two lines are parallel, so they have no vertex",
+            "correct one of the angles", assumed, AnglesParallel((f"1:{angle}", f"2:{angle}"), _GUARD),
+            (vertex, example.vertex(closing=example.opening)), (LINE_LINE,), is_about_geometry=True),
+        row("angle-range", *ANGLE_RANGE, assumed, Value((angle,), least=Decimal(-360), most=Decimal(360)),
+            (angled, example.angled(degrees="390.")), LINES, severity=Severity.WARNING),
+    )  # fmt: skip
+    return tuple(map(manual.told, rows))
 
 
 def rules_of(
-    manual: Manual,
-    own: Iterable[Rule],
-    examples: Mapping[str, tuple[str, str]],
-    helps: Mapping[FaultKind, tuple[str, str]] | None = None,
+    manual: Manual, own: Iterable[Rule], examples: Mapping[str, Examples], common: Iterable[Rule] = ()
 ) -> tuple[Rule, ...]:
     """All rules of a control: those of every control, these of its kind, its own, and those about geometry.
 
-    `examples` are right and wrong ones of its own for some of the latter, by the codes of their events, `helps` what to
-    do about characters that cannot be read, with a wrong example.
+    `examples` are its own ones of some of the latter, by the codes of their events. `common` are rows of every control
+    as it tells them.
     """
     geometry = (
-        told(f"{manual.prefix}-{code}", good, bad, alarm=manual.alarms.get(code))
-        for code, (good, bad) in examples.items()
+        row(f"{manual.prefix}-{code}", like=GENERAL, examples=programs, alarm=manual.alarms.get(code))
+        for code, programs in examples.items()
     )
-    return (*_common(manual, helps or {}), *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)
-
-
-def _common(manual: Manual, helps: Mapping[FaultKind, tuple[str, str]]) -> Iterator[Rule]:
-    """The rows of every control, with what helps on this one."""
-    for rule in COMMON_RULES:
-        if isinstance(rule.about, FaultKind) and rule.about in helps:
-            advice, wrong = helps[rule.about]
-            yield replace(rule, help=advice, accepted=(manual.cut,), rejected=(wrong,))
-        else:
-            yield rule
+    return (*with_rows(COMMON_RULES, *common), *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)

@@ -5,7 +5,7 @@ Its words and rules come in; a control goes out. Begin with `contour`.
 
 import re
 
-from contoursolve.controls.arc_rules import radius_difference_setting
+from contoursolve.controls.arc_rules import arc_setting
 from contoursolve.controls.cnc_pilot.contour import find
 from contoursolve.controls.cnc_pilot.lexicon import BOOK, MODES, SETTINGS, SHOWS, SYNTAX
 from contoursolve.controls.cnc_pilot.rules import RULES
@@ -28,5 +28,5 @@ CNC_PILOT = Dialect(
     contours="lines and arcs with A, B, R, I and K, and coordinates with ?; not those of G100 to G173",
     corners=(("B", 1, CornerShape.FILLET), ("B", -1, CornerShape.CHAMFER_SETBACK)),
     has_modal_motions=False,
-    settings=(*SETTINGS, radius_difference_setting(BOOK.assumed("not described")), *SETTINGS_OF_ALL),
+    settings=(*SETTINGS, arc_setting("radius-difference", BOOK.assumed("not described")), *SETTINGS_OF_ALL),
 )

@@ -8,6 +8,7 @@ from typing import Any
 
 from contoursolve.controls.control_settings import angle_sense_setting, redundant_angle_setting, setting
 from contoursolve.controls.further import letters
+from contoursolve.controls.heidenhain.lexicon import SPELLING
 from contoursolve.controls.plain import BASIC_CODES, LATHE, MOTIONS
 from contoursolve.diagnostics import Book
 from contoursolve.gcode import Block, Syntax, Word, plain_spelling
@@ -51,6 +52,7 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
     return _LATER.get(address, address), token["number"], token["asked"] is not None
 
 
+_SPELLING = replace(SPELLING, names={})
 SYNTAX = Syntax(
     "din plus",
     token=re.compile(
@@ -63,6 +65,7 @@ SYNTAX = Syntax(
     statement=re.compile(r"[ \t/]*+(?:(?P<assignment>\#|V\d++[ \t]*+=)|(?P<flow>(?!)))", re.IGNORECASE),
     comment=re.compile(r"\[(?>(?:[^\[\]]++|\[[^\]]*+(?:\]|$))*)\]?+"),
     remark="[{}]",
+    words=_SPELLING,
     parts=_parts,
     plain=plain_spelling("(?!)", "["),
 )
@@ -101,6 +104,7 @@ _LEXICON = Lexicon(
     NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.derived("the printed programs")),
     letters(BOOK.assumed("addresses")),
     BOOK.assumed("a word that is not known stops the control"),
+    _SPELLING,
 )
 
 

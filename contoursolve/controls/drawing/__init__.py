@@ -11,7 +11,15 @@ from functools import partial
 from contoursolve.controls.drawing.rules import drawing_rules
 from contoursolve.controls.heidenhain.find import find
 from contoursolve.controls.heidenhain.follow import follow
-from contoursolve.controls.heidenhain.lexicon import CODES, OF_CORNERS, OF_SENSES, PlaneWords, rows_of, spelling
+from contoursolve.controls.heidenhain.lexicon import (
+    CODES,
+    OF_CORNERS,
+    OF_SENSES,
+    SPELLING,
+    PlaneWords,
+    rows_of,
+    spelling,
+)
 from contoursolve.controls.plain import LATHE, PLANES
 from contoursolve.diagnostics import OWN, Evidence, Source
 from contoursolve.gcode import Block, Word
@@ -36,9 +44,12 @@ def _shows_nothing(_: Block) -> tuple[Word, ...]:
     return ()
 
 
+_SPELLING = replace(SPELLING, before={**SPELLING.before, "rounding": "rounding ", "chamfer": "chamfer "}, names={})
+
+
 def _drawing(part: str, plane: Plane, words: PlaneWords) -> Dialect:
     rows = rows_of(words, _MEANING, _MEANING, _MEANING, _MEANING, is_diameter=any(plane.diameters))
-    lexicon = Lexicon(rows, NumberFormat(WithoutPoint.AS_WRITTEN, _MEANING))
+    lexicon = Lexicon(rows, NumberFormat(WithoutPoint.AS_WRITTEN, _MEANING), spelling=_SPELLING)
     modes = Modes(
         *(lexicon, CODES, words.axes, frozenset()),
         settings={"suspicions": "off"},

@@ -1,10 +1,10 @@
 """Rules about what a drawing gives: those about chains of free elements, in the words of a drawing."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from contoursolve.controls.heidenhain.lexicon import PlaneWords
 from contoursolve.controls.heidenhain.rules import rules_in
+from contoursolve.controls.rule_rows import row
 from contoursolve.diagnostics import Source
 from contoursolve.reading import Rule
 
@@ -55,11 +55,4 @@ def _told(rule: Rule, source: Source) -> Rule:
         return rule
     name = rule.code.removeprefix(_OTHERS)
     message, advice = _SAID.get(name, ("", ""))
-    return replace(
-        rule,
-        code=f"drawing-{name}",
-        message=message or rule.message,
-        help=advice or rule.help,
-        source=source,
-        alarm=None,
-    )
+    return row(f"drawing-{name}", message, advice, source, like=rule, alarm=None)

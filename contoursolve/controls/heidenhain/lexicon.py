@@ -10,7 +10,7 @@ from msgspec import Struct
 from contoursolve.controls.control_settings import setting
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.diagnostics import Book, Source
-from contoursolve.gcode import NUMBER, Block, Syntax, Word, late_pattern, plain_spelling, words_as
+from contoursolve.gcode import NUMBER, Block, Syntax, Word, WordSpelling, late_pattern, plain_spelling, words_as
 from contoursolve.geometry import CornerShape, Unit
 from contoursolve.reading import TURNED, Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
 from contoursolve.tolerance import CIRCLE_DEVIATION, RADIUS_DIFFERENCE
@@ -196,6 +196,25 @@ OF_CORNERS = r"RND(?![A-Z])[ \t]*+R[ \t]*+|CHF(?![A-Z])[ \t]*+(?!R)"
 """Words with a sign alone, and those of corners."""
 
 
+SPELLING = WordSpelling(
+    {
+        **{f"{axis}{word}": f"{axis}{word}" for axis in ("", "I")
+           for word in ("CCX", "CCY", "CCZ", "CCPR", "CCPA", "AN")},
+        **{f"I{word}": f"I{word}" for word in ("X", "Y", "Z", "A", "B", "C", "PR", "PA")},
+        **{f"P{point}{axis}": f"P{point}{axis}" for point in "123D" for axis in "XYZ"},
+        **{f"R{word}": f"R{word} " for word in ("X", "Y", "Z", "PR", "PA", "AN")},
+        **{f"R{word}": f"R{word} " for word in ("CCX", "CCY", "CCZ", "CCPR", "CCPA")},
+        "PR": "PR", "PA": "PA", "LEN": "LEN", "CCA": "CCA", "DP": "DP", "PAR": "PAR ", "FSELECT": "FSELECT ",
+        ROUNDING: "RND R", CHAMFER: "CHF ",
+    },
+    signs=frozenset({"DR", "CLSD"}),
+    names={"RND": ROUNDING, "CHF": CHAMFER},
+    # A chamfer has no R: its size stands behind CHF.
+    spare=late_pattern(r"\b(CHF)[ \t]*R[ \t]*(?=\d)", re.IGNORECASE),
+)  # fmt: skip
+"""The spelling of words of several letters, which have no equals sign."""
+
+
 def spelling(name: str, words: PlaneWords, senses: str = OF_SENSES, corners: str = OF_CORNERS) -> Syntax:
     """The spelling of blocks with these words: letters and a number without an equals sign, comments behind a
     semicolon, a number before each block."""
@@ -245,6 +264,7 @@ def spelling(name: str, words: PlaneWords, senses: str = OF_SENSES, corners: str
         counts_blocks=True,
         skip=re.compile(r"[ \t]*+/"),
         bare_number=re.compile(r"[ \t/]*+N?\d++[ \t]*+"),
+        words=SPELLING,
     )
 
 
@@ -347,6 +367,7 @@ LEXICON = Lexicon(
     NUMBERS,
     rows_beside(BOOK.assumed("addresses"), _BESIDE),
     BOOK.assumed("the control refuses what it has no function for"),
+    SPELLING,
 )
 
 

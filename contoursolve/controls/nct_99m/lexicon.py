@@ -23,7 +23,6 @@ from contoursolve.geometry import Unit
 from contoursolve.reading import (
     Address,
     Assumption,
-    Condition,
     Effect,
     Lexicon,
     Modes,
@@ -92,58 +91,22 @@ BESIDE = tuple(f"beside-{axis}" for axis in AXES)
 CHAMFER, ROUNDING = ",C", ",R"
 
 
-def _row(name: str, meaning: str, place: str, roles: tuple[str, ...], when: Condition) -> Assumption:
-    return Assumption(name, meaning, BOOK.assumed(place), roles, when)
-
-
 ASSUMPTIONS = (
-    _row(
-        "circle-without-point",
+    Assumption("circle-without-point",
         "the point of a circle with I, J or K may be left out before a computed intersection",
-        "16.3.3, p. 129: the format has a point",
-        (ARC,),
-        some("center-first", "center-second") & ~some(*STATED_POINT) & some(FOLLOWED),
-    ),
-    _row(
-        "sign-of-radius",
-        "the sign of R of an arc that begins in an intersection means nothing",
-        "p. 128: not described",
-        (OVER_CIRCLE,),
-        some(NEGATIVE_RADIUS),
-    ),
-    _row(
-        "one-of-center",
-        "of the two of I, J and K that belong to the plane, one that is left out is 0",
-        "p. 25: not described",
-        (ARC,),
-        some(ONE_CENTER),
-    ),
-    _row(
-        "parallel-axis",
-        "U, V or W beside ,A stands for its parallel axis of the plane, where that has no word",
-        "16.2, p. 120: X, Y, Z or their parallel axes",
-        (LINE,),
-        some(ON_PARALLEL_AXES),
-    ),
-    _row(
-        "increment-beside-angle",
-        "beside ,A, under G91, the coordinate is an increment from the start point",
-        "16.2, p. 120: not described",
-        (LINE,),
-        some("first-step", "second-step") & some(",A"),
-    ),
-    _row(
-        "corner-of-zero",
-        ",C or ,R of value 0 means no corner",
-        "16.1: not described",
-        (LINE, ARC, OVER_LINE, OVER_CIRCLE),
-        Value((CHAMFER, ROUNDING), excluding=Decimal(0)),
-    ),
-    _row(
-        "feed-in-block",
-        "F may stand in the block",
-        "16.3: the formats have none",
-        (LINE, ARC, OVER_LINE, OVER_CIRCLE),
-        some(FEED),
-    ),
-)
+        BOOK.assumed("16.3.3, p. 129: the format has a point"), (ARC,),
+        some("center-first", "center-second") & ~some(*STATED_POINT) & some(FOLLOWED)),
+    Assumption("sign-of-radius", "the sign of R of an arc that begins in an intersection means nothing",
+        BOOK.assumed("p. 128: not described"), (OVER_CIRCLE,), some(NEGATIVE_RADIUS)),
+    Assumption("one-of-center", "of the two of I, J and K that belong to the plane, one that is left out is 0",
+        BOOK.assumed("p. 25: not described"), (ARC,), some(ONE_CENTER)),
+    Assumption("parallel-axis", "U, V or W beside ,A stands for its parallel axis of the plane, where that has no word",
+        BOOK.assumed("16.2, p. 120: X, Y, Z or their parallel axes"), (LINE,), some(ON_PARALLEL_AXES)),
+    Assumption("increment-beside-angle", "beside ,A, under G91, the coordinate is an increment from the start point",
+        BOOK.assumed("16.2, p. 120: not described"), (LINE,), some("first-step", "second-step") & some(",A")),
+    Assumption("corner-of-zero", ",C or ,R of value 0 means no corner",
+        BOOK.assumed("16.1: not described"), (LINE, ARC, OVER_LINE, OVER_CIRCLE),
+        Value((CHAMFER, ROUNDING), excluding=Decimal(0))),
+    Assumption("feed-in-block", "F may stand in the block",
+        BOOK.assumed("16.3: the formats have none"), (LINE, ARC, OVER_LINE, OVER_CIRCLE), some(FEED)),
+)  # fmt: skip

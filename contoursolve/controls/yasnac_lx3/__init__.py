@@ -11,7 +11,7 @@ from contoursolve.controls.yasnac_lx3.g112 import G112_FORMS, G112_RULES
 from contoursolve.controls.yasnac_lx3.leaving import LEAVING_FORMS, LEAVING_RULES
 from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, BOOK, MODES, MOTION_AFTER
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import POLAR_WORDS, SEMICOLON_COMMENT, SINUMERIK_FILE, Y_AXIS, Dialect
+from contoursolve.reading import NAMED_FILE, POLAR_WORDS, SEMICOLON_COMMENT, Y_AXIS, Dialect
 
 _OF_A_POCKET = frozenset("DJLQY")
 """Words of a circular pocket, which G12 is on Haas mills, and of no bevel or quarter circle."""
@@ -37,8 +37,8 @@ _YASNAC_LX3 = Dialect(
     rules=WORDS.tell(*COMMON_RULES, *G111_RULES, *G112_RULES, *LEAVING_RULES),
     find=find,
     signs=_signs,
-    # On SINUMERIK, G111 and G112 state a pole, and this lathe has no Y.
-    excluded_by=frozenset({Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, SINUMERIK_FILE}),
+    # On SINUMERIK, whose files have endings of their own, G111 and G112 state a pole; and this lathe has no Y.
+    excluded_by=frozenset({Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, NAMED_FILE}),
     contours="G111, G112, G11, G12, and G01 with I or K",
     settings=(BEVEL, MOTION_AFTER, arguments_setting(BOOK.assumed("not described")), *SETTINGS_OF_ALL),
     has_runs=False,

@@ -67,7 +67,7 @@ _OWN_NAMES: dict[Effect, dict[int, str]] = {
     Effect.NONE: {18: "plane Z X", 98: "feed a minute", 99: "feed a revolution"},
 }
 CODES = code_rows(LISTED, merge(LATHE_CODES, _OWN_NAMES), {}) | {
-    code: Code(code, effect, meaning, source)
+    code: Code(code, effect, meaning, source, says_all=effect is Effect.CYCLE)
     for code, effect, meaning, source in (
         (111, Effect.CONTOUR, "taper multiple cornering", TABLE),
         (112, Effect.CONTOUR, "circular-arc multiple cornering", BOOK.printed("2.8.30, p. 144")),
