@@ -113,7 +113,7 @@ _WORDS_IN_BLOCK, _COMBINATION, _GEOMETRY = alarms(Evidence.ASSUMED)
 _COMBINATION_RULES = (
     Rule(
         code="g111-line-1",
-        message="line 1 needs two of A, I and K; the block gives {present:A I K}",
+        message="the first straight needs two of A, I and K; the block gives {present:A I K}",
         help="add {absent:A I K}; a zero must be written, too (I0, K0)",
         source=_TABLE_234,
         alarm=_COMBINATION,
@@ -124,7 +124,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-line-2",
-        message="line 2 needs two of B, X or U, Z or W; the block gives {present:B X U Z W}",
+        message="the second straight needs two of B, X or U, Z or W; the block gives {present:B X U Z W}",
         help="add {absent:B X|U Z|W}; a zero must be written, too (U0, W0, B0)",
         source=_TABLE_234,
         alarm=_COMBINATION,
@@ -135,7 +135,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-x-and-u",
-        message="{words}: X and U both give the end of line 2 in X",
+        message="{words}: X and U both give the end of the second straight in X",
         help="keep one of them",
         source=_TABLE_234,
         alarm=_COMBINATION,
@@ -146,7 +146,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-z-and-w",
-        message="{words}: Z and W both give the end of line 2 in Z",
+        message="{words}: Z and W both give the end of the second straight in Z",
         help="keep one of them",
         source=_TABLE_234,
         alarm=_COMBINATION,
@@ -157,7 +157,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-c-and-p",
-        message="{words}: corner 1 is either a bevel C or a rounding P",
+        message="{words}: the first corner is either a bevel C or a rounding P",
         help="keep one of them",
         source=_TABLE_234,
         alarm=_COMBINATION,
@@ -168,7 +168,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-d-and-q",
-        message="{words}: corner 2 is either a bevel D or a rounding Q",
+        message="{words}: the second corner is either a bevel D or a rounding Q",
         help="keep one of them",
         source=_TABLE_234,
         alarm=_COMBINATION,
@@ -179,8 +179,8 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-corner-2-without-angle",
-        message="{words:D Q}: corner 2 is not available when X(U) and Z(W) give line 2",
-        help="delete {words:D Q}, or give line 2 by B and one of X(U), Z(W)",
+        message="{words:D Q}: the second corner is not available when X(U) and Z(W) give the second straight",
+        help="delete {words:D Q}, or give the second straight by B and one of X(U), Z(W)",
         source=BOOK.printed("2.8.30, p. 140 (iii)"),
         alarm=_COMBINATION,
         roles=(_ROLE,),
@@ -190,7 +190,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-corner-2-with-three",
-        message="{words:D Q}: corner 2 is not available when B, X(U) and Z(W) are all given",
+        message="{words:D Q}: the second corner is not available when B, X(U) and Z(W) are all given",
         help="delete {words:D Q}, or one of X(U) and Z(W)",
         source=BOOK.assumed("2.8.30, p. 140 (i); as (iii)"),
         alarm=_COMBINATION,
@@ -201,7 +201,8 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g111-corner-2-without-b",
-        message="{words:D Q}: corner 2 is not available: the control ignores {words:B}, and X(U) and Z(W) give line 2",
+        message="{words:D Q}: the second corner is not available: the control ignores {words:B}, and X(U) and Z(W) "
+        "give the second straight",
         help="delete {words:D Q}, or one of X(U) and Z(W)",
         source=BOOK.derived("2.8.30, p. 140 (vi) and (iii)"),
         alarm=_COMBINATION,
@@ -347,7 +348,7 @@ _GEOMETRY_RULES = (
         _GOOD + " C5.",
         _START + "G111 X100. A180. K-30. B60. C5.",
         message="{words}: the virtual intersection lies {off} in {axis} outside the rectangle between start and end "
-        "of line 2",
+        "of the second straight",
         help="use a rounding P, or a sharp corner",
         source=BOOK.printed("2.8.30, p. 140 Note 3"),
         alarm=_GEOMETRY,
@@ -412,8 +413,8 @@ _FOLLOWING_RULES = (
     ),
     Rule(
         code="g111-landing-left",
-        message="{words} {leave} the line on which corner 2 lands by {angle}: corner 2 is made for {line}",
-        help="go on along {line}, or give line 2 a sharp end",
+        message="{words} {leave} the line on which the second corner lands by {angle}: it is made for {line}",
+        help="go on along {line}, or give the second straight a sharp end",
         source=BOOK.derived("2.8.30, p. 137 and 140: corner 2 does not look at the next block"),
         roles=(_ROLE, "G112"),
         about=ReadIssue.LANDING_LEFT,

@@ -107,8 +107,8 @@ def g112(along: int, turn: Turn, bevel: CornerShape) -> ContourForm:
         ),
         assumptions=ASSUMPTIONS,
         meanings={
-            absolute: f"absolute {other} of the line along {axis} on which corner 2 lands",
-            increment: f"{other} increment from the start point to the line along {axis} on which corner 2 lands",
+            absolute: f"absolute {other} of the line along {axis} on which the second corner lands",
+            increment: f"{other} increment from the start to the line along {axis} on which the second corner lands",
             "I": "X distance from start to the centre of the arc (radius value)",
             "K": "Z distance from start to the centre of the arc",
         },
@@ -208,7 +208,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g112-x-and-u",
-        message="{words}: X and U both give the line on which corner 2 lands",
+        message="{words}: X and U both give the line on which the second corner lands",
         help="keep one of them",
         source=_FORMAT,
         alarm=_COMBINATION,
@@ -219,7 +219,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g112-z-and-w",
-        message="{words}: Z and W both give the line on which corner 2 lands",
+        message="{words}: Z and W both give the line on which the second corner lands",
         help="keep one of them",
         source=_FORMAT,
         alarm=_COMBINATION,
@@ -230,8 +230,8 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g112-x-and-z",
-        message="{words:X U Z W}: corner 2 lands on a line along Z by X(U), or on one along X by Z(W), not on both",
-        help="keep X(U) if line 1 runs along Z, Z(W) if it runs along X",
+        message="{words:X U Z W}: the second corner lands on a line along Z by X(U), or along X by Z(W), not on both",
+        help="keep X(U) if the straight runs along Z, Z(W) if it runs along X",
         source=_FORMAT,
         alarm=_COMBINATION,
         roles=(_ROLE,),
@@ -241,7 +241,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g112-c-and-p",
-        message="{words}: corner 1 is either a bevel C or a rounding P",
+        message="{words}: the first corner is either a bevel C or a rounding P",
         help="keep one of them",
         source=_FORMAT,
         alarm=_PRINTED_COMBINATION,
@@ -252,7 +252,7 @@ _COMBINATION_RULES = (
     ),
     Rule(
         code="g112-d-and-q",
-        message="{words}: corner 2 is either a bevel D or a rounding Q",
+        message="{words}: the second corner is either a bevel D or a rounding Q",
         help="keep one of them",
         source=_FORMAT,
         alarm=_PRINTED_COMBINATION,
@@ -295,8 +295,8 @@ _COMBINATION_RULES = (
 _WAY_RULES = (
     Rule(
         code="g112-no-way",
-        message="{words}: line 1 runs along Z towards the centre, and the centre is not before or behind the start",
-        help="write the Z distance to the centre, or use Z(W) if line 1 runs along X",
+        message="{words}: the straight runs along Z towards the centre, which is not before or behind the start",
+        help="write the Z distance to the centre, or use Z(W) if the straight runs along X",
         source=_WAY,
         alarm=_GEOMETRY,
         roles=(TURNING,),
@@ -307,8 +307,8 @@ _WAY_RULES = (
     ),
     Rule(
         code="g112-no-way-facing",
-        message="{words}: line 1 runs along X towards the centre, and the centre is neither above nor below the start",
-        help="write the X distance to the centre, or use X(U) if line 1 runs along Z",
+        message="{words}: the straight runs along X towards the centre, which is neither above nor below the start",
+        help="write the X distance to the centre, or use X(U) if the straight runs along Z",
         source=_WAY,
         alarm=_GEOMETRY,
         roles=(FACING,),
@@ -319,7 +319,8 @@ _WAY_RULES = (
     ),
     Rule(
         code="g112-backs-up",
-        message="{words}: line 1 and the line of corner 2 lie on opposite sides of the centre; the arc would turn back",
+        message="{words}: the straight and the line of the second corner lie on opposite sides of the centre; the arc "
+        "would turn back",
         help="put both lines on one side of the centre, or change the sign of I or K",
         source=_WAY,
         alarm=_GEOMETRY,
@@ -331,9 +332,9 @@ _WAY_RULES = (
     ),
     Rule(
         code="g112-side-open",
-        message="{words}: line 1 and the line of corner 2 lead through the centre; no word says on which side the arc "
-        "runs",
-        help="move the centre or the line on which corner 2 lands",
+        message="{words}: the straight and the line of the second corner lead through the centre; no word says on "
+        "which side the arc runs",
+        help="move the centre or the line on which the second corner lands",
         source=_WAY,
         alarm=_GEOMETRY,
         roles=(_ROLE,),
@@ -382,7 +383,7 @@ _GEOMETRY_RULES = (
         _GOOD,
         _START + "G112 U0 I30. K-50. R30.",
         message="{subject} ends where it begins: both lines touch it in the same point",
-        help="move the centre or the line on which corner 2 lands",
+        help="move the centre or the line on which the second corner lands",
         source=_FITS,
         alarm=_GEOMETRY,
         roles=(_ROLE,),
@@ -392,8 +393,8 @@ _GEOMETRY_RULES = (
         (_GOOD + " P5. Q5.", _GOOD + " C5. D5."),
         _GOOD + " P60.",
         _GOOD + " D40.",
-        message="{subject} does not fit: {words} is {actual}, {fits} on line 1 and on the arc",
-        help="{smaller}, or make line 1 and the arc longer",
+        message="{subject} does not fit: {words} is {actual}, {fits} on the straight and on the arc",
+        help="{smaller}, or make the straight and the arc longer",
         source=_FITS,
         alarm=_GEOMETRY,
         roles=(_ROLE,),
