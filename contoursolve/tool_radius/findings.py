@@ -508,7 +508,7 @@ class ToolFindings:
         across, onward = map(abs, direction(element, at_end=False))
         ways = ((across, 2 * off, "on the diameter"), (onward, off, "along Z"))
         told = (f", {length_in(abs(size / part), unit)} {where}" for part, size, where in ways if part > LENGTH)
-        return f"line comes out {much}{''.join(told)}"
+        return f"straight comes out {much}{''.join(told)}"
 
     def _notes(self, tool_run: ToolRun, fault: ToolFault) -> Iterator[str]:
         """Notes about what fits, and where."""
