@@ -261,7 +261,11 @@ class _Telling:
 
     def close(self, fixes: str, own: Dialect | None) -> None:
         """Tell what is told at the end, with the number of fixes; `own` is a control that is not built in."""
-        total = self.tally.line(sum(each is not None for _, each in self.rows)) + fixes
+        failed = sum(each is None for _, each in self.rows)
+        total = self.tally.line(len(self.rows) - failed) + fixes
+        if failed:
+            whose = "its error says" if failed == 1 else "their errors say"
+            total += f"; {count(failed, 'program')} not examined: {whose} what to do"
         match self.format:
             case "json":
                 print_pieces(self._document.pieces(), err=self.is_err)

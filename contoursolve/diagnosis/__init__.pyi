@@ -72,7 +72,11 @@ from .legality_table import (
 from .line_slips import (
     mend_line as mend_line,
 )
-from .names_in_program import named_in_program as named_in_program
+from .names_in_program import (
+    called_in_program as called_in_program,
+    labels_of as labels_of,
+    named_in_program as named_in_program,
+)
 from .odd_points import has_odd_points as has_odd_points
 from .references import (
     compare_reference as compare_reference,

@@ -1,6 +1,6 @@
 """The system of equations of one contour, by sympy: what it leaves open, on which condition it is determined."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace as replace_fields
 from decimal import Decimal, InvalidOperation
 from functools import cached_property
@@ -22,6 +22,7 @@ from contoursolve.diagnosis.equation_records import (
 from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.hand_calculation import HandCalculation
 from contoursolve.diagnosis.hand_sheet import Derivation
+from contoursolve.diagnosis.names_in_program import called_in_program
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
 from contoursolve.diagnostics import Shown
@@ -203,7 +204,7 @@ class EquationSystem(Shown):
             if each.factors:
                 determines = tuple(map(self._symbols.scalar, each.group.unknowns))
                 value = symbolic().value_at(expression, self._numbers)
-                meaning = condition_text(each.group, self._system, self.profile)
+                meaning = self._called(condition_text(each.group, self._system, self.profile))
                 found.append(SystemCondition(expression, value, meaning, determines))
         return tuple(found)
 
@@ -373,6 +374,10 @@ class EquationSystem(Shown):
         return symbol_names(self.claim, self.profile, self._system)
 
     @cached_property
+    def _called(self) -> Callable[[str], str]:
+        return called_in_program(self.profile)
+
+    @cached_property
     def _symbols(self) -> Any:
         return symbolic().Symbols(lambda name: self._names.get(name, name))
 
@@ -401,7 +406,7 @@ class EquationSystem(Shown):
     def _unknown(self, name: str) -> SystemUnknown:
         thing, _, part = name.rpartition(".")
         meaning = f"{self.profile.plane.axes[int(part)]} of {thing}" if part.isdigit() else _MEANINGS.get(part, "")
-        meaning = meaning.format(thing) or unknowns_text([name], self.profile)
+        meaning = self._called(meaning.format(thing) or unknowns_text([name], self.profile))
         unit = "" if part in ("cos", "sin") else "mm"
         value = self._chosen.scalars.get(name) if self._chosen else None
         return SystemUnknown(self._symbols.scalar(name), meaning, unit, value, self._names[name])
@@ -439,7 +444,7 @@ class EquationSystem(Shown):
         is_angle = given.unit is Unit.DEGREE
         symbol = self._symbols.angle(given.name) if is_angle else self._symbols.scalar(given.name)
         number = symbolic().exact(given.value, is_angle=is_angle)
-        meaning = meaning_of(given.name, given.word, self.claim) if given.word else ""
+        meaning = self._called(meaning_of(given.name, given.word, self.claim)) if given.word else ""
         return SystemValue(symbol, meaning, "rad" if is_angle else "mm", number, self._names[given.name], given.word)
 
     def _equation(self, fact: Fact) -> Equation:
@@ -456,7 +461,7 @@ class EquationSystem(Shown):
             found = numeric.equation(symbols.scalar(fact.sizes), at.amount(fact.given))
         else:
             found = numeric.balanced(fact.equation(at))
-        meaning = fact_text(fact, self._system.unknowns, self.profile)
+        meaning = self._called(fact_text(fact, self._system.unknowns, self.profile))
         return Equation(found, "" if word is not None and word.address == FACT else meaning, word)
 
     def _places(self, corner: Corner) -> Mapping[str, tuple[Any, Any]]:
@@ -477,11 +482,11 @@ class EquationSystem(Shown):
         for place in shown:
             point = getattr(solved, place) if solved else None
             for axis, own in enumerate(pairs[place]):
-                meaning = _PLACES[place].format(self.profile.plane.axes[axis], corner.name)
+                meaning = self._called(_PLACES[place].format(self.profile.plane.axes[axis], corner.name))
                 unknowns.append(SystemUnknown(own, meaning, "mm", point[axis] if point else None, str(own)))
         given = self.profile.givens.get(corner.size)
         word = given.word if given else None
-        equations = tuple(Equation(numeric.balanced(zero), meaning, word) for meaning, zero in told)
+        equations = tuple(Equation(numeric.balanced(zero), self._called(meaning), word) for meaning, zero in told)
         return CornerSystem(corner.name, tuple(unknowns), equations)
 
     def _step(self, step: ConstructionStep) -> SystemStep:

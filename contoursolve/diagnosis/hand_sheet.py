@@ -6,6 +6,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from contoursolve.diagnosis.names_in_program import called_in_program
 from contoursolve.diagnostics import Shown
 from contoursolve.geometry import (
     FIRST,
@@ -71,6 +72,7 @@ class HandSheet:
         self._hand = hand
         self._profile, self._system, self._symbols = profile, system, symbols
         self._scalars, self._corners, self._places = scalars, corners, places
+        self._called = called_in_program(profile)
         self._sheet = hand.Calculator(values)
         angles = (given.name for given in profile.givens.values() if given.unit is Unit.DEGREE)
         self._sheet.angles |= set(map(symbols.angle, angles))
@@ -90,7 +92,7 @@ class HandSheet:
         numbers = self._sheet.numbers(formula)
         symbol, value = self._sheet.put(own, formula, is_angle=is_angle)
         shown = degrees(value) if is_angle else value
-        self._lines.append(CalculationLine(symbol, formula, numbers, shown, unit, meaning))
+        self._lines.append(CalculationLine(symbol, formula, numbers, shown, unit, self._called(meaning)))
         return symbol
 
     def _put_pair(self, symbols: Pair, formulas: Pair) -> None:
@@ -118,7 +120,7 @@ class HandSheet:
         return self._done(f"{title}: no calculation by hand; as the solution has it", is_searched=True)
 
     def _done(self, title: str, *, is_searched: bool = False) -> Calculation:
-        found = Calculation(title, tuple(self._lines), self._triangle, is_searched)
+        found = Calculation(self._called(title), tuple(self._lines), self._triangle, is_searched)
         self._lines, self._triangle = [], ()
         return found
 

@@ -1,35 +1,36 @@
-"""The names of straights, arcs and corners in findings: by what stands in the program, for `line 2` is a program line.
+"""The names of straights, arcs, corners and points: by what stands in the program, for `line 2` is a program line.
 
-Facts, and the JSON's points and elements, have the names of the figure."""
+Facts, and the JSON's points and elements, have the names of the figure; so have points where a label must be short.
+"""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import number_text
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import FACT, Block
 from contoursolve.geometry import FIRST, SECOND, Arc, CornerShape, Line, Profile, Unit
+from contoursolve.reading import ParsedContour
 
 _NTH = ("first", "second", "third", "4th", "5th", "6th")
 _NAME = r"(?<!program )\b(?:line|arc|corner) \d+\b(?! = )"
+_PLACE = r"(?P<at>\.(?:begin|end|center)\b)?"
 _FACT = r"\([^()]*contoursolve[^()]*\)"
 _LINES = r"\bprogram lines? \d+(?:(?:, \d+)* and \d+| to \d+)?"
 
 
-def named_in_program(findings: Iterable[Diagnostic], answer: Answer) -> tuple[Diagnostic, ...]:
+def named_in_program(findings: Iterable[Diagnostic], claim: ParsedContour, profile: Profile) -> tuple[Diagnostic, ...]:
     """Findings about a contour that name each part of it by what stands in the program."""
-    givens = (given.word for given in answer.profile.givens.values())
-    facts = [word for word in (*answer.claim.words.values(), *givens) if word is not None and word.address == FACT]
-    places = {*(word.span for word in facts), *(each.span for each in answer.claim.directives)}
-    texts = {*(word.text for word in facts), *(each.text for each in answer.claim.directives)}
-    kept = (_FACT, *map(re.escape, sorted(texts, key=len, reverse=True)))
-    pattern = re.compile("|".join((*kept, f"(?P<name>{_NAME})", f"(?P<lines>{_LINES})")))
-    blocks = block_numbers(answer.claim.blocks)
-    names = cache(partial(names_of, answer.profile, answer.claim.blocks, blocks))
+    blocks = block_numbers(claim.blocks)
+    givens = (given.word for given in profile.givens.values())
+    facts = [word for word in (*claim.words.values(), *givens) if word is not None and word.address == FACT]
+    places = {*(word.span for word in facts), *(each.span for each in claim.directives)}
+    texts = {*(word.text for word in facts), *(each.text for each in claim.directives)}
+    pattern = _pattern((*texts, *(block.text.strip() for block in claim.blocks)), profile)
+    names = cache(lambda: names_of(profile, claim.blocks, blocks) | names_of_points(profile, blocks))
 
     def renamed(finding: Diagnostic) -> Diagnostic:
         told = set[str]()
@@ -40,16 +41,20 @@ def named_in_program(findings: Iterable[Diagnostic], answer: Answer) -> tuple[Di
                 if not blocks or any(line not in blocks for line in lines):
                     return found[0]
                 return re.sub(r"\d+", lambda line: blocks[int(line[0])], found[0].replace("program line", "block"))
-            if not found["name"] or found[0] not in names():
+            if not found["name"] and not found["point"]:
                 # A fact stays as it is written.
                 return found[0]
-            name, kind, place = names()[found[0]]
-            if " -> " in found.string[: found.start()]:
+            own = found["name"] or found["point"]
+            name, kind, place = names().get(own) or (*[_unknown(own, profile)] * 2, "")
+            before = found.string[: found.start()]
+            if " -> " in before and found["name"]:
                 # Where it runs then is what is told of it.
                 return f"{kind} in {place}" if place else kind
-            is_new = found[0] not in told
-            told.add(found[0])
-            return f"{name} ({place})" if place and is_new else name
+            is_new = own not in told
+            told.add(own)
+            at = _AT.get(found["at"] or "", "")
+            name = name.removeprefix("the ") if before.endswith("no ") else name
+            return f"{at}{name} ({place})" if place and is_new else f"{at}{name}"
 
         def rename(text: str) -> str:
             return pattern.sub(write, text)
@@ -65,6 +70,73 @@ def named_in_program(findings: Iterable[Diagnostic], answer: Answer) -> tuple[Di
 
     # A finding about a fact speaks as facts do.
     return tuple(each if each.span in places or each.span.line <= 0 else renamed(each) for each in findings)
+
+
+def called_in_program(profile: Profile, *, has_values: bool = True) -> Callable[[str], str]:
+    """A function that calls the straights, arcs and corners in a text by what stands in the program.
+
+    A corner goes by its word, unless the text holds for other values. Points keep their labels, facts their words."""
+    words = (given.word for given in profile.givens.values())
+    pattern = _pattern(word.text.strip() for word in words if word is not None and word.address == FACT)
+    parts = cache(lambda: _parts_of(profile, has_values=has_values))
+
+    def write(found: re.Match[str]) -> str:
+        own = found["name"]
+        called = own and (parts().get(own) or _unknown(own, profile))
+        return f"{_AT.get(found['at'] or '', '')}{called}" if own else found[0]
+
+    return lambda text: pattern.sub(write, text)
+
+
+def labels_of(profile: Profile) -> Mapping[str, str]:
+    """The names of the parts of a contour in tables: `straight (program line 2)`, `rounding P5.`; and where each of
+    its points lies: `end of program line 2`."""
+    points = {name: told for name, (told, _, _) in names_of_points(profile, block_numbers(profile.blocks)).items()}
+    return {name: told.removeprefix("the ") for name, told in (_parts_of(profile) | points).items()}
+
+
+def _parts_of(profile: Profile, *, has_values: bool = True) -> dict[str, str]:
+    """The straights, arcs and corners of a contour by their kinds and places, without from where to where they run."""
+    named = names_of(profile, profile.blocks, block_numbers(profile.blocks))
+    corners = {corner.name for corner in profile.figure.corners} if has_values else set[str]()
+    return {
+        name: f"{told if name in corners else kind} ({place})" if place else told if name in corners else kind
+        for name, (told, kind, place) in named.items()
+    }
+
+
+def _pattern(kept: Iterable[str], profile: Profile | None = None) -> re.Pattern[str]:
+    """A pattern of the names of elements and corners, of the points of a profile, and of program lines, outside what is
+    kept as it is written."""
+    written = map(re.escape, sorted(filter(None, kept), key=len, reverse=True))
+    figure = profile.figure if profile is not None else None
+    # Single letters are words as well.
+    points = (figure.start, *figure.points) if figure is not None else ()
+    ways = [rf"{each}" if each[1:] else rf"(?:{_BEFORE}){each}|{each}{_BEHIND}" for each in points if each.isalnum()]
+    point = "|".join((*sorted(ways, reverse=True), _OF_A_FIX)) if figure is not None else "(?!)"
+    bounded = rf"(?<![\w.:+=-])(?P<point>{point})(?![\w:=?.+-])"
+    return re.compile("|".join((_FACT, *written, f"(?P<name>{_NAME}){_PLACE}", f"(?P<lines>{_LINES})", bounded)))
+
+
+_BEFORE = "|".join(rf"(?<=\b{word} )" for word in ("about", "from", "through"))
+_BEHIND = r"(?= (?:\(|is |can still))"
+_OF_A_FIX = r"(?:(?<=-> )|(?<=without )|(?<=mm, ))[VPN]\d+(?=$|,| is at| at)"
+"""Points of another contour."""
+
+_AT = {".begin": "the begin of ", ".end": "the end of ", ".center": "the centre of "}
+_NUMBERED = re.compile(r"(line|arc|corner) (\d+)")
+
+
+def _unknown(name: str, profile: Profile) -> str:
+    """The name of a part that the contour as it is written does not have."""
+    found, numbers = _NUMBERED.fullmatch(name), block_numbers(profile.blocks)
+    if found is None:
+        return "the centre" if name.startswith("C") else "the corner"
+    kind, nth, path = {"line": "straight"}.get(found[1], found[1]), int(found[2]), profile.figure.path
+    place = "" if numbers or nth > len(path) else names_of(profile, profile.blocks, numbers)[path[nth - 1].name][2]
+    if kind == "corner" and place:
+        return f"the corner in {place}"
+    return f"the {kind}" if numbers or nth > len(_NTH) else f"the {_NTH[nth - 1]} {kind}"
 
 
 def block_numbers(blocks: Sequence[Block]) -> Mapping[int, str]:
@@ -112,6 +184,27 @@ def names_of(profile: Profile, blocks: Sequence[Block], numbers: Mapping[int, st
             is_counted = not several and 1 < len(figure.corners) <= len(_NTH)
             names[corner.name] = name, f"the {_NTH[at]} corner" if is_counted else kind, place_of(size.span.line)
     return names
+
+
+def names_of_points(profile: Profile, numbers: Mapping[int, str]) -> dict[str, tuple[str, str, str]]:
+    """The names of the points of a figure, as `names_of` has those of its elements: each says its place itself."""
+    figure, told = profile.figure, {profile.figure.start: "the start"}
+    named = names_of(profile, profile.blocks, numbers)
+    cut = {corner.at for corner in figure.corners}
+    for number, each in enumerate(figure.path):
+        _, kind, place = named[each.name]
+        following = named[figure.path[number + 1].name][2] if number + 1 < len(figure.path) else ""
+        if each.head in cut and place and following not in ("", place):
+            unit, _, line = place.rpartition(" ")
+            told.setdefault(each.head, f"the corner between {unit}s {line} and {following.rpartition(' ')[2]}")
+        is_own = place and not any(each is not other and named[other.name][2] == place for other in figure.path)
+        told.setdefault(each.head, f"the end of {place if is_own else kind}")
+        if isinstance(each, Arc):
+            told.setdefault(each.center, f"the centre of {kind}{f' of {place}' if place else ''}")
+        stated = f"N{number + 1}"
+        if stated in figure.points and stated != each.head:
+            told.setdefault(stated, f"the point that {place or kind} states")
+    return {name: (text, text, "") for name, text in told.items() if name in (figure.start, *figure.points)}
 
 
 def _first_lines(profile: Profile) -> dict[str, int]:

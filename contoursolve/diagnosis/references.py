@@ -83,6 +83,5 @@ def _place(answer: Answer, block: Block | None) -> tuple[str, Point] | None:
         made = claim.makes[number] if claim.makes else (path[number].name,)
         head = next((each.head for each in reversed(path) if each.name in made), "")
         if head in contour.places:
-            at = head if head in contour.points else "the end"
-            return f"{at} of program line {block.line}", contour.places[head]
+            return f"the end of program line {block.line}", contour.places[head]
     return "its end", contour.end

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, Depth, join
+from contoursolve.diagnosis import Answer, Depth, join, named_in_program
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
@@ -29,7 +29,15 @@ def errors_of(found: Answer | Result) -> list[Diagnostic]:
 
 def first_error(found: Answer | Result) -> str:
     """The message of the first error; empty without one."""
-    return next((each.message for each in errors_of(found)), "")
+    error = next(iter(errors_of(found)), None)
+    return "" if error is None else message_of(error, found)
+
+
+def message_of(error: Diagnostic, found: Answer | Result) -> str:
+    """The message of an error, which names the parts of a contour by what stands in the program."""
+    if not isinstance(found, Answer):
+        return error.message
+    return named_in_program((error,), found.claim, found.profile)[0].message
 
 
 def first_message(found: Answer | Result) -> str:
@@ -275,7 +283,7 @@ _NEVER = ("G", "N", "M")
 def called(word: str) -> str:
     """The name of a word in a sentence."""
     line, _, address = word.rpartition(":")
-    return f"{address} of block {line}" if line else address
+    return f"{address} of program line {line}" if line else address
 
 
 class Branches(Enum):

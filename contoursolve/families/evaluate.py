@@ -16,7 +16,15 @@ from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.diagnostics import choice_of
-from contoursolve.families.block_template import BlockOptions, Branches, SweepSpec, Template, errors_of, spec_of
+from contoursolve.families.block_template import (
+    BlockOptions,
+    Branches,
+    SweepSpec,
+    Template,
+    errors_of,
+    message_of,
+    spec_of,
+)
 from contoursolve.families.branch_rows import count_solutions
 from contoursolve.families.compiled_sweep import CompiledSweep, Table, cases_of
 from contoursolve.families.errors import FamilyError
@@ -363,5 +371,6 @@ def _by_kinds(ready: CompiledSweep) -> FailureSummary:
 
 
 def _error(ready: CompiledSweep, values: Mapping[str, float]) -> tuple[str, str]:
-    errors = errors_of(ready.template.solve(values))
-    return (errors[0].code, errors[0].message) if errors else ("", "")
+    answer = ready.template.solve(values)
+    errors = errors_of(answer)
+    return (errors[0].code, message_of(errors[0], answer)) if errors else ("", "")

@@ -10,9 +10,18 @@ from typing import Unpack
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import DECIMALS, Answer, element_text, join, limit_text, unknowns_text, value_text
+from contoursolve.diagnosis import (
+    DECIMALS,
+    Answer,
+    called_in_program,
+    element_text,
+    join,
+    limit_text,
+    unknowns_text,
+    value_text,
+)
 from contoursolve.diagnostics import Shown
-from contoursolve.families.block_template import BlockOptions, called, errors_of, first_error, spec_of
+from contoursolve.families.block_template import BlockOptions, called, errors_of, first_error, message_of, spec_of
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import RangePiece, RangeSearch
@@ -28,8 +37,9 @@ _ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
 class Reason(Struct, frozen=True):
     """Reason against a contour beyond an end.
 
-    `text` says it about the word, such as "P too large for line 2: 6.340 mm at most"; `code` and `message` are those
-    of the finding about a block just beyond the end (empty where that finding is only about rounding).
+    `text` says it about the word, such as "P is too large for the second straight: P at most 6.340 mm"; `code` and
+    `message` are those of the finding about a block just beyond the end (empty where that finding is only about
+    rounding).
     """
 
     text: str
@@ -46,7 +56,8 @@ def failure_of(answer: Answer) -> tuple[Reason, Enum | None]:
     # Close to a singular case rounding alone keeps the equations from holding.
     if error is None or error.about in refusals_about(Topic.ARITHMETIC):
         return NO_FAILURE
-    return Reason(error.message, error.code, error.message), error.about
+    message = message_of(error, answer)
+    return Reason(message, error.code, message), error.about
 
 
 class Way(Enum):
@@ -168,7 +179,7 @@ def feasible(
     >>> [(round(each.low.value, 4), round(each.high.value, 4)) for each in found.intervals]
     [(0.0, 51.9615)]
     >>> found.intervals[0].high.reason.text
-    'P is too large for line 1: P at most 51.961 mm'
+    'P is too large for the first straight: P at most 51.961 mm'
     """
     spec = spec_of(block, (word,), **options)
     template = spec.template()
@@ -271,7 +282,8 @@ def refused(code: str, event: Enum | None, values: str) -> str:
 
 def phrase(check: Check, kind: RefusalKind, case: CaseClass) -> str:
     """The failure of a check in words, without values."""
-    return kind.event.phrase.format_map(Created(lambda field: _FIELDS[field](check, case)))
+    told = kind.event.phrase.format_map(Created(lambda field: _FIELDS[field](check, case)))
+    return called_in_program(case.profile, has_values=False)(told)
 
 
 def _parallel(check: Check, case: CaseClass) -> str:

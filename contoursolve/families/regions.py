@@ -120,7 +120,7 @@ def region(
 
     >>> found = region("G111 X100. A180. K-30. B120. P5. Q5.", ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
     >>> [each.reason.text for each in found.boundaries]
-    ['P is too large for line 2', 'P is too large for line 1']
+    ['P is too large for the second straight', 'P is too large for the first straight']
     """
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")

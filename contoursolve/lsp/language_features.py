@@ -16,11 +16,12 @@ from contoursolve import (
     Status,
     Word,
     beside_of,
+    called_in_program,
     end_text,
     equations_of,
     form_text,
     legal_blocks,
-    path_table,
+    path_of,
     stated_words,
     tool_text,
     ways_to_complete,
@@ -95,7 +96,7 @@ def stretch(word: Word) -> tuple[int, int, int]:
 
 def _about_word(stated: StatedWord, answer: Answer) -> str:
     value = "" if stated.value is None else f"{stated.value:.5f}".rstrip("0").rstrip(".")
-    lines = [f"**{_plain(stated.word.text)}** {stated.meaning}"]
+    lines = [f"**{_plain(stated.word.text)}** {called_in_program(answer.profile)(stated.meaning)}"]
     if value:
         lines.append(f"{value} {stated.unit}".strip() + _in_mm(stated))
     if stated.is_ignored:
@@ -115,13 +116,15 @@ def _in_mm(stated: StatedWord) -> str:
 def _with_place(name: str, answer: Answer) -> str:
     """A point with its coordinates; an element or a corner with the place where it ends."""
     if answer.contour is None:
-        return name
-    rows = {row[0]: row for row in path_table(answer.contour, answer.unit).rows}
+        return called_in_program(answer.profile)(name)
+    table = path_of(answer, answer.contour)
+    rows = {name: row for (_, name), row in zip(table.names, table.rows, strict=True)}
     if name not in rows:
-        return name
+        return called_in_program(answer.profile)(name)
     axes = answer.plane.axes
     place = " ".join(f"{axis}{text}" for axis, text in zip(axes, rows[name][2:4], strict=True))
-    return f"{name}: {place}" if name in answer.contour.points else f"{name}, which ends at {place}"
+    told = rows[name][0]
+    return f"{told}: {place}" if name in answer.contour.points else f"{told}, which ends at {place}"
 
 
 def _about_plain_word(opened: Opened, word: Word) -> str:
@@ -141,7 +144,7 @@ def _about_contour(answer: Answer, *, is_drawn: bool, beside: Sequence[ToolDrawi
     if is_drawn:
         lines.append(f"![the contour]({image_of(answer, beside)})")
     if answer.contour is not None:
-        table = path_table(answer.contour, answer.unit)
+        table = path_of(answer, answer.contour)
         shown = [[*row[:4]] for row in table.rows]
         head = ["element", "move", *table.header[2:4]]
         lines.append("\n".join("| " + " | ".join(row) + " |" for row in (head, ["---"] * 4, *shown)))

@@ -45,7 +45,7 @@ from contoursolve.output import (
     form_text,
     found_value,
     html_text,
-    path_table,
+    path_of,
     short,
     solution_rows,
     sources_of,
@@ -281,7 +281,7 @@ def _solutions(answer: Answer) -> Data:
 
 def _path(answer: Answer) -> list[Sequence[str]]:
     """The table of the path, its header first."""
-    path = path_table(answer.contour, answer.unit) if answer.contour is not None else None
+    path = path_of(answer, answer.contour) if answer.contour is not None else None
     return [path.header, *path.rows] if path else []
 
 

@@ -17,6 +17,7 @@ from .construction import (
 from .contours import (
     check_table as check_table,
     count_text as count_text,
+    path_of as path_of,
     path_table as path_table,
     solution_rows as solution_rows,
 )

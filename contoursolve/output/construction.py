@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from contoursolve.diagnosis import (
     Answer,
+    called_in_program,
     chosen_solution,
     fact_text,
     join,
@@ -42,10 +43,10 @@ def construction_lines(answer: Answer) -> list[str]:
     profile = answer.profile
     if not profile.start.is_known:
         return ["  construction: the start point is not known"]
-    system = assemble(profile)
+    system, called = assemble(profile), called_in_program(profile)
     verdict = analyse(system)
     if not verdict.is_determined:
-        return [f"  construction: still open: {unknowns_text(verdict.free, profile)}"]
+        return [f"  construction: still open: {called(unknowns_text(verdict.free, profile))}"]
     chosen = chosen_solution(profile, list_alternatives(answer)) if answer.contour is not None else None
     scalars, sides = (chosen.scalars, chosen.sides) if chosen is not None else ({}, {})
     lines = ["  construction:"]
@@ -53,13 +54,13 @@ def construction_lines(answer: Answer) -> list[str]:
         facts = join(
             list(
                 dict.fromkeys(
-                    filter(None, (printable(fact_text(fact, group.unknowns, profile)) for fact in group.facts))
+                    filter(None, (printable(called(fact_text(fact, group.unknowns, profile))) for fact in group.facts))
                 )
             )
         )
         how = _choice(group, system, sides)
         place = _place(group, profile, scalars)
-        lines.append(f"    {number}. {_things(group, profile)}: {facts}{how}")
+        lines.append(f"    {number}. {called(_things(group, profile))}: {facts}{how}")
         lines += [f"       -> {place}"] if place else []
     words = join([printable(word.text) for word in profile.words_of(spare_of(system))])
     return [*lines, f"    checked besides: {words}"] if words else lines

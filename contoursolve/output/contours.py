@@ -1,6 +1,7 @@
 """A contour as text and as tables: what was given, every element of the path, all solutions, what was checked."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -11,11 +12,13 @@ from contoursolve.diagnosis import (
     Listed,
     Listing,
     axis_labels,
+    called_in_program,
     certificate_text,
     coordinate_texts,
     coordinates,
     count,
     join,
+    labels_of,
     length_of,
     list_alternatives,
     list_solutions,
@@ -59,10 +62,24 @@ def explaining_lines(answer: Answer, system: "EquationSystem | None" = None) -> 
     from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
     from contoursolve.output.equations import equation_lines  # noqa: PLC0415 - sympy is slow to import
 
-    lines = [*equation_lines(system or answer.system), "", *construction_lines(answer)]
+    lines = [
+        *equation_lines(system or answer.system),
+        "",
+        "  points:",
+        *points_table(answer).lines("    ", is_headed=False),
+        "",
+        *construction_lines(answer),
+    ]
     if answer.contour and answer.profile.figure.corners and answer.claim.form.corner_note:
         lines.append(f"    {answer.claim.form.corner_note}")
     return lines
+
+
+def points_table(answer: Answer) -> Table:
+    """The labels of the points of a contour, each with where it lies."""
+    labels, figure = labels_of(answer.profile), answer.profile.figure
+    rows = [(name, labels[name]) for name in (figure.start, *figure.points) if name in labels]
+    return Table("Points", ("point", "where it lies"), rows, (0, 1), [("point", name) for name, _ in rows])
 
 
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False, is_derived: bool = False) -> list[str]:
@@ -82,8 +99,9 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False,
         from contoursolve.output.derivation import derivation_lines  # noqa: PLC0415 - sympy is slow to import
 
         lines += ["", *derivation_lines(system.derivation)]
+        lines += [] if is_explained else ["", "  points:", *points_table(answer).lines("    ", is_headed=False)]
     if answer.contour:
-        path = path_table(answer.contour, answer.unit)
+        path = path_of(answer, answer.contour)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]
         lines += [line for text in premise_texts(answer.premises, result.control or "") for line in ("", f"  {text}")]
         lines += [line for text in _later_texts(answer) for line in ("", f"  {text}")]
@@ -103,7 +121,9 @@ def _later_texts(answer: Answer) -> Iterator[str]:
     from contoursolve.solving import resolved_later  # noqa: PLC0415 - most contours are no such chains
 
     if later := resolved_later(answer.profile):
-        yield f"known by a later block: {', '.join(f'{name} by {other}' for name, other in later.items())}"
+        called = called_in_program(answer.profile)
+        told = (f"{called(name)} by {called(other)}" for name, other in later.items())
+        yield f"known by a later block: {', '.join(told)}"
 
 
 def check_table(diagnosis: Diagnosis) -> Table:
@@ -150,12 +170,12 @@ def count_text(listing: Listing) -> str:
 def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[str, str, str, str, str]]]:
     """Each solution with its name, whether it is no contour, where it differs from the others or why there is none,
     what selects it, and its certificate if it is not the usual one."""
-    contours = [each.contour for each in listing.solutions if each.contour]
+    contours, called = [each.contour for each in listing.solutions if each.contour], called_in_program(answer.profile)
     points = contours[0].points if contours else ()
     differing = [point for point in points if len({contour.points[point] for contour in contours}) > 1]
     rows = []
     for each in listing.solutions:
-        where = ", ".join(each.reasons)
+        where = called(", ".join(each.reasons))
         if each.contour:
             at = each.contour.points
             places = (f"{point} {coordinates(at[point], answer.plane, answer.unit)}" for point in differing)
@@ -163,7 +183,7 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
         label = "" if each.contour else "no contour:"
         selects = (", " if answer.claim.form.free.picking else " ").join(each.selects)
         row = (
-            each.name or ("only solution" if listing.is_complete else "one solution"),
+            called(each.name) or ("only solution" if listing.is_complete else "one solution"),
             label,
             where,
             selects,
@@ -179,7 +199,7 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
 def given_table(answer: Answer) -> Table:
     """Word, value, unit and meaning of everything that was given."""
     plane, unit, rows = answer.plane, short_name(answer.unit.value), []
-    keys, names = word_keys(answer.claim.words.values()), list[Name]()
+    keys, names, called = word_keys(answer.claim.words.values()), list[Name](), called_in_program(answer.profile)
     starts = coordinate_texts([float(value or 0) for value in answer.start.values], plane, answer.unit)
     of_axes = zip(plane.axes, answer.start.values, answer.start.free, starts, plane.diameters, strict=True)
     for axis, value, is_free, text, is_diameter in of_axes:
@@ -189,14 +209,14 @@ def given_table(answer: Answer) -> Table:
         names.append(("point", "start"))
     for each in stated_words(answer):
         names.append(NAMELESS if each.word.address == FACT else ("word", each.key))
-        meaning = each.meaning + (" - ignored" if each.is_ignored else "")
+        meaning = called(each.meaning) + (" - ignored" if each.is_ignored else "")
         if each.word.address == FACT:
             rows.append((printable(each.word.text), "", "", "further fact"))
         else:
             rows.append((each.word.text, *_cells(each.value, each.unit), meaning))
     for asked in answer.answers:
         question = asked.question
-        meaning = f"asked: {meaning_of(question.name, question.word, answer.claim)}".strip(": ")
+        meaning = f"asked: {called(meaning_of(question.name, question.word, answer.claim))}".strip(": ")
         number = ("?", "") if asked.value is None else _cells(*found_value(asked, answer))
         rows.append((printable(question.word.text), *number, meaning))
         names.append(("word", keys[question.word.span]) if question.word.span in keys else NAMELESS)
@@ -225,8 +245,14 @@ def _asked_text(asked: AskedValue, answer: Answer) -> str:
 # The path ----------------------------------------------------------------------------------------------------
 
 
-def path_table(contour: Contour, unit: Length = Length.MM) -> Table:
-    """The named points, and the elements with their end points, in a unit and as the control writes the axes."""
+def path_of(answer: Answer, contour: Contour) -> Table:
+    """The path of a contour, with what its points and elements are in the program."""
+    return path_table(contour, answer.unit, labels_of(answer.profile))
+
+
+def path_table(contour: Contour, unit: Length = Length.MM, called: Mapping[str, str] = MappingProxyType({})) -> Table:
+    """The named points, and the elements with their end points, in a unit and as the control writes the axes; `called`
+    says what they are."""
     has_arc, written = any(isinstance(each, ArcSegment) for each in contour.elements), short_name(unit.value)
     labels = [f"{label} [{written}]" for label in axis_labels(contour.plane)]
     heads = [*labels, *([*(f"center {label}" for label in labels), f"radius [{written}]"] if has_arc else [])]
@@ -235,15 +261,17 @@ def path_table(contour: Contour, unit: Length = Length.MM) -> Table:
     def point(at: tuple[float, float]) -> list[str]:
         return coordinate_texts(at, contour.plane, unit)
 
-    rows: list[tuple[str, ...]] = [(name, "point", *point(at), *blank) for name, at in contour.points.items()]
+    told = {name: f"{name}, {called[name]}" if name in called else name for name in contour.points}
+    rows: list[tuple[str, ...]] = [(told[name], "point", *point(at), *blank) for name, at in contour.points.items()]
     rows.append(("start", "", *point(contour.start), *blank))
-    names: list[Name] = [("point", row[0]) for row in rows]
+    names: list[Name] = [*(("point", name) for name in contour.points), ("point", "start")]
     for element in contour.elements:
+        own = called.get(element.name, element.name)
         if isinstance(element, ArcSegment):
             code = "G02" if element.turn is Turn.CW else "G03"
             arc = [*point(element.center), length_of(element.radius, unit)]
-            rows.append((element.name, code, *point(element.end), *arc))
+            rows.append((own, code, *point(element.end), *arc))
         else:
-            rows.append((element.name, "G01", *point(element.end), *blank))
+            rows.append((own, "G01", *point(element.end), *blank))
         names.append(("element", element.name))
     return Table("The path", ("element", "move", *heads), rows, (0, 1), names)

@@ -84,7 +84,7 @@ def _runs(blocks: Sequence[Unfollowed]) -> Iterator[str]:
         first, *more = run
         until = f", and {len(more)} more up to program line {more[-1].line}" if more else ""
         file = f"{printable(first.file)} " if first.file else ""
-        yield f"{file}line {first.line}: {_cut(first.text)} ({reason}){until}"
+        yield f"{file}program line {first.line}: {_cut(first.text)} ({reason}){until}"
 
 
 def _step_lines(name: str, path: ToolPath, step: Step | None) -> Iterator[str]:

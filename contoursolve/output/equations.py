@@ -2,7 +2,16 @@
 
 from collections.abc import Iterator
 
-from contoursolve.diagnosis import Answer, Equation, EquationSystem, SystemCondition, TiedWords, count, join
+from contoursolve.diagnosis import (
+    Answer,
+    Equation,
+    EquationSystem,
+    SystemCondition,
+    TiedWords,
+    called_in_program,
+    count,
+    join,
+)
 from contoursolve.gcode import Word
 from contoursolve.numeric import symbolic
 from contoursolve.output.plain_text import Table, printable
@@ -31,8 +40,9 @@ def equation_lines(system: EquationSystem) -> list[str]:
     lines += (
         ["", "  these words say the same:", *tie_table(system).lines("    ", is_headed=False)] if system.ties else []
     )
+    called = called_in_program(system.profile)
     for corner, rows in zip(system.corners, corner_tables(system), strict=True):
-        lines += ["", f"  {corner.name}:", *rows.lines("    ", is_headed=False)]
+        lines += ["", f"  {called(corner.name)}:", *rows.lines("    ", is_headed=False)]
     return lines
 
 
@@ -140,7 +150,7 @@ def corner_tables(system: EquationSystem) -> list[Table]:
     """The equations of each corner."""
     return [
         Table(
-            f"Equations of {corner.name}",
+            f"Equations of {called_in_program(system.profile)(corner.name)}",
             ("what it says", "equation"),
             [(each.meaning, symbolic.text(each.equation)) for each in corner.equations],
             left=(0, 1),

@@ -6,7 +6,7 @@ from typing import Any
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.diagnosis import EquationSystem, SystemCondition, word_keys
+from contoursolve.diagnosis import EquationSystem, SystemCondition, called_in_program, word_keys
 from contoursolve.gcode import FACT
 from contoursolve.numeric import symbolic
 from contoursolve.output.equations import large_lines, open_line, size_text, stated_pair, unknown_table, value_table
@@ -34,10 +34,11 @@ def system_element(system: EquationSystem) -> Iterator[h.Node]:
         ties = [(" ".join(each.words), "" if each.identity is None else maths(each.identity)) for each in system.ties]
         yield table("What says the same", ("words", "formula"), ties)
     yield h.details[h.summary["Unknowns and values"], table_of(unknown_table(system)), table_of(value_table(system))]
+    called = called_in_program(system.profile)
     for corner in system.corners:
         told = [(each.meaning, maths(each.equation)) for each in corner.equations]
-        own = table(f"Equations of {corner.name}", ("what it says", "equation"), told)
-        yield h.details[h.summary[corner.name.capitalize()], own]
+        own = table(f"Equations of {called(corner.name)}", ("what it says", "equation"), told)
+        yield h.details[h.summary[called(corner.name)], own]
 
 
 def maths(expression: Any) -> h.Node:

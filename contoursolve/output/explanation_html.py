@@ -6,13 +6,16 @@ import htpy as h
 
 from contoursolve.diagnosis import Answer
 from contoursolve.output.construction import construction_lines
+from contoursolve.output.contours import points_table
 from contoursolve.output.derivation_html import derivation_element
 from contoursolve.output.equations_html import system_element
+from contoursolve.output.html import table_of
 
 
 def equations_of_contour(answer: Answer) -> Iterator[h.Node]:
     """The equations of a contour as maths, and the steps in which it is constructed."""
     yield from system_element(answer.system)
+    yield table_of(points_table(answer))
     heading, *steps = construction_lines(answer)
     yield h.h4["Construction"]
     yield h.pre["\n".join(line[2:] for line in steps)] if steps else h.p[f"{heading.strip().capitalize()}."]

@@ -118,7 +118,7 @@ def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[
     largest = "".join(limit_text(each.high.listed, least.unit) for each in least.intervals[:1])
     yield f"largest tool for {whole}: {largest}" if least.largest else f"no tool of the range searched cuts {whole}"
     for place, (lines, each) in enumerate(found.items(), 1):
-        where = f"lines {lines[0]} to {lines[-1]}" if len(lines) > 1 else f"line {lines[0]}"
+        where = f"program lines {lines[0]} to {lines[-1]}" if len(lines) > 1 else f"program line {lines[0]}"
         rows += [(f"{place}.", where, "none", each.refusal)] * (not each.intervals)
         for number, part in enumerate(each.intervals):
             ends = [_end_cells(part.high, each.unit)]

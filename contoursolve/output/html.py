@@ -15,7 +15,7 @@ from contoursolve.output.contours import (
     check_table,
     count_text,
     given_table,
-    path_table,
+    path_of,
     small,
     solution_rows,
 )
@@ -137,7 +137,7 @@ def path_element(answer: Answer, *, identity: str = "") -> h.Element | None:
     """Every named point and every element of the path, in the unit and the axes of the program."""
     if answer.contour is None:
         return None
-    return table_of(path_table(answer.contour, answer.unit), identity=identity)
+    return table_of(path_of(answer, answer.contour), identity=identity)
 
 
 def solutions_table(answer: Answer) -> Iterator[h.Node]:

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace as replace_fields
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -9,18 +10,18 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, ContourState, count, join, rank, states_in, statuses_text
+from contoursolve.diagnosis import Answer, ContourState, count, join, labels_of, rank, states_in, statuses_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
 from contoursolve.program import ELSEWHERE, Result, Run, what_shows
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import NoteKind, Status
+from contoursolve.solving import Contour, NoteKind, Status
 
 if TYPE_CHECKING:
     from contoursolve.pictures import ToolDrawing
-    from contoursolve.tool_radius import ToolReport
+    from contoursolve.tool_radius import ToolReport, ToolRun
 
 MOST_ALIKE = 10
 """Findings of one code in one program that are shown where nobody asks for all."""
@@ -184,8 +185,7 @@ class Consequences:
             if finding.about not in WAITS:
                 yield finding
             elif isinstance(item, Answer):
-                unknown = next(each for each in item.diagnostics if each.about is ReadIssue.POSITION_UNKNOWN)
-                for line in {label.span.line for label in unknown.labels} - {*item.lines}:
+                for line in {label.span.line for label in finding.labels} - {*item.lines}:
                     self._waiting.setdefault(line, []).append((item.lines[0], finding))
             if finding.is_error and isinstance(item, Answer):
                 self._contours[id(finding)] = item.lines
@@ -420,9 +420,25 @@ def tool_lines(report: "ToolReport", result: Result) -> Iterator[str]:
         if each.path is None:
             yield from (f"{begin}: {each.title}: it does not fit", "")
             continue
-        table = path_table(each.path, each.run.unit)
+        table = path_table(_named_by_lines(each, result), each.run.unit)
         yield f"{begin}: {title_of(each)}"
         yield from (*columns([("", "", *table.header[2:]), *table.rows], table.left), "")
+
+
+def _named_by_lines(each: "ToolRun", result: Result) -> Contour:
+    """The path of a tool, each element called by what it goes along."""
+    answers = {line: answer for answer in result.answers for line in answer.lines}
+    labels = {line: labels_of(answer.profile) for line, answer in answers.items()}
+
+    def called(name: str, line: int) -> str:
+        return labels.get(line, {}).get(name, f"{name} (program line {line})")
+
+    assert each.path is not None
+    names = (each.run.travels[piece.element].line for piece in each.pieces)
+    elements = zip(each.path.elements, names, strict=True)
+    return replace_fields(
+        each.path, elements=tuple(replace(element, name=called(element.name, line)) for element, line in elements)
+    )
 
 
 def table_lines(programs: Sequence[tuple[str, Totals | None]]) -> Iterator[str]:

@@ -91,7 +91,7 @@ class BesideTool(Struct, frozen=True):
     def _finding(self, finding: Diagnostic) -> Diagnostic:
         block, told = self.blocks.get(finding.span.line), finding.message
         if block is not None and block.file:
-            told = f"{told} ({block.file}, line {block.line})"
+            told = f"{told} (program line {block.line} of {block.file})"
         found: Diagnostic = renumbered(replace(finding, message=told), self)
         return found
 

@@ -14,7 +14,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count
 from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
 from contoursolve.gcode import Block
-from contoursolve.output.contours import given_table, path_table
+from contoursolve.output.contours import given_table, path_of
 from contoursolve.output.html import (
     checks_table,
     figure,
@@ -152,7 +152,7 @@ def _lighting(result: Result) -> str:
     for answer in result.answers:
         names |= dict.fromkeys(given_table(answer).names)
         if answer.contour is not None:
-            names |= dict.fromkeys(path_table(answer.contour, answer.unit).names)
+            names |= dict.fromkeys(path_of(answer, answer.contour).names)
         names |= dict.fromkeys(("finding", str(number)) for number, _ in enumerate(answer.diagnostics, 1))
     try:
         return lighting_rules(names, ".contoursolve article")

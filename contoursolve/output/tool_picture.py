@@ -70,7 +70,7 @@ def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[Tool
         if own:
             # Beside a whole program, nobody sees which line "this line" is.
             findings = [
-                one if lines else replace(one, message=f"line {one.span.line}: {one.message}")
+                one if lines else replace(one, message=f"program line {one.span.line}: {one.message}")
                 for one in sorted(report.findings, key=lambda finding: not finding.is_error)
                 if one.span.line in (lines or each.run.lines)
             ]
@@ -125,7 +125,7 @@ def _beside(
     meanings |= {Role.CONFLICTING: "cannot be cut, or the tool does not fit"} if each.faults else {}
     closeups = []
     for place, stance in enumerate(stances):
-        name = f"line {run.travels[stance.element].line}" if place or stance.fault or stance.rest else "start"
+        name = f"program line {run.travels[stance.element].line}" if place or stance.fault or stance.rest else "start"
         closeups.append(Closeup(name, (_circle(each, stance), *stance.rest), _READABLE))
     told = title_of(each) if path else f"{title}: it does not fit"
     return ToolDrawing(run.plane, run.unit, told, tuple(parts), cut, remarks, meanings, tuple(closeups))

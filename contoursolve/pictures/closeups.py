@@ -81,18 +81,18 @@ def choose_details(closeups: Iterable[Closeup], view: Viewport) -> tuple[list[De
     boxes = [(each, _box_of(each.segments, view)) for each in closeups]
     tiny = [(each, box) for each, box in boxes if max(box.right - box.left, box.bottom - box.top) < each.least]
     if len(tiny) > MOST_SMALL:
-        return [], [each.name for each, _ in tiny]
+        return [], [*dict.fromkeys(each.name for each, _ in tiny)]
     for closeup, own in tiny:
         names: tuple[str, ...] = (closeup.name,)
         box = own
         near = next((each for each in small if each[1].grow(_CLEAR).meets(own)), None)
         if near is not None and near[1].right - near[1].left + near[1].bottom - near[1].top < 2 * closeup.least:
             small.remove(near)
-            names, box = (*near[0], *names), _around(near[1], own)
+            names, box = tuple(dict.fromkeys((*near[0], *names))), _around(near[1], own)
         small.append((names, box))
     found = [Detail(names, box, _times(box)) for names, box in small]
     worth = [each for each in found if each.times >= _LEAST]
-    return worth[:MOST_DETAILS], [name for each in worth[MOST_DETAILS:] for name in each.names]
+    return worth[:MOST_DETAILS], [*dict.fromkeys(name for each in worth[MOST_DETAILS:] for name in each.names)]
 
 
 def _box_of(segments: Sequence[Segment], view: Viewport) -> Box:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, list_solutions
+from contoursolve.diagnosis import Answer, labels_of, list_solutions
 from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.gcode import FACT
 from contoursolve.geometry import SECOND, Turn
@@ -63,7 +63,7 @@ def compose(
         meanings=_meanings(subject),
         has_turning_axis=answer.plane.diameters[SECOND] and not answer.start.free[SECOND],
         is_one_contour=True,
-        closeups=tuple(_corners(subject.trails)),
+        closeups=tuple(_corners(subject.trails, labels_of(answer.profile))),
     )
     scene = scene.with_beside(each for each in beside if each.plane == answer.plane)
     return replace(scene, most_labels=MOST_LABELS) if subject.is_chain else scene
@@ -73,11 +73,12 @@ _READABLE = 11.0
 """Pixels of the larger side of a corner that can be read."""
 
 
-def _corners(trails: Sequence[Trail]) -> Iterator[Closeup]:
+def _corners(trails: Sequence[Trail], labels: Mapping[str, str]) -> Iterator[Closeup]:
     """The corners of a path, in its order."""
     segments = [segment for trail in trails if trail.weight is Weight.MAIN for segment in trail.segments]
     corners = {each.name: each for each in segments[::-1] if each.name.startswith("corner")}
-    yield from (Closeup(each.name, (each,), _READABLE) for each in segments if corners.get(each.name) is each)
+    shown = (each for each in segments if corners.get(each.name) is each)
+    yield from (Closeup(labels.get(each.name, each.name), (each,), _READABLE) for each in shown)
 
 
 def title_of(answer: Answer) -> str:
@@ -220,14 +221,23 @@ def _path_in_words(answer: Answer, contour: Contour) -> Iterator[str]:
     def place(at: Point) -> str:
         return coordinates(at, answer.plane, answer.unit)
 
+    labels = labels_of(answer.profile)
+
+    def called(name: str) -> str:
+        told = labels.get(name, name)
+        return f"{told[0].upper()}{told[1:]}"
+
     yield f"The path starts at {place(contour.start)}."
     for element in contour.elements[:MOST_ELEMENTS]:
         if isinstance(element, ArcSegment):
             turn = "clockwise" if element.turn is Turn.CW else "counter-clockwise"
             radius = number(element.radius, answer.unit)
-            yield f"{element.name}: arc {turn} to {place(element.end)}, radius {radius}."
+            yield f"{called(element.name)} {turn} to {place(element.end)}, radius {radius}."
         else:
-            yield f"{element.name}: straight to {place(element.end)}."
+            yield f"{called(element.name)} to {place(element.end)}."
     if len(contour.elements) > MOST_ELEMENTS:
         yield f"And {len(contour.elements) - MOST_ELEMENTS} more elements."
-    yield from (f"{name} is at {place(at)}." for name, at in list(contour.points.items())[:MOST_ELEMENTS])
+    yield from (
+        f"{name}, {labels.get(name, 'a point')}, is at {place(at)}."
+        for name, at in list(contour.points.items())[:MOST_ELEMENTS]
+    )

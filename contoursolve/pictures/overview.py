@@ -243,7 +243,7 @@ def _label(here: Sequence[DrawnContour]) -> tuple[TextRun, ...]:
     """The numbers and the lines of the contours that begin at one place."""
     numbers = [TextRun(f"{', ' if place else ''}{each.number}", _role(each.answer)) for place, each in enumerate(here)]
     lines = ", ".join(str(each.answer.lines[0]) for each in here)
-    return (*numbers, TextRun(f"  line{'s' if len(here) > 1 else ''} {lines}", Role.MUTED))
+    return (*numbers, TextRun(f"  program line{'s' if len(here) > 1 else ''} {lines}", Role.MUTED))
 
 
 def _role(answer: Answer, solved: Role = Role.INK) -> Role:

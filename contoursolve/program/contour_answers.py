@@ -170,7 +170,7 @@ class Answers:
             return tuple(findings)
         from contoursolve.diagnosis import named_in_program  # noqa: PLC0415 - most contours have no findings
 
-        return named_in_program(findings, answer)
+        return named_in_program(findings, answer.claim, answer.profile)
 
     def examine(self, found: ParsedContour, pending: Pending) -> Answer:
         """Both."""

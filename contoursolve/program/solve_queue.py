@@ -195,8 +195,11 @@ class Queue:
         """The answer with another finding about its start, and others."""
         context = context_of(answer.claim, self.dialect.rules)
         start = report(context, context.row(about), Basis.RULE, [], **fields)
-        # What is found from there says more.
-        again = {(each.code, each.span) for each in others}
+        lost = [each for each in answer.diagnostics if each.about is ReadIssue.POSITION_UNKNOWN]
+        labels = (*start.labels, *(label for each in lost for label in each.labels))
+        start = replace(start, labels=tuple(dict.fromkeys(labels)))
+        # What is found from there says more; that it waits says that its start is not known.
+        again = {(each.code, each.span) for each in (*others, *(lost if about is ReadIssue.CONTOUR_WAITS else ()))}
         kept = (each for each in answer.diagnostics if (each.code, each.span) not in again)
         return replace(answer, diagnostics=(*kept, start, *others))
 

@@ -170,7 +170,7 @@ def _sketch(
     others = dict.fromkeys(fact.given for fact in facts if fact.given not in given)
     notes += [f"{each}: it follows from others, or no field is free for it" for each in others]
     read = [
-        f"{fact.field} of {'arc' if fact.element in chained.arcs else 'line'} {fact.element + 1}"
+        f"{fact.field} of element {fact.element + 1}"
         for fact in taken
         if fact in known and not (chained.is_turned and fact.field == chained.axes[1] and not fact.value)
     ]

@@ -13,6 +13,7 @@ from contoursolve.diagnosis import (
     Answer,
     Depth,
     join,
+    labels_of,
     length_text,
     list_solutions,
     place_text,
@@ -450,7 +451,8 @@ class _Reading:
     def _moved(self, title: str) -> str:
         """The title of a fix without the places that it leaves where they are."""
         points = self.loose.points if self.loose is not None else {}
-        told = {f"{name} is": at for name, at in points.items()}
+        labels = labels_of(self.answer.profile)
+        told = {on_drawing(f"the {labels[name]} is", self.sketch): at for name, at in points.items() if name in labels}
         told |= {"the contour ends": points[self.heads[max(self.heads)]]} if points else {}
         same = [f"{lead} at {self._place(at)}" for lead, at in told.items()]
         change, _, outcome = title.partition(" -> ")

@@ -2,9 +2,10 @@
 
 import re
 
+from contoursolve.diagnosis import join
 from contoursolve.sketches.sketch import ContourSketch
 
-_LINE = re.compile(r"program line (?P<line>-?\d+)")
+_LINE = re.compile(r"\b(?:program line|block)(?:s (?P<other>\d+) and|) (?P<line>-?\d+)")
 _CORNERS = (("RND R", "rounding "), ("CHF ", "chamfer "))
 _WORDS = {"CLSD-": "closed", "CLSD+": "closed", "FLT": "tangent", "FCT": "tangent", "DR+": "ccw", "DR-": "cw"}
 _WORD = re.compile(rf"(?<!\w)(?:{'|'.join(map(re.escape, _WORDS))})(?!\w)")
@@ -18,7 +19,7 @@ def on_drawing(text: str, sketch: ContourSketch) -> str:
 
     for written, told in _CORNERS:
         text = text.replace(written, told)
-    text = _LINE.sub(lambda found: named(int(found["line"])), text)
+    text = _LINE.sub(lambda found: join([named(int(each)) for each in found.group("other", "line") if each]), text)
     return _WORD.sub(lambda found: _WORDS[found[0]], text)
 
 

@@ -147,7 +147,7 @@ class ToolRun(Struct, frozen=True, dict=True):
 def _contour(own: CuttingRun, names: Sequence[str], segments: Sequence[Segment]) -> Contour:
     """Segments as one contour; a plain move has the name of its kind."""
     named = tuple(
-        replace(each, name=name or ("arc" if isinstance(each, ArcSegment) else "line"))
+        replace(each, name=name or ("arc" if isinstance(each, ArcSegment) else "straight"))
         for name, each in zip(names, segments, strict=True)
     )
     return Contour(named[0].start, named[-1].end, {}, named, own.plane)
@@ -433,7 +433,8 @@ class ToolFindings:
             Severity.ERROR if tool_run.rules.is_error(fault.kind) else row.severity,
             Basis.NUMERICAL,
             span,
-            row.message.format(**texts) + (f" ({shown.file}, line {shown.line})" if shown.called_at == line else ""),
+            row.message.format(**texts)
+            + (f" (program line {shown.line} of {shown.file})" if shown.called_at == line else ""),
             fault.kind.source,
             (Label(span, ""),),
             (word.address,) if word is not None else (),
@@ -455,7 +456,7 @@ class ToolFindings:
         back, on = (length_in(each, unit) for each in fault.rest)
         # Of a word, its number stands in the place of an element.
         working = 0 if fault.kind in _OF_WORDS else fault.working or 0
-        name, last = "arc" if isinstance(element, ArcSegment) else "line", working or fault.element
+        name, last = "arc" if isinstance(element, ArcSegment) else "straight", working or fault.element
         said, codes = self._word_of(own, fault), {f"G{n}": self.dialect.modes.codes[n].text for n in (40, 41, 42)}
         lines = " to ".join(str(own.travels[number].line) for number in (fault.element, last))
         return {
@@ -507,7 +508,7 @@ class ToolFindings:
         across, onward = map(abs, direction(element, at_end=False))
         ways = ((across, 2 * off, "on the diameter"), (onward, off, "along Z"))
         told = (f", {length_in(abs(size / part), unit)} {where}" for part, size, where in ways if part > LENGTH)
-        return f"line comes out {much}{''.join(told)}"
+        return f"straight comes out {much}{''.join(told)}"
 
     def _notes(self, tool_run: ToolRun, fault: ToolFault) -> Iterator[str]:
         """Notes about what fits, and where."""

@@ -278,10 +278,10 @@ def test_hovers_hints_symbols_folds(served):
         word = await hovered(editor, SHAFT, 5, 20)
         assert word.startswith("**K-30.** Z distance from start to virtual intersection")
         assert "-30 mm" in word
-        assert "fixes V1: Z-30.0000 X40.0000" in word
+        assert "fixes V1, end of the first straight: Z-30.0000 X40.0000" in word
         contour = await hovered(editor, SHAFT, 5, 2)
         assert "![the contour](data:image/svg+xml;base64," in contour
-        assert "| corner 2 | G03 | -50.2073 | 100.0000 |" in contour
+        assert "| rounding Q5. | G03 | -50.2073 | 100.0000 |" in contour
         assert await hovered(editor, SHAFT, 4, 6) == "**X40.** absolute X of the end point (diameter)"
         assert await hovered(editor, SHAFT, 2, 2) == ""
         (hint,) = await editor.ask(
@@ -319,7 +319,7 @@ def test_a_hover_does_not_wait_for_the_end_of_a_long_program(served):
         (hint,) = await editor.ask(editor.client.text_document_inlay_hint_async(near))
         assert hint.label == "ends at Z-50.2073 X100.0000"
         assert SHAFT not in editor.statuses
-        assert "fixes V1: Z-30.0000 X40.0000" in await hovered(editor, SHAFT, 3_002, 20)
+        assert "fixes V1, end of the first straight: Z-30.0000 X40.0000" in await hovered(editor, SHAFT, 3_002, 20)
         assert SHAFT not in editor.statuses
 
     served(use)
@@ -415,7 +415,7 @@ def test_hints_lenses_and_pictures_can_be_switched_off():
         assert not await editor.ask(client.text_document_code_lens_async(types.CodeLensParams(document)))
         await editor.findings(SHAFT)
         hover = await hovered(editor, SHAFT, 5, 2)
-        assert "| corner 2 | G03 | -50.2073 | 100.0000 |" in hover
+        assert "| rounding Q5. | G03 | -50.2073 | 100.0000 |" in hover
         assert "data:image" not in hover
 
     in_editor(use, {"inlayHints": False, "codeLenses": False, "pictures": False})

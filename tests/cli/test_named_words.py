@@ -88,9 +88,9 @@ CHAIN = "G00 X20. Z0.\nG01 Z-20. ,C5. {}\nX40. ,A170. ,R3. {}\nZ-40. {}\n"
 @pytest.mark.parametrize(
     ("place", "words", "told"),
     [
-        (0, "Z-20.", "info: Z-20. is met: the contour has Z-20.000 mm at V1 of program line 2"),
-        (0, "X20.012", "warning: X20.012 is 0.012 mm from the contour, which has X20.000 mm at V1 of program line 2"),
-        (1, "X40.", "info: X40. is met: the contour has X40.000 mm at V2 of program line 3"),
+        (0, "Z-20.", "info: Z-20. is met: the contour has Z-20.000 mm at the end of program line 2"),
+        (0, "X20.1", "warning: X20.1 is 0.100 mm from the contour, which has X20.000 mm at the end of program line 2"),
+        (1, "X40.", "info: X40. is met: the contour has X40.000 mm at the end of program line 3"),
         (2, "Z-4.", "warning: Z-4. is 36.000 mm from the contour, which has Z-40.000 mm at the end of program line 4"),
         (0, "U5.", "warning: U5. was not compared: it is an increment; name the coordinate of the end"),
         (0, ",A170.", "warning: ,A170. was not compared: it is no coordinate along Z and X"),

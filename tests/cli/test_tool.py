@@ -265,7 +265,7 @@ def test_what_is_not_followed_or_not_solved_is_told_once(tmp_path: Path):
 def test_a_tip_that_points_away_is_a_warning_for_every_radius(tmp_path):
     about = [*LATHE, "--tip", "3", "--side", "left", *TAPER]
     done = call("range", "--word", "tool", *about)
-    assert (done.exit_code, "warning: program line 1: tip 3 points away from this line" in done.output) == (0, True)
+    assert (done.exit_code, "warning: program line 1: tip 3 points away from this straight" in done.output) == (0, True)
     rounded = [word.replace("Z-10.", "Z-10. ,R2.") for word in about]
     swept = call("sweep", "--vary", "tool=0.2:0.8:0.2", *rounded, "-o", tmp_path / "a.csv")
     assert swept.stdout.count("cut by the tool") == 4

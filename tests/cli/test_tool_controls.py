@@ -147,7 +147,7 @@ def test_a_finding_in_another_file_names_the_call_and_the_file(tmp_path: Path):
     for words in (["check"], ["expand", "--inline"]):
         done = call(*words, "--control", "siemens-840d", "--tool", "R4", tmp_path / "a.mpf")
         assert done.exit_code == 1
-        assert "2.0000 mm too small for the cutter R4 (KONTUR.SPF, line 2)\n" in done.output
+        assert "2.0000 mm too small for the cutter R4 (program line 2 of KONTUR.SPF)\n" in done.output
         assert "a.mpf:5:1\n" in done.output
         assert "5 | KONTUR\n" in done.output
 

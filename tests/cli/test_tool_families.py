@@ -269,12 +269,12 @@ BORE = "X34. Z2. / G41 G01 Z0. / X30. Z-2. / Z-20. / X20. ,R1. / Z-32. / G40 X18
 
 def test_a_doubtful_tip_is_a_warning_wherever_it_is_told(tmp_path):
     """No radius makes a tip another one: it keeps no tool from the contour."""
-    about, warning = (*LATHE, *blocks_of(BORE)), "tip 3 points away from this line, with the tool left of it"
+    about, warning = (*LATHE, *blocks_of(BORE)), "tip 3 points away from this straight, with the tool left of it"
     check = call("check", "--tool", "R0.4", *about[:2], "--tip", "3", *about[4:])
     assert (check.exit_code, check.stdout.count(f"warning[tool-tip-against-side]: {warning}")) == (0, 2)
     assert call("expand", "--tool", "R0.4", *about).exit_code == 0
     ranges = call("range", "--word", "tool", *about).stdout
     # The step of 5 mm has a corner of 1 mm.
-    assert "to    4.0000 mm  program line 4: the line is 4.0000 mm long" in ranges
+    assert "to    4.0000 mm  program line 4: the straight is 4.0000 mm long" in ranges
     assert ranges.count(f"warning: program line {3}: {warning}") == 1
     assert len(data("range", "--word", "tool", *about)["warnings"]) == 2

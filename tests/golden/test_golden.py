@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterator
 from difflib import unified_diff
 from functools import cache
+from html import unescape
 from pathlib import Path
 
 import click
@@ -35,6 +36,37 @@ def test_the_records_have_every_command_and_option_and_every_rule_is_broken_on_t
     controls = Counter(each.partition(": ")[2] for each in recorded if ": " in each)
     missing = {each for each in wanted() if each not in recorded and controls[each.partition(": ")[2]] < 2}
     assert missing == UNRECORDED.keys()
+
+
+LINE = re.compile(r"(?<!program )\bline \d+\b|(?<!program )\blines \d+\b")
+POINT = re.compile(
+    r"^ *(?:(?:error|warning|info)\[.*|= .*)(?<![\w.=+-])([PV]\d+) (?:is|are|can|does|do) ", re.MULTILINE
+)
+QUOTED = re.compile(r"^ *(?:--fact )?\d* [|].*$", re.MULTILINE)
+
+
+def test_a_line_is_a_line_of_the_program_and_findings_name_points_by_where_they_lie() -> None:
+    wrong = set[tuple[str, str]]()
+    for path in paths():
+        case, parts = read(stored(path))
+        # The list of facts, and what is said about a fact, have the names that facts have.
+        reads = " ".join((*case.arguments, case.stdin, *case.files.values()))
+        for head, text in parts.items():
+            is_page = head.endswith((".svg", ".html"))
+            if "facts" in case.arguments or not (is_page or (head.startswith("std") and is_text(text))):
+                continue
+            shown = QUOTED.sub("", unescape(re.sub(r"<[^>]*>", "\n", text)) if is_page else text)
+            # A long remark of a picture goes on in another line.
+            shown = re.sub(r"program\s+line", "program line", shown)
+            told = {found[0] for found in LINE.finditer(shown)}
+            told |= {found[1] for found in POINT.finditer(shown)} if "contoursolve:" not in reads else set()
+            wrong |= {(path.relative_to(FOLDER).as_posix(), each) for each in told if each not in reads}
+    assert not wrong
+
+
+def is_text(text: str) -> bool:
+    """Whether a text is for readers, and no document of JSON."""
+    return not text.startswith(("{", "["))
 
 
 @cache

@@ -29,7 +29,8 @@ def test_the_other_word_of_a_centre_is_offered_with_which_the_circle_passes_thro
     words = [f"I{center[0]}", f"J{center[1]}"]
     text = f"G17 G90 G1 G42 X0 Y0 F100\nG3 X{end[0]} Y{end[1]} {words[1 - other]} RND=2\nG1 X60 Y50"
     (finding,) = (each for each in check(text, control="siemens-840d") if each.code == "siemens-radius-difference")
-    told = f"add {words[other]} to program line 2 -> V1 is at X{end[0]:.3f} mm Y{end[1]:.3f} mm"
+    corner = f"the corner between program lines 2 and 3 is at X{end[0]:.3f} mm Y{end[1]:.3f} mm"
+    told = f"add {words[other]} to program line 2 -> {corner}"
     assert [each.description for each in finding.fixes if each.description.startswith(told)]
 
 

@@ -345,7 +345,10 @@ run = partial(calling.run, "sweep")
 def test_where_no_row_has_a_contour_the_reason_of_most_is_named_with_a_row():
     """The largest P is 51.96 at A180, more at A170."""
     for vary, last in (
-        (("P=52:60:1", "A=180"), "P=52.0, A=180.0: corner 1 does not fit: P52.0 is 52.000 mm, at most 51.961 mm fits"),
+        (
+            ("P=52:60:1", "A=180"),
+            "P=52.0, A=180.0: the rounding P52.0 does not fit: P52.0 is 52.000 mm, at most 51.961 mm",
+        ),
         (("P=-5,-6", "Q=-4,3"), "P=-5.0, Q=-4.0: P-5.0 and Q-4.0 are negative"),
     ):
         status, output, _ = run(*ON_BLOCK, "--vary", vary[0], "--vary", vary[1])
@@ -497,7 +500,7 @@ def test_tolerances_add_up_at_worst_and_in_squares():
 @pytest.mark.parametrize(
     ("block", "message"),
     [
-        (BLOCK.replace("P5.", "P500."), "the block has no contour: corner 1 does not fit"),
+        (BLOCK.replace("P5.", "P500."), "the block has no contour: the rounding P500. does not fit"),
         (BLOCK.replace("K-30.", ""), "the first straight needs two of A, I and K"),
         ("G17 G41 G0 X50 Y0\nG3 I-50 J0\nG1 X-60 Y50 ,A180 Q-1", "no derivative exists"),
     ],

@@ -40,7 +40,7 @@ def test_a_contour_that_is_too_small_is_shown_enlarged():
     # Small corners of a long contour have a detail with their words.
     details = draw_answer(result.answers[0])
     check(details)
-    assert {"A: corner 1, corner 2", "20 times as large"} <= set(labels(details))
+    assert {"A: rounding P0.5, rounding Q…", "20 times as large"} <= set(labels(details))
     assert labels(details).count("P0.5") == labels(details).count("Q0.3") == 2
     block = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.")
     for large in (draw_result(contoursolve.solve_file(SHAFT)), draw_answer(block.answers[0])):

@@ -220,17 +220,18 @@ def test_around_a_drawing_stand_its_block_its_axes_its_legend_and_what_is_wrong(
 def test_a_description_tells_the_path_or_what_prevents_one():
     told = {name: draw_answer(answer_of(name)).description for name in ("bevels", "circle-line", "parallel")}
     assert told["bevels"] == (
-        "Z to the right, X up as a diameter, in mm. The path starts at Z0 X40. line 1: straight to Z-27.887 X40. "
-        "corner 1: straight to Z-32.887 X50. line 2: straight to Z-44.434 X90. "
-        "corner 2: straight to Z-49.434 X100. V1 is at Z-30 X40. V2 is at Z-47.321 X100."
+        "Z to the right, X up as a diameter, in mm. The path starts at Z0 X40. First straight to Z-27.887 X40. "
+        "Chamfer C5. to Z-32.887 X50. Second straight to Z-44.434 X90. Chamfer D5. to Z-49.434 X100. "
+        "V1, end of the first straight, is at Z-30 X40. V2, end of the second straight, is at Z-47.321 X100."
     )
     assert told["circle-line"] == (
-        "X to the right, Y up, in mm. The path starts at X50 Y0. arc: arc counter-clockwise to X40 Y30, radius 50. "
-        "line: straight to X-50 Y42.857. P1 is at X40 Y30."
+        "X to the right, Y up, in mm. The path starts at X50 Y0. "
+        "Arc (program line 2) counter-clockwise to X40 Y30, radius 50. Straight (program line 3) to X-50 Y42.857. "
+        "P1, end of program line 2, is at X40 Y30."
     )
     assert told["parallel"] == (
         "Z to the right, X up as a diameter, in mm. There is no contour: cannot be cut. "
-        "error: no V2 fits X100., A180. and B180.: the lines are parallel and 30.000 mm apart."
+        "error: no end of the second straight fits X100., A180. and B180.: the lines are parallel and 30.000 mm apart."
     )
 
 
@@ -379,7 +380,7 @@ def test_contours_that_begin_at_one_place_share_a_label_beside_the_path():
     (path,) = (each for each in PROGRAMS if each.stem == "unusual")
     words = labels(draw_result(contoursolve.solve_file(path)))
     assert "unusual.nc: 4 contours (4 solved)" in words
-    assert [word for word in words if "line" in word] == ["1, 2, 3, 4  lines 5, 8, 11, 14"]
+    assert [word for word in words if "line" in word] == ["1, 2, 3, 4  program lines 5, 8, 11, 14"]
 
 
 # Sketches ---------------------------------------------------------------------------------------------------------

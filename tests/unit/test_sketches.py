@@ -242,4 +242,4 @@ def test_fixes_tell_no_place_that_they_leave_where_it_is():
     titles = [fix.title for each in found.findings for fix in each.fixes]
     assert "delete AN170" in titles
     assert any(" -> " in each for each in titles)
-    assert not any("-> P1 is at Z0.000 mm X40.000 mm" in each for each in titles)
+    assert not any("-> the corner between line 1 and line 2 is at Z0.000 mm X40.000 mm" in each for each in titles)

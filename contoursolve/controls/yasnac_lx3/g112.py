@@ -49,7 +49,7 @@ from contoursolve.reading import (
 )
 
 CENTER, LANDING, RADIUS, WAY = "C", "landing line", "r", "way"
-"""LANDING is the foot of the centre on the line on which corner 2 lands, WAY the direction of both lines."""
+"""LANDING is the foot of the centre on the line on which the second corner lands, WAY the direction of both lines."""
 
 BACKS_UP, UNDECIDED = "@backs-up", "@undecided"
 """Circumstances: an arc that would have to turn round, and one that could run on either side of its centre."""
@@ -106,8 +106,8 @@ def g112(along: int, turn: Turn, bevel: CornerShape) -> ContourForm:
         ),
         assumptions=ASSUMPTIONS,
         meanings={
-            absolute: f"absolute {other} of the line along {axis} on which corner 2 lands",
-            increment: f"{other} increment from the start point to the line along {axis} on which corner 2 lands",
+            absolute: f"absolute {other} of the line along {axis} on which the second corner lands",
+            increment: f"{other} increment from the start to the line along {axis} on which the second corner lands",
             "I": "X distance from start to the centre of the arc (radius value)",
             "K": "Z distance from start to the centre of the arc",
         },
@@ -198,18 +198,18 @@ _COMBINATION_RULES = (
         "add {absent:X|U|Z|W I K R}; a zero must be written, too (U0, I0)", _FORMAT, at_most(3, _END, "I", "K", "R"),
         ((_GOOD, _FACE), _START + "G112 U0 I10. K-50.", _START + "G112 I10. K-50. R30.", _START + "G112 U0 K-50. R30."),
         (_ROLE,), alarm=_COMBINATION),
-    row("g112-x-and-u", "{words}: X and U both give the line on which corner 2 lands", "keep one of them", _FORMAT,
+    row("g112-x-and-u", "{words}: X and U both give the line on which the second corner lands", "keep one of them", _FORMAT,
         all_of("X", "U"), (_GOOD, _GOOD + " X100."), (_ROLE,), alarm=_COMBINATION),
-    row("g112-z-and-w", "{words}: Z and W both give the line on which corner 2 lands", "keep one of them", _FORMAT,
+    row("g112-z-and-w", "{words}: Z and W both give the line on which the second corner lands", "keep one of them", _FORMAT,
         all_of("Z", "W"), (_FACE, _FACE + " Z-50."), (_ROLE,), alarm=_COMBINATION),
     row("g112-x-and-z",
-        "{words:X U Z W}: corner 2 lands on a line along Z by X(U), or on one along X by Z(W), not on both",
-        "keep X(U) if line 1 runs along Z, Z(W) if it runs along X", _FORMAT, all_of(("X", "U"), ("Z", "W")),
+        "{words:X U Z W}: the second corner lands on a line along Z by X(U), or along X by Z(W), not on both",
+        "keep X(U) if the straight runs along Z, Z(W) if it runs along X", _FORMAT, all_of(("X", "U"), ("Z", "W")),
         ((_GOOD, _FACE), _GOOD + " Z-150."), (_ROLE,), alarm=_COMBINATION),
-    row("g112-c-and-p", "{words}: corner 1 is either a bevel C or a rounding P", "keep one of them", _FORMAT,
+    row("g112-c-and-p", "{words}: the first corner is either a bevel C or a rounding P", "keep one of them", _FORMAT,
         all_of("C", "P"), ((_GOOD + " C5. Q5.", _GOOD + " P5. D5."), _GOOD + " C5. P5."), (_ROLE,),
         alarm=_PRINTED_COMBINATION),
-    row("g112-d-and-q", "{words}: corner 2 is either a bevel D or a rounding Q", "keep one of them", _FORMAT,
+    row("g112-d-and-q", "{words}: the second corner is either a bevel D or a rounding Q", "keep one of them", _FORMAT,
         all_of("D", "Q"), ((_GOOD + " D5.", _GOOD + " Q5."), _GOOD + " D5. Q5."), (_ROLE,), alarm=_PRINTED_COMBINATION),
     row("g112-corner-sign", "{words} {are} negative; C, P, D and Q are written without sign",
         "delete the minus sign: the arc tells on which side the corner lies",
@@ -232,24 +232,24 @@ _COMBINATION_RULES = (
 
 _WAY_RULES = (
     row("g112-no-way",
-        "{words}: line 1 runs along Z towards the centre, and the centre is not before or behind the start",
-        "write the Z distance to the centre, or use Z(W) if line 1 runs along X", _WAY,
+        "{words}: the straight runs along Z towards the centre, which is not before or behind the start",
+        "write the Z distance to the centre, or use Z(W) if the straight runs along X", _WAY,
         Value(("K",), excluding=Decimal(0)), (_GOOD, _START + "G112 U0 I10. K0 R30."), (TURNING,), alarm=_GEOMETRY,
         is_about_geometry=True),
     row("g112-no-way-facing",
-        "{words}: line 1 runs along X towards the centre, and the centre is neither above nor below the start",
-        "write the X distance to the centre, or use X(U) if line 1 runs along Z", _WAY,
+        "{words}: the straight runs along X towards the centre, which is neither above nor below the start",
+        "write the X distance to the centre, or use X(U) if the straight runs along Z", _WAY,
         Value(("I",), excluding=Decimal(0)), (_FACE, _START + "G112 W0 I0 K5. R15."), (FACING,), alarm=_GEOMETRY,
         is_about_geometry=True),
     row("g112-backs-up",
-        "{words}: line 1 and the line of corner 2 lie on opposite sides of the centre; the arc would turn back",
+        "{words}: the straight and the line of the second corner lie on opposite sides of the centre; the arc would turn back",
         "put both lines on one side of the centre, or change the sign of I or K", _WAY,
         some(BACKS_UP) & at_least(1, "I", "K", *_END),
         (_GOOD, _START + "G112 U30. I10. K-50. R30.", _START + "G112 W8. I30. K5. R15."), (_ROLE,), alarm=_GEOMETRY,
         is_about_geometry=True),
     row("g112-side-open",
-        "{words}: line 1 and the line of corner 2 lead through the centre; no word says on which side the arc runs",
-        "move the centre or the line on which corner 2 lands", _WAY, some(UNDECIDED) & at_least(1, "I", "K", *_END),
+        "{words}: the straight and the line of the second corner lead through the centre; no word says on which side the arc runs",
+        "move the centre or the line on which the second corner lands", _WAY, some(UNDECIDED) & at_least(1, "I", "K", *_END),
         (_ARC_FIRST, _START + "G112 U0 I0 K-50. R30."), (_ROLE,), alarm=_GEOMETRY, is_about_geometry=True),
 )  # fmt: skip
 
@@ -269,11 +269,11 @@ _GEOMETRY_RULES = (
         help="start farther from the arc, or change the centre or the radius", source=_IMPOSSIBLE,
         examples=(_GOOD, _START + "G112 U0 I10. K-20. R30."), roles=(_ROLE,), alarm=_PRINTED_GEOMETRY),
     row("g112-arc-empty", like=GENERAL, message="{subject} ends where it begins: both lines touch it in the same point",
-        help="move the centre or the line on which corner 2 lands", source=_FITS,
+        help="move the centre or the line on which the second corner lands", source=_FITS,
         examples=(_GOOD, _START + "G112 U0 I30. K-50. R30."), roles=(_ROLE,), alarm=_GEOMETRY),
     row("g112-corner-too-large", like=GENERAL,
-        message="{subject} does not fit: {words} is {actual}, {fits} on line 1 and on the arc",
-        help="{smaller}, or make line 1 and the arc longer", source=_FITS,
+        message="{subject} does not fit: {words} is {actual}, {fits} on the straight and on the arc",
+        help="{smaller}, or make the straight and the arc longer", source=_FITS,
         examples=((_GOOD + " P5. Q5.", _GOOD + " C5. D5."), _GOOD + " P60.", _GOOD + " D40."), roles=(_ROLE,),
         alarm=_GEOMETRY),
     row("g112-no-corner", like=GENERAL, message="{words}: at {subject} the line touches the arc, so it is no corner",
