@@ -423,7 +423,7 @@ def may_be_suspected(answer: Answer, beside: Iterable[Block], around: Callable[[
 
 
 def is_compensated_inward(answer: Answer) -> bool | None:
-    """Whether the compensation of a turned contour leads the tool towards the axis on a way to the chuck; None where
+    """True if the compensation of a turned contour leads the tool towards the axis on a way to the chuck; None where
     none is in force."""
     state = answer.claim.before
     if state.compensation not in (_LEFT, _RIGHT) or not any(state.plane.diameters):

@@ -33,7 +33,7 @@ def in_material(answer: Answer, window: Window) -> tuple[Word, str, str] | None:
 
 
 def _is_bore(moves: Sequence[Stretch], turned: int) -> bool | None:
-    """Whether a path towards the chuck is the wall of a bore; None unless it only widens or only narrows."""
+    """True of a path towards the chuck that is the wall of a bore; None unless it only widens or only narrows."""
     across, along = ([], []) if moves else ([0.0], [0.0])
     for each in moves:
         if abs(each.sweep) >= 180 or min(each.start[turned], each.end[turned]) < -AGREEMENT:  # noqa: PLR2004 - degrees

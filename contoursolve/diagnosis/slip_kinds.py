@@ -376,8 +376,8 @@ class SlipKind(Struct, frozen=True):
     """A kind of slip: its name, what happened in words, an example, how unlikely it is, and what a word may have been
     meant to be.
 
-    `example` is what is typed for what is meant, behind the name of a control other than fanuc-lathe, with | between
-    blocks; empty for a kind that other drafts are explained by.
+    `example` is what is typed for what is meant on some control, with | between blocks; empty for a kind that other
+    drafts are explained by.
     `cost` is the negative natural logarithm of its share among slips, about, and `why` where that is known from.
     """
 
@@ -401,7 +401,7 @@ SIGN_LOST = SlipKind("sign-lost", "a lost minus sign", "Z60. for Z-60.", 1.6, SE
 NEIGHBOUR = SlipKind(
     "neighbour",
     "the word of another corner",
-    "yasnac-lx3: G111 A180. K-28. B150. X64. P6. for G111 A180. K-28. B150. X64. Q6.",
+    "G111 A180. K-28. B150. X64. P6. for G111 A180. K-28. B150. X64. Q6.",
     1.7,
     MEANING,
     _A,
@@ -413,7 +413,7 @@ SUPPLEMENT = SlipKind(
     _angles(lambda angle: [(_HALF if angle > 0 else -_HALF) - angle] if abs(angle) < _HALF else ()),
 )
 POINT_LOST_IN_FEW = SlipKind(
-    "point-lost-few", "a lost decimal point", "siemens-840d: X125 for X12.5", 2.2, TYPING, _D, _point_lost_in_few
+    "point-lost-few", "a lost decimal point", "X125 for X12.5", 2.2, TYPING, _D, _point_lost_in_few
 )
 POINT_MOVED = SlipKind("point-moved", "the decimal point moved", "Z-2.5 for Z-25.", 2.0, SEEN, _D, _point_moved)
 ZERO_ADDED = SlipKind("zero-added", "a zero too many", "Z-600. for Z-60.", 2.0, SEEN, _D, _zero_added)
@@ -438,7 +438,7 @@ FEW = (
     SIGN_LOST,
     NEIGHBOUR,
     SIGN_ADDED,
-    SlipKind("choice", "the other sign", "nct-99m: Q-1 for Q1", 1.8, MEANING, _S, _sign_of_choice),
+    SlipKind("choice", "the other sign", "Q-1 for Q1", 1.8, MEANING, _S, _sign_of_choice),
     SUPPLEMENT,
     POINT_LOST_IN_FEW,
     POINT_MOVED,
@@ -447,7 +447,7 @@ FEW = (
     SlipKind(
         "other-address",
         "another word",
-        "siemens-840d: G1 ANGG=170 RND=6|X64 Z-60 ANG=110 for G1 ANG=170 RND=6|X64 Z-60 ANG=110",
+        "G1 ANGG=170 RND=6|X64 Z-60 ANG=110 for G1 ANG=170 RND=6|X64 Z-60 ANG=110",
         0.9,
         MEANING,
         _A,
@@ -456,14 +456,14 @@ FEW = (
     SlipKind(
         "other-letter",
         "another letter",
-        "yasnac-lx3: G111 A180. K-28. E150. X64. for G111 A180. K-28. B150. X64.",
+        "G111 A180. K-28. E150. X64. for G111 A180. K-28. B150. X64.",
         2.1,
         TYPING,
         _A,
         _other_letter,
     ),
     LETTER_ALIKE,
-    SlipKind("increment", "a word of another control", "siemens-840d: U10 for X=IC(10)", 1.0, MEANING, _A, _increment),
+    SlipKind("increment", "a word of another control", "U10 for X=IC(10)", 1.0, MEANING, _A, _increment),
     SlipKind("twice", "a digit typed twice", "Z-660. for Z-60.", 2.2, TYPING, _D, _typed_twice),
     SlipKind("swapped", "two digits swapped", "Z-26. for Z-62.", 2.4, TYPING, _D, _swapped),
     OPPOSITE,
