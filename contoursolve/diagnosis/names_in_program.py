@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import number_text
 from contoursolve.diagnostics import Diagnostic
-from contoursolve.gcode import FACT, Block
+from contoursolve.gcode import FACT, Block, late_pattern
 from contoursolve.geometry import FIRST, SECOND, Arc, CornerShape, Line, Profile, Unit
 from contoursolve.reading import ParsedContour
 
@@ -124,7 +124,7 @@ _OF_A_FIX = r"(?:(?<=-> )|(?<=without )|(?<=mm, ))[VPN]\d+(?=$|,| is at| at)"
 """Points of another contour."""
 
 _AT = {".begin": "the begin of ", ".end": "the end of ", ".center": "the centre of "}
-_NUMBERED = re.compile(r"(line|arc|corner) (\d+)")
+_NUMBERED = late_pattern(r"(line|arc|corner) (\d+)")
 
 
 def _unknown(name: str, profile: Profile) -> str:

@@ -133,7 +133,7 @@ def test_rows_of_several_kinds_are_what_a_single_solve_says(block, word, values,
     ("block", "word", "message"),
     [
         ("G1 X30 RNDM=5\nX40 Y40", "RNDM", r"with RNDM 0: nothing to solve"),
-        (CUT, "2:Y", r"with Y of block 2 0: one word is missing"),
+        (CUT, "2:Y", r"with Y of program line 2 0: one word is missing"),
     ],
 )
 def test_what_refuses_a_block_by_a_value_of_its_rows_alone_names_the_value(block, word, message):
@@ -198,7 +198,7 @@ def test_what_contours_rest_on_is_told_of_all_of_them():
 
 def test_rows_that_are_read_one_by_one_are_told():
     found = family(TURNED, vary={"2:Y": [24, 30]}, **SINUMERIK)
-    assert found.remark == "each value of Y of block 2 decides how its row is read"
+    assert found.remark == "each value of Y of program line 2 decides how its row is read"
 
 
 def test_a_range_over_all_that_is_searched_is_what_single_solves_say():

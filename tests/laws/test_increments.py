@@ -183,7 +183,7 @@ def test_a_contour_farther_away_than_words_reach_is_none():
     assert answer.status.value == "no-solution"
     (finding,) = answer.diagnostics
     assert finding.code == "out-of-range"
-    assert finding.message.startswith("V2 lies 286478897575.412 mm from the start point")
+    assert finding.message.startswith("the end of the second straight lies 286478897575.412 mm from the start point")
     assert finding.values == {"limit": 1e6, "actual": pytest.approx(286478897575.4)}
     assert answer.contour is None
     angles = [179.9999999999, 179.999, 179.99, 120.0]
