@@ -38,6 +38,8 @@ _ALIKE = ("ABCE", "IJK", "XU", "ZW", "YV", "XYZ", "UVW", "PQ", "OQ", "PR", "QR",
 """Letters that mean something alike: angles, centres, an axis and its increment, axes, sizes."""
 _AXES, _STEPS, _NO_PATH = "XYZUVW", "UVW", "MSTFHD"
 """Letters of axes, of their increments, and of what has nothing to do with a path: their numbers have no point."""
+_RADIUS = ("R", "CR")
+"""The word for the radius of an arc on one control or another."""
 _ACROSS, _RADII = ("I", "U"), ("R", "CR", "I", "J", "K")
 """Words of lengths across a turned part that are radii, and radii and centres; drawings have diameters."""
 _POINTS = (("CCX", "CCY"), ("ICCX", "ICCY"), ("CCPR", "CCPA"), ("PR", "PA"), ("IPR", "IPA"))
@@ -350,10 +352,12 @@ def _beside(letter: str) -> Iterator[str]:
             yield from below[max(at - 1, 0) : at + 1].upper()
 
 
-def _increment(typed: Typed) -> Texts:
-    """An increment as a control spells it that has no letter for it."""
-    axis = dict(zip("UVW", "XYZ", strict=True)).get(typed.address.upper(), "")
-    return typed.as_address(f"{axis}=IC") if f"{axis}=IC" in typed.speech.lexicon.addresses else ()
+def _of_another_control(typed: Typed) -> Texts:
+    """An increment, or the radius of an arc, as this control spells it."""
+    known, address = typed.speech.lexicon.addresses, typed.address.upper()
+    others = [f"{dict(zip('UVW', 'XYZ', strict=True)).get(address, '')}=IC"]
+    others += [each for each in _RADIUS if address in _RADIUS and typed.row is None]
+    return typed.as_address(*(each for each in others if each in known))
 
 
 class Changes(IntEnum):
@@ -463,7 +467,7 @@ FEW = (
         _other_letter,
     ),
     LETTER_ALIKE,
-    SlipKind("increment", "a word of another control", "U10 for X=IC(10)", 1.0, MEANING, _A, _increment),
+    SlipKind("increment", "a word of another control", "U10 for X=IC(10)", 1.0, MEANING, _A, _of_another_control),
     SlipKind("twice", "a digit typed twice", "Z-660. for Z-60.", 2.2, TYPING, _D, _typed_twice),
     SlipKind("swapped", "two digits swapped", "Z-26. for Z-62.", 2.4, TYPING, _D, _swapped),
     OPPOSITE,

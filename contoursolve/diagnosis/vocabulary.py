@@ -243,14 +243,14 @@ _OF_A_MOVE = (
     Effect.CONTOUR,
 )
 """The effects of the codes of a block whose axis words are where it ends."""
-_LINES, _ARCS = (0, 1), (2, 3)
+_LINES, _ARCS, _RADII = (0, 1), (2, 3), ("R", "CR")
 _PLAIN = (0, 1, 2, 3, 17, 18, 19, 20, 21, 40, 41, 42, 70, 71, 90, 91)
 """Codes that have no argument."""
 
 
 def moves(block: Block, here: State, modes: Modes, signs: Sequence[Word]) -> bool:
-    """Whether a block moves an axis of the plane, or has a word of a contour; `here` is the state with its codes in
-    force, `signs` are such words."""
+    """Whether a block moves an axis of the plane, is an arc, or has a word of a contour; `here` is the state with its
+    codes in force, `signs` are such words."""
     if block.macro is not None or any(modes.is_call(word) for word in block.words):
         return False
     codes = codes_of(block, modes)
@@ -260,7 +260,9 @@ def moves(block: Block, here: State, modes: Modes, signs: Sequence[Word]) -> boo
     if cycle is not None and cycle.effect is not Effect.MOTION:
         return False
     rows = (modes.lexicon.addresses.get(word.address) for word in block.words)
-    return bool(signs) or any(row and row.axis in here.plane.axes for row in rows)
+    # An arc that is stated draws one, wherever it ends.
+    is_arc = any(not isinstance(code, Word) and code.number in _ARCS and code.effect is Effect.MOTION for code in codes)
+    return bool(signs) or is_arc or any(row and row.axis in here.plane.axes for row in rows)
 
 
 def has_corners(block: Block, here: State, modes: Modes) -> bool:
@@ -396,7 +398,7 @@ def explain_vocabulary(
                 yield report(context, ReadIssue.WORD_IDLE, Basis.RULE, [word])
             continue
         if f",{word.address}" not in lexicon.addresses and bearing not in (Bearing.UNREAD, Bearing.END):
-            is_radius = here.motion in _ARCS and word.address == "R"
+            is_radius = here.motion in _ARCS and word.address in _RADII
             yield _unknown_word(context, word, lexicon, others, (modes.radius,) if is_radius else ())
 
 

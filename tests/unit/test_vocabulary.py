@@ -147,3 +147,17 @@ def test_a_formal_parameter_or_a_program_of_one_letter_is_one():
     text = MILL + "A(3)\nM30\nPROC A(REAL C)\nDEF REAL DD=2\nG1 X60 F200 RND=C\nY40 CHR=DD\nX20\nM17"
     result = contoursolve.solve(text, control=SINUMERIK)
     assert (result.diagnostics, [each.status for each in result.answers]) == ((), [Status.SOLVED])
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "fix"),
+    [
+        (MITSUBISHI, "G17 G90 G00 X0. Y0.\nG02 CR=25. F300\nG01 X70. Y20. A-20.\nX90.", "write R25. for CR=25."),
+        (MITSUBISHI, "G17 G90 G00 X0. Y0.\nG02 X10. Y10. CR=25. F300", "write R25. for CR=25."),
+        (SINUMERIK, "G17 G90 G0 X0 Y0\nG2 X10 Y10 R25 F300\nG1 X70 RND=3\nY90", "write CR=25 for R25"),
+    ],
+)
+def test_the_radius_of_another_control_is_told_in_each_arc(control, text, fix):
+    (found,) = [each for each in findings(control, text) if each.span.line == 2]
+    assert found.severity.value == "error"
+    assert found.fixes[0].description.startswith(fix)
