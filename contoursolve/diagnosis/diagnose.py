@@ -22,6 +22,7 @@ from contoursolve.diagnosis.explain import (
 from contoursolve.diagnosis.fix_text import fixes_of, with_fixes
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
+from contoursolve.diagnosis.vocabulary import names_like
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnosis.wording import SHOWN, count, join, length_text
 from contoursolve.diagnostics import (
@@ -36,7 +37,7 @@ from contoursolve.diagnostics import (
     Tie,
     Verdict,
 )
-from contoursolve.gcode import FACT, Block, FaultKind
+from contoursolve.gcode import FACT, Block, FaultKind, Word
 from contoursolve.geometry import Profile, System, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, read
 from contoursolve.solving import (
@@ -158,7 +159,8 @@ class _Diagnosed(Struct, frozen=True):
         freedoms = affine.freedoms() if affine and is_readable else ()
         # What a contour needs and nobody reads here is no slip.
         repairs = Repairs((), is_complete=False)
-        if not answer.claim.unread and all(each.about is not ReadIssue.NOT_READ for each in answer.diagnostics):
+        is_slip = all(_is_like_own(word, dialect) for word in answer.claim.unread)
+        if is_slip and all(each.about is not ReadIssue.NOT_READ for each in answer.diagnostics):
             repairs = find_repairs(answer, dialect, window)
         diagnosis = Diagnosis(
             layers=list_layers(answer, policy),
@@ -193,6 +195,11 @@ class _Diagnosed(Struct, frozen=True):
         alone = (each.cost_of_edits for each in repairs.repairs if not each.is_double)
         cost = min(alone, default=float("inf"))
         return cls(replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis), fixing, cost)
+
+
+def _is_like_own(word: Word, dialect: Dialect) -> bool:
+    """Whether a word that nobody reads here is almost the name of one that the control has."""
+    return any(names_like(word.text.strip(), dialect.modes.lexicon, dialect.modes.syntax.codes))
 
 
 def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:

@@ -124,8 +124,8 @@ def zigzag(length: int, **changed: str) -> str:
 @pytest.mark.parametrize(
     ("text", "fix", "place"),
     [
-        (OUTLINE, "write ,R3 for ,R30 (a zero too many)", 1),
-        (zigzag(30, line_15="G1 X300 Y10 ,R100"), "write ,R42.721 for ,R100", 3),
+        (OUTLINE, "write ,R3 for ,R30 (a zero too many)", 0),
+        (zigzag(30, line_15="G1 X300 Y10 ,R100"), "write ,R42.721 for ,R100", 1),
         (zigzag(30, line_15="G1 X300 Y10 ,R-2"), "write ,R2 for ,R-2", 0),
         (zigzag(30, line_15="G1 X-300 Y10 ,R2"), "write X300 for X-300 (a minus sign too many)", 0),
         (zigzag(30, line_15="G1 X300 Y10 R2"), "write ,R2 for R2", 0),

@@ -174,6 +174,10 @@ FIRST = {
     "fl-full-08": "write X46. for X-46. (a minus sign too many)",
     "hl-axle-09": "write Z-52. for X-52.",
     "fm-bracket-01": "write G91 for G90",
+    "nc-plate-05": "write ,R6 for .R6",
+    "ya-bush-06": "write Q2. for O2.",
+    "fl-bore-05": "write Z-20. for Z-20",
+    "fm-plate-01": "write G03 for G02",
 }
 """The first fix of a slip, and the feature of `diagnosis/plausibility.py` that decides that it is the first."""
 
