@@ -283,7 +283,7 @@ def test_in_jupyterlab_a_map_is_solved_where_the_pointer_is_and_opens_the_explor
         assert second == pytest.approx(1 + 59 * 0.307, abs=0.16)
         check_told(page)
         point_at(page, 0.9, 0.95)
-        page.locator(f"{MAP} .told", has_text="corner 1 does not fit").wait_for()
+        page.locator(f"{MAP} .told", has_text="does not fit").wait_for()
         assert page.locator(EXPLORER).count() == 0
         point_at(page, 0.3, 0.2)
         page.mouse.down()

@@ -139,7 +139,7 @@ def test_a_drag_stops_where_the_contour_ends_and_says_why(desk, artefacts):
     desk.page.locator(".row[data-word='P'] .range", has_text="0 ≤ P ≤ 51.961").wait_for()
     desk.drag("P", (300, -520))
     assert "P51.961 " in desk.text
-    assert desk.page.locator(".hint").inner_text().startswith("P: stops: P is too large for line 1")
+    assert desk.page.locator(".hint").inner_text().startswith("P: stops: P is too large for the first straight")
     assert desk.page.locator(".tracks text").all_inner_texts() != []
     desk.page.screenshot(path=artefacts / "touch-stopped.png")
     desk.page.keyboard.press("Escape")

@@ -275,7 +275,7 @@ def test_an_edit_of_a_long_program_says_only_what_it_changed(monkeypatch):
 
 
 def test_no_more_than_500_findings_are_shown():
-    for lines, shown, more in ((167, 499, 0), (168, 500, 2)):
+    for lines, shown, more in ((250, 499, 0), (251, 500, 1)):
         page = opened("G00 X0 Y0\n" + "G01 X1. Q=2\n" * lines, "fanuc-mill")
         assert (len(page.view["findings"]), page.view["more_findings"]) == (shown, more)
 

@@ -2,13 +2,13 @@
 
 from math import asin, atan2, cos, degrees, hypot, radians, tan
 
-# By hand: at A180. line 1 is 30 mm long, and a rounding takes P * tan(30 deg) of it.
+# By hand: at A180. the first straight is 30 mm long, and a rounding takes P * tan(30 deg) of it.
 rounding = contoursolve.feasible(BLOCK, "P", start=START)
 assert abs(rounding.intervals[0].high.value - 30 / tan(radians(30))) < 1e-9
 assert rounding.is_complete
 
-# By hand, for other A: line 1 is 30 / cos(180 - A) long, and the corner turns by A - 120.
-limit = next(each for each in region.boundaries if "line 1" in each.reason.text)
+# By hand, for other A: the first straight is 30 / cos(180 - A) long, and the corner turns by A - 120.
+limit = next(each for each in region.boundaries if "first straight" in each.reason.text)
 for A, P in limit.points:
     assert abs(P - 30 / cos(radians(180 - A)) / tan(radians(A - 120) / 2)) < 3 * max(region.cell)
 
