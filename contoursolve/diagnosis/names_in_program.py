@@ -53,7 +53,7 @@ def named_in_program(findings: Iterable[Diagnostic], claim: ParsedContour, profi
             is_new = own not in told
             told.add(own)
             at = _AT.get(found["at"] or "", "")
-            name = name.removeprefix("the ") if before.endswith("no ") else name
+            name = name.removeprefix("the ") if before.endswith(("no ", "the ")) else name
             return f"{at}{name} ({place})" if place and is_new else f"{at}{name}"
 
         def rename(text: str) -> str:

@@ -358,7 +358,7 @@ def test_the_block_behind_multiple_cornering_is_looked_at(row):
     for each in result.diagnostics:
         if each.code in ("g111-rapid-behind", "g111-forgotten", "g111-landing-left"):
             assert (each.severity.value, each.span.line) == ("warning", len(lines))
-            assert re.search("(rounding Q|chamfer D)5", each.message) or lines[1][:4] in each.message
+            assert re.search("(rounding Q|chamfer D)5|second corner", each.message) or lines[1][:4] in each.message
     # With G01 in force behind them, there is no rapid.
     other = contoursolve.solve(text, control="yasnac-lx3", settings={"yasnac-lx3.motion-after": "g01"})
     assert "g111-rapid-behind" not in codes(other)
