@@ -102,14 +102,14 @@ def test_every_value_of_a_region_has_the_outcome_of_its_single_solve_and_rules_b
     # Only what is narrower than the first samples stand apart may differ.
     assert (~same).mean() < 1e-3
     assert [each.reason.text for each in found.boundaries] == [
-        "P is too large for line 1",
-        "P is too large for line 2",
+        "P is too large for the first straight",
+        "P is too large for the second straight",
         "the control refuses such values of P; `contoursolve explain g111-corner-sign` says why",
-        "A points away from the end of line 1",
+        "A points away from the end of the first straight",
     ]
 
 
-NOT_CLOSED = "no range with a contour (proven)\n  as it stands, the block has none: corner 1 does not fit: P60. is"
+NOT_CLOSED = "no range with a contour (proven)\n  as it stands, the block has none: the rounding P60. does not fit: P60. is"
 FACT = ["--fact", "straight part of line 2 = 20", "--word", "straight part of line 2"]
 
 
