@@ -109,7 +109,7 @@ def test_every_value_of_a_region_has_the_outcome_of_its_single_solve_and_rules_b
     ]
 
 
-NOT_CLOSED = "no range with a contour (proven)\n  as it stands, the block has none: the rounding P60. does not fit: P60."
+NOT_CLOSED = "no range with a contour (proven)\n  as it stands, the block has none: the rounding P60. does not fit: P60"
 FACT = ["--fact", "straight part of line 2 = 20", "--word", "straight part of line 2"]
 
 
