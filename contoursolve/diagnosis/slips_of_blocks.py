@@ -37,8 +37,6 @@ _RESPELLED = (
     (re.compile(r"(?<![\d.])(\d+),(?=\s|$)"), r"\1."),
     (re.compile(r"(?<=\d)\.\.(?=[A-Z])"), ". ,"),
     (re.compile(r"(?<=\s)\.(?=[A-Z])"), ","),
-    (re.compile(r"\b([AI]C)[ \t]*(-?\d+\.?\d*)"), r"\1(\2)"),
-    (re.compile(r"\b([XYZIJK])O(?=\s|$)"), r"\g<1>0"),
     (re.compile(r"(?<=\d)\.\.(?![A-Z])"), "."),
     (re.compile(r"(#?[A-Z]{2,})[ \t]*(-?\d+\.?\d*)"), r"\1=\2"),
     (re.compile(r"(?<![#A-Z])([A-Z]{2,}=)"), r"#\1"),
