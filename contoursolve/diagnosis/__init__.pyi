@@ -18,6 +18,8 @@ from .edits import (
     change as change,
     drop as drop,
     edited as edited,
+    typed_text as typed_text,
+    with_value as with_value,
     write_word as write_word,
 )
 from .equation_records import (

@@ -173,7 +173,7 @@ class Trial(Struct, frozen=True, dict=True):
         is_refused = answer.contour is None and answer.start.is_known and not answer.profile.is_extended
         if not is_refused or torn_codes(answer.claim) or count_choices(answer.profile) > MOST_CHOICES:
             return answer.contour
-        return examine(answer.claim, self.dialect.rules, Policy.OFF).contour
+        return examine(answer.claim, self.dialect, Policy.OFF).contour
 
     @cached_property
     def next_place(self) -> tuple[Decimal, Decimal] | None:
@@ -281,7 +281,7 @@ class Trial(Struct, frozen=True, dict=True):
         words = {name: word for name, word in claim.words.items() if word.span not in spans}
         givens = {name: each for name, each in claim.givens.items() if name in words or name not in claim.words}
         changed = dataclasses.replace(claim, words=words, givens=givens)
-        answer = examine(changed, self.dialect.rules, Policy.ENFORCE)
+        answer = examine(changed, self.dialect, Policy.ENFORCE)
         return answer.contour if answer.status is Status.SOLVED and not problems(answer) else None
 
     def _is_whole(self, seen: Seen) -> bool:
@@ -371,7 +371,7 @@ class Trial(Struct, frozen=True, dict=True):
         found = self.find(edits)
         if found is None or self._largest_step(found) > LARGEST_STEP:
             return None
-        return examine(found, self.dialect.rules, Policy.ENFORCE, lambda: self.next_place, Depth.TRIAL)
+        return examine(found, self.dialect, Policy.ENFORCE, lambda: self.next_place, Depth.TRIAL)
 
     def extra(self, edits: tuple[Edit, ...]) -> int:
         """The number of further drafts that trying these edits counts for."""

@@ -8,13 +8,13 @@ from contoursolve.diagnosis.wording import angle_text, length_text, place_text
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, LineChange
 from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND
-from contoursolve.reading import Behind, Rule
+from contoursolve.reading import Behind, Dialect
 
 
-def report_behind(found: Behind, rules: tuple[Rule, ...], blocks: tuple[Block, ...]) -> Diagnostic:
+def report_behind(found: Behind, dialect: Dialect, blocks: tuple[Block, ...]) -> Diagnostic:
     """One finding about what follows these blocks of a contour, with the block that is meant where that has a path."""
     unit = found.state.unit
-    context = Context(rules, unit, place=found.block.span)
+    context = Context(dialect.rules, unit, place=found.block.span)
     numbers = {
         **{name: length_text(value, unit) for name, value in found.lengths.items()},
         **{name: angle_text(value) for name, value in found.angles.items()},
@@ -26,7 +26,7 @@ def report_behind(found: Behind, rules: tuple[Rule, ...], blocks: tuple[Block, .
         return finding
     advice = found.advice
     if found.contour is not None:
-        answer = examine(found.contour, rules, Policy.ENFORCE)
+        answer = examine(found.contour, dialect, Policy.ENFORCE)
         if answer.contour is None or any(each.is_error for each in answer.diagnostics):
             return finding
         end = {"end.0": answer.contour.end[FIRST], "end.1": answer.contour.end[SECOND]}

@@ -85,7 +85,7 @@ def diagnose(
         return known.answer
     # With its comma, a corner joins the blocks behind.
     text = MendedText((*answer.claim.blocks, *following[:more]), edits, count)
-    mended = examine(joined, dialect.rules, policy, depth=Depth.FINDINGS)
+    mended = examine(joined, dialect, policy, depth=Depth.FINDINGS)
     if not problems(mended) or any(each.about in _GRAMMAR for each in mended.diagnostics):
         # Where something still cannot be read, nothing more is known.
         if any(known.repairs.values()):

@@ -20,6 +20,7 @@ from contoursolve.gcode import (
     Substitution,
     Syntax,
     Word,
+    WordSpelling,
     parse_block,
     read_directive,
 )
@@ -252,6 +253,32 @@ def read_edited(block: Block, text: str, syntax: Syntax) -> list[Block]:
     own = replace_fields(parse_block(first, block.line, syntax), substituted=tuple(substituted))
     parts = (own, *(parse_block(part, block.line, syntax) for part in rest))
     return [each.with_points(block.pointed) for each in parts]
+
+
+def read_edits(blocks: Sequence[Block], edits: Iterable[Edit], syntax: Syntax) -> list[Block]:
+    """The blocks that edits make of some; those that they do not change are the same, and one of which too little is
+    left is gone."""
+    edits, found = tuple(edits), list[Block]()
+    for block, text in zip(blocks, apply_edits(blocks, edits), strict=True):
+        apart = tuple(each for each in block.directives if each.span.line < 0)
+        facts = edit_facts(apart, edits)
+        if text == block.text and facts == apart:
+            found.append(block)
+        elif text.strip():
+            found += read_edited(block, text, syntax)
+            found[-1] = replace_fields(found[-1], directives=(*found[-1].directives, *facts))
+    return found
+
+
+def with_value(word: Word, value: str, words: WordSpelling) -> str:
+    """The text of a word, or of a fact, with another value."""
+    return re.sub(r"=.*", f"= {value}", word.text) if word.address == FACT else words.spell(word.address, value)
+
+
+def typed_text(value: float | Decimal) -> str:
+    """A number as a word has it: with a point, without an exponent, and all its digits."""
+    text = format(value if isinstance(value, Decimal) else Decimal(repr(float(value))), "f")
+    return text if "." in text else f"{text}."
 
 
 def signed(edits: Iterable[Edit], blocks: Iterable[Block]) -> tuple[Edit, ...]:

@@ -1,15 +1,13 @@
 """The system of equations of one contour, by sympy: what it leaves open, on which condition it is determined."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace as replace_fields
 from decimal import Decimal, InvalidOperation
 from functools import cached_property
 from math import atan2, nan
 from typing import Any
 
-from msgspec.structs import replace
-
 from contoursolve.diagnosis.chosen_solution import Chosen, chosen_solution
+from contoursolve.diagnosis.edits import Edit, change, typed_text, with_value
 from contoursolve.diagnosis.equation_records import (
     CornerSystem,
     Equation,
@@ -19,13 +17,14 @@ from contoursolve.diagnosis.equation_records import (
     SystemValue,
     TiedWords,
 )
+from contoursolve.diagnosis.examine import ReadBy
 from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.hand_calculation import HandCalculation
 from contoursolve.diagnosis.hand_sheet import Derivation
 from contoursolve.diagnosis.names_in_program import called_in_program
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
-from contoursolve.diagnostics import Shown
+from contoursolve.diagnostics import Shown, Span
 from contoursolve.gcode import FACT
 from contoursolve.geometry import (
     Corner,
@@ -35,14 +34,13 @@ from contoursolve.geometry import (
     Profile,
     System,
     Unit,
-    apply_statements,
     assemble,
     both,
     line_scalars,
     scalar,
 )
 from contoursolve.numeric import COSINE, SINE, Expression, angle, symbol
-from contoursolve.reading import ParsedContour, read
+from contoursolve.reading import ParsedContour
 from contoursolve.solving import (
     Alternatives,
     ConstructionStep,
@@ -117,8 +115,10 @@ class EquationSystem(Shown):
     angles are radians. `profile` is the drawing, `claim` the blocks with their words.
     """
 
-    def __init__(self, claim: ParsedContour, profile: Profile) -> None:
-        self.claim, self.profile = claim, profile
+    def __init__(
+        self, claim: ParsedContour, profile: Profile, read_by: ReadBy, without: frozenset[str] = frozenset()
+    ) -> None:
+        self.claim, self.profile, self._read_by, self._left_out = claim, profile, read_by, without
         self._system: System = assemble(profile)
 
     # What it consists of -----------------------------------------------------------------------------------------
@@ -262,18 +262,22 @@ class EquationSystem(Shown):
         return find_alternatives(self.profile)
 
     def subs(self, values: Mapping[str, float] | None = None, /, **words: float) -> "EquationSystem":
-        """The system with other values of words, as they are typed: `subs(A=120)`, `subs({"2:X": 80})`, or by a symbol,
-        `subs(X_2=80)`. Raises ValueError for what is no word with a value."""
-        givens = dict(self.profile.givens)
+        """The system of the block with other numbers in words, as they are typed with a decimal point: `subs(A=120)`,
+        `subs({"2:X": 80})`, or by a symbol, `subs(X_2=80)`. The block is read anew, with these words.
+
+        Raises ValueError for what is no word with a number in the block, and where the block is no contour then."""
+        edits = dict[Span, Edit]()
+        spelling = self._read_by.dialect.modes.syntax.words
         for key, typed in {**(values or {}), **words}.items():
             for given in self._named(key):
-                moved = self._typed(given, typed) - given.value
-                for name, other in givens.items():
-                    if name == given.name or other.follows == given.name:
-                        givens[name] = replace(other, value=other.value + moved)
-        stated = {name: givens[name] for name in self.claim.givens}
-        claim = replace_fields(self.claim, givens=stated)
-        return EquationSystem(claim, replace(self.profile, givens=givens))
+                assert given.word is not None
+                edits[given.word.span] = change(given.word, with_value(given.word, _typed(typed), spelling))
+        claim = self._read_by.read(self.claim, edits.values())
+        told = ", ".join(edit.text for edit in edits.values())
+        if claim is None:
+            raise ValueError(f"with {told} the block is read as another contour, or as none")
+        found = self._read_by.profile(claim, self._left_out)
+        return EquationSystem(claim, found, self._read_by, self._left_out)
 
     def function(self, name: str = "contour") -> Any:
         """The contour as a function of CasADi, for `map`, `jacobian`, `nlpsol` and whatever else that has.
@@ -361,11 +365,8 @@ class EquationSystem(Shown):
         return [symbolic().casadi_of(each.expression, values) for each in self.conditions]
 
     def _without(self, words: Iterable[str]) -> "EquationSystem":
-        names = frozenset(given.name for key in words for given in self._named(key))
-        profile, faults = apply_statements(read(self.claim, names), self.claim.directives, lambda: None)
-        if faults:
-            raise ValueError(faults[0].message)
-        return EquationSystem(self.claim, replace(profile, ignored=()))
+        names = self._left_out.union(given.name for key in words for given in self._named(key))
+        return EquationSystem(self.claim, self._read_by.profile(self.claim, names), self._read_by, names)
 
     # -------------------------------------------------------------------------------------------------------------
 
@@ -513,7 +514,13 @@ class EquationSystem(Shown):
         found = [
             given
             for given in self.profile.givens.values()
-            if given.word is not None and key in (keys.get(given.word.span), self._names.get(given.name))
+            if given.word is not None
+            and key
+            in (
+                keys.get(given.word.span),
+                f"{given.word.span.line}:{given.word.address}",
+                self._names.get(given.name),
+            )
         ]
         if not found:
             known = dict.fromkeys(keys.values())
@@ -521,15 +528,6 @@ class EquationSystem(Shown):
         if any(given.unit is Unit.SIGN for given in found):
             raise ValueError(f"{key} chooses between two solutions: its value is in no equation")
         return found
-
-    def _typed(self, given: Given, typed: float) -> Decimal:
-        """The value of a word that is typed with a decimal point, mm or degrees, counted as the word now counts."""
-        try:
-            number = Decimal(repr(typed) if isinstance(typed, float) else str(typed))
-        except InvalidOperation:
-            raise ValueError(f"{typed!r} is no number") from None
-        scale, rest = self._following(given)
-        return number * scale + rest
 
     def _following(self, given: Given) -> tuple[Decimal, Decimal]:
         """The mm or degrees for each unit of the word that states a value, and what there is besides: it may count from
@@ -544,3 +542,14 @@ class EquationSystem(Shown):
         if given.unit is not Unit.MM:
             return Decimal(1 if given.clockwise_from is None else -1)
         return self.profile.unit.in_mm / (1 + given.is_diameter)
+
+
+def _typed(value: float | Decimal | str) -> str:
+    """A number as it is typed, with a decimal point. Raises ValueError for what is none."""
+    try:
+        number = Decimal(repr(value) if isinstance(value, float) else str(value))
+    except InvalidOperation:
+        number = Decimal("nan")
+    if not number.is_finite():
+        raise ValueError(f"{value!r} is no number")
+    return typed_text(number.normalize())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.diagnosis.edits import Edit, read_edits
 from contoursolve.diagnosis.explain import (
     AGAINST,
     LEAVING_FREE,
@@ -48,10 +50,10 @@ from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, 
 from contoursolve.reading import (
     AT_ITS_LIMIT,
     Assumption,
+    Dialect,
     ParsedContour,
     Premises,
     ReadIssue,
-    Rule,
     offences_of,
     read,
     unused_words,
@@ -92,6 +94,36 @@ class Policy(Enum):
     """It is reported as a warning, and solved if the geometry is determined."""
     OFF = "off"
     """The rules are not applied: the geometry alone decides."""
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class ReadBy:
+    """The control that reads a contour, and what its rules do; with it the contour can be read again."""
+
+    dialect: Dialect
+    policy: Policy
+
+    def __repr__(self) -> str:
+        return f"ReadBy({self.dialect.name!r}, {self.policy})"
+
+    def read(self, claim: ParsedContour, edits: Iterable[Edit]) -> ParsedContour | None:
+        """A contour with edits of its blocks; None where these are another one then, or none."""
+        blocks = read_edits(claim.blocks, edits, self.dialect.modes.syntax)
+        found = self.dialect.find(blocks, 0, claim.before, self.dialect.modes)
+        is_same = isinstance(found, ParsedContour) and len(found.blocks) == len(claim.blocks)
+        return found if is_same and isinstance(found, ParsedContour) else None
+
+    def profile(self, claim: ParsedContour, without: frozenset[str]) -> Profile:
+        """The profile of a contour without what some words state, by the names of these. Raises ValueError for a fact
+        that cannot be used."""
+        if not without:
+            return examine(claim, self.dialect, self.policy, depth=Depth.VERDICT).profile
+        from contoursolve.geometry import apply_statements  # noqa: PLC0415 - few contours are read so
+
+        profile, faults = apply_statements(read(claim, without), claim.directives, lambda: None)
+        if faults:
+            raise ValueError(faults[0].message)
+        return replace(profile, ignored=())
 
 
 class Depth(Enum):
@@ -154,6 +186,7 @@ class Answer(Shown, Struct, frozen=True):
     sides: Mapping[str, Side]
     error_bound: float
     diagnostics: tuple[Diagnostic, ...]
+    read_by: ReadBy
     diagnosis: Diagnosis | None = None
     """Made where there is a finding, see `contoursolve.diagnosis`."""
     certificate: Certificate | None = None
@@ -184,7 +217,7 @@ class Answer(Shown, Struct, frozen=True):
         """Its equations, what they leave open, and on which condition they determine it; by sympy, when it is asked."""
         from contoursolve.diagnosis.equation_system import EquationSystem  # noqa: PLC0415 - few ask for it
 
-        return EquationSystem(self.claim, self.profile)
+        return EquationSystem(self.claim, self.profile, self.read_by)
 
     @property
     def led(self) -> tuple[float, float]:
@@ -241,7 +274,7 @@ class _Notebook:
 
 def examine(
     claim: ParsedContour,
-    rules: tuple[Rule, ...],
+    dialect: Dialect,
     policy: Policy,
     next_place: Callable[[], tuple[Decimal, Decimal] | None] = lambda: None,
     depth: Depth = Depth.FULL,
@@ -250,6 +283,7 @@ def examine(
 
     `next_place` tells where the line of the next block ends, if that is known; some facts are about it.
     """
+    rules = dialect.rules
     context, notebook = context_of(claim, rules), _Notebook()
     _examine_words(context, claim, notebook)
     is_readable = not notebook.statuses
@@ -323,6 +357,7 @@ def examine(
         sides=sides if contour else {},
         error_bound=solution.error_bound,
         diagnostics=tuple(sorted(tell_points(context, claim, notebook.findings), key=rank)),
+        read_by=ReadBy(dialect, policy),
         certificate=solution.certificate if contour else None,
         answers=tuple(answer_question(question, profile, solution) for question in profile.questions),
         alternatives=alternatives,

@@ -34,7 +34,7 @@ def fill_in(answer: Answer, before: State, dialect: Dialect) -> Filled | None:
     claim = dialect.find(blocks, 0, before, dialect.modes)
     if not isinstance(claim, ParsedContour) or not edits:
         return None
-    again = examine(claim, dialect.rules, Policy.ENFORCE)
+    again = examine(claim, dialect, Policy.ENFORCE)
     if again.contour is None or answer.contour is None:
         return None
     deviation = _deviation(again.contour, answer.contour)

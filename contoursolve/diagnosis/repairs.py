@@ -137,7 +137,7 @@ def _alone(answer: Answer, dialect: Dialect) -> Answer:
     found = dialect.find(claim.blocks, 0, claim.before, dialect.modes)
     if not isinstance(found, ParsedContour) or not found.circumstances < claim.circumstances:
         return answer
-    return examine(found, dialect.rules, Policy.ENFORCE)
+    return examine(found, dialect, Policy.ENFORCE)
 
 
 def _waits(answer: Answer) -> bool:

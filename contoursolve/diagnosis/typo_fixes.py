@@ -118,6 +118,6 @@ def _tried(
     dialect: Dialect, block: Block, found: ParsedContour | None, edits: Sequence[Edit], replacement: str
 ) -> Iterator[Fix]:
     """The edits of a block as a fix, if they make a contour that is solved."""
-    if found is not None and examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT).contour:
+    if found is not None and examine(found, dialect, Policy.ENFORCE, depth=Depth.VERDICT).contour:
         told = "; ".join(map(str, edits))
         yield Fix(told, replacement, Applicability.CHANGES_CONTOUR, replaced=block.text)

@@ -9,7 +9,7 @@ from math import atan2, degrees
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, edit_facts, read_edited
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, read_edits
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
@@ -153,16 +153,7 @@ class Window(Struct, frozen=True, dict=True):
         # What rests on nothing that is changed stays.
         kept = next(at for at, part in enumerate(parts) if places[at] + part.reach > changed[0])
         begin, seen = places[kept], parts[:kept]
-        syntax, blocks = self.dialect.modes.syntax, list[Block]()
-        for at, (block, text) in enumerate(zip(self.blocks, texts, strict=True)):
-            if at < begin:
-                continue
-            if at not in changed:
-                blocks.append(block)
-            elif text.strip():
-                blocks += read_edited(block, text, syntax)
-                apart = edit_facts([each for each in block.directives if each.span.line < 0], edits)
-                blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
+        blocks = read_edits(self.blocks[begin:], edits, self.dialect.modes.syntax)
         own, left = {*self.lines}, len(blocks)
         ahead = tuple((part.blocks, part.before) for part in seen if any(block.words for block in part.blocks))[-1:]
         for part in self.examine(blocks, parts[kept].before, ahead):
@@ -277,7 +268,7 @@ def alone(answer: Answer, dialect: Dialect) -> Window:
         while blocks:
             found, before, own = dialect.find(blocks, 0, state, dialect.modes), state, None
             if isinstance(found, ParsedContour) and found.form.is_contour:
-                own = examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT)
+                own = examine(found, dialect, Policy.ENFORCE, depth=Depth.VERDICT)
                 state = leave(found, own.contour.end if own.contour else None, dialect.modes)
             part, blocks = (
                 blocks[: len(found.blocks) if own and found else 1],

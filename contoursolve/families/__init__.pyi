@@ -8,8 +8,6 @@ from .block_template import (
     first_error as first_error,
     spec_of as spec_of,
     unit_word as unit_word,
-    with_value as with_value,
-    write as write,
 )
 from .case_classes import (
     ORIGIN as ORIGIN,

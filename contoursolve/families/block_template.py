@@ -1,6 +1,5 @@
 """Template of a block with free words, and how it is read: plain data, from which any process makes the same."""
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal, InvalidOperation
@@ -12,11 +11,11 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, Depth, join, named_in_program
+from contoursolve.diagnosis import Answer, Depth, join, named_in_program, typed_text, with_value
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
-from contoursolve.gcode import FACT, Directive, Program, Word, WordSpelling, call
+from contoursolve.gcode import FACT, Directive, Program, Word, call
 from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run
 from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.solving import Point
@@ -152,7 +151,7 @@ class Template(Struct, frozen=True, eq=False):
     def filled(self, values: Mapping[str, float]) -> "Template":
         """The block with these values written in it, and no word free."""
         words, spelling = self.words.items(), self.program.syntax.words
-        texts = {name: with_value(word, write(values[name]), spelling) for name, word in words if name in values}
+        texts = {name: with_value(word, typed_text(values[name]), spelling) for name, word in words if name in values}
         return self.typed(texts)
 
     def typed(self, texts: Mapping[str, str]) -> "Template":
@@ -176,12 +175,6 @@ class Template(Struct, frozen=True, eq=False):
                 line = lines[span.line]
                 lines[span.line] = line[: span.column - 1] + text + line[span.end_column - 1 :]
         return list(lines.values())
-
-
-def write(value: float) -> str:
-    """A number as a word has it: with a point, without an exponent, and all its digits."""
-    text = format(Decimal(repr(float(value))), "f")
-    return text if "." in text else f"{text}."
 
 
 def find_words(template: Template, names: Sequence[str]) -> dict[str, Word]:
@@ -269,11 +262,6 @@ def is_same(typed: Word, other: Word) -> bool:
 def unit_word(word: Word, *, has_point: bool) -> Word:
     """The word with the number 1."""
     return replace(word, number=Decimal(1), has_point=has_point)
-
-
-def with_value(word: Word, value: str, words: WordSpelling) -> str:
-    """The text of a word, or of a fact, with another value."""
-    return re.sub(r"=.*", f"= {value}", word.text) if word.address == FACT else words.spell(word.address, value)
 
 
 _NEVER = ("G", "N", "M")

@@ -19,10 +19,12 @@ from contoursolve.diagnosis import (
     counts_few,
     list_alternatives,
     readings,
+    typed_text,
     unknowns_text,
+    with_value,
 )
 from contoursolve.diagnostics import Span
-from contoursolve.families.block_template import Template, first_error, is_same, with_value, write
+from contoursolve.families.block_template import Template, first_error, is_same
 from contoursolve.families.branches import PLACES, Branch
 from contoursolve.families.case_classes import CaseClass, results_of
 from contoursolve.families.errors import FamilyError, NotMovedError
@@ -263,7 +265,7 @@ def _stated(goal: Goal, answer: Answer) -> str:
     if value is None or goal.is_nearest:
         raise FamilyError("without a closed form, name one coordinate to bring the point to")
     shown = value * (2 if plane.diameters[axis] else 1) / float(answer.unit.in_mm)
-    return f"{plane.axes[axis]} of {_point(goal.point, answer.profile.figure)} = {write(shown)}"
+    return f"{plane.axes[axis]} of {_point(goal.point, answer.profile.figure)} = {typed_text(shown)}"
 
 
 def _point(name: str, figure: Figure) -> str:

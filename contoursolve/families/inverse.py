@@ -8,9 +8,9 @@ from typing import Unpack
 import numpy
 from msgspec import Struct
 
-from contoursolve.diagnosis import Answer, join, value_text, write_word
+from contoursolve.diagnosis import Answer, join, typed_text, value_text, with_value, write_word
 from contoursolve.diagnostics import Shown
-from contoursolve.families.block_template import BlockOptions, Template, first_error, spec_of, with_value, write
+from contoursolve.families.block_template import BlockOptions, Template, first_error, spec_of
 from contoursolve.families.branches import Branch
 from contoursolve.families.errors import FamilyError, NotClosedError, NotMovedError
 from contoursolve.families.free_words import check_block
@@ -373,7 +373,7 @@ class _TargetSearch:
         template, word = self.search.template, self.search.word
         typed = template.words[word]
         if typed.address == FACT:
-            texts = {word: with_value(typed, write(value), template.program.syntax.words)}
+            texts = {word: with_value(typed, typed_text(value), template.program.syntax.words)}
         else:
             lexicon, unit = answer.claim.lexicon, answer.unit
             texts = {word: write_word(typed.address, value * self.search.scale, lexicon, unit)}

@@ -10,7 +10,7 @@ from typing import Any
 import numpy
 from msgspec import Struct
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, typed_text, with_value
 from contoursolve.families import (
     Branches,
     CompiledSweep,
@@ -22,8 +22,6 @@ from contoursolve.families import (
     first_error,
     outcomes_of,
     solve_sweep,
-    with_value,
-    write,
 )
 from contoursolve.numeric import Array
 from contoursolve.output.plain_text import printable
@@ -220,7 +218,7 @@ class LiveMap:
 
 def _typed(value: float) -> str:
     """A number as it is typed, whole ones as `170.`."""
-    return write(value).removesuffix("0") if value == int(value) else write(value)
+    return typed_text(value).removesuffix("0") if value == int(value) else typed_text(value)
 
 
 def _note(axes: Sequence[Array], columns: Sequence[int], rows: Sequence[int]) -> str:

@@ -204,6 +204,7 @@ class Batch(Struct):
             sides=like.sides,
             error_bound=bound,
             diagnostics=(),
+            read_by=like.read_by,
             certificate=certificate,
         )
 

@@ -34,7 +34,7 @@ _MOST_NESTED = 2
 def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: Pending) -> Answer:
     """The answer to a contour, with the values that it asks for filled in; its findings are not explained yet."""
     behind = islice(pending.view, pending.after, None)
-    answer = examine(found, asked.rules, asked.policy, lambda: next_place(behind, found, dialect.modes), asked.depth)
+    answer = examine(found, dialect, asked.policy, lambda: next_place(behind, found, dialect.modes), asked.depth)
     if answer.contour is None:
         following = [each for each in pending.view[pending.after : pending.after + BEHIND] if each.says_something]
         block, goes_on = next(iter(following), None), any(axis_words(each, dialect.modes) for each in following)

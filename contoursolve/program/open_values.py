@@ -103,7 +103,7 @@ class _Search:
         )
         if not isinstance(found, ParsedContour) or len(found.blocks) != len(claim.blocks):
             return "the blocks are read as another contour"
-        answer = examine(found, dialect.rules, self.policy, lambda: None, depth)
+        answer = examine(found, dialect, self.policy, lambda: None, depth)
         error = next((each for each in answer.diagnostics if each.is_error), None)
         return error.message if error else None if answer.contour is not None else ""
 

@@ -231,7 +231,7 @@ class Queue:
         blocks = [parse_block(text, line, self.dialect.modes.syntax).with_points(pointed) for line, text in texts]
 
         def end_of(found: ParsedContour) -> End:
-            contour = examine(found, self.dialect.rules, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour
+            contour = examine(found, self.dialect, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour
             ends.append(contour.end if contour else None)
             return ends[-1]
 
@@ -247,7 +247,7 @@ class Queue:
         if dialect.follow is None:
             return ()
         found = dialect.follow(form, contour, left, islice(each.view, each.after, None), dialect.modes)
-        return tuple(report_behind(one, dialect.rules, each.contour.blocks) for one in found)
+        return tuple(report_behind(one, dialect, each.contour.blocks) for one in found)
 
     def leave(self, pending: Pending) -> State:
         """The state after a contour; where it ends follows when it is solved."""

@@ -1,6 +1,8 @@
 """The system on the table: its equations, conditions and functions, against contours, ranks and families."""
 
+from decimal import Decimal
 from math import pi
+from random import Random
 
 import numpy as np
 import pytest
@@ -162,6 +164,60 @@ def test_other_values_and_fewer_words_give_other_systems():
     assert [(each.words, str(each.identity)) for each in tied.ties] == [(("I10.", "K-10.", "A135."), "Eq(K, I/tan(A))")]
     with pytest.raises(ValueError, match="one contour; the program has 0"):
         contoursolve.system("G00 X1.", control="yasnac-lx3")
+
+
+ODD = (0, 15, 170, -30)
+"""Numbers at which some forms are read otherwise, or have no contour."""
+
+
+def shown(system):
+    """All of a system that its numbers and texts are in."""
+    try:
+        path = {key: np.array(value).tolist() for key, value in system.function()(**system.inputs).items()}
+    except ValueError as error:
+        path = str(error)
+    words = [(str(each.symbol), each.number, each.text) for each in system.words]
+    statements = [(str(each.equation), each.meaning, each.word) for each in system.statements]
+    return path, words, statements, [(str(key), value) for key, value in system.solution.items()], system.inputs
+
+
+@pytest.mark.parametrize(
+    "programs", [pytest.param(RIGHT[::60], id="some"), pytest.param(RIGHT[1::4], id="more", marks=pytest.mark.slow)]
+)
+def test_a_system_with_other_numbers_is_that_of_the_block_so_written(programs):
+    count = 0
+    for each in programs:
+        rng, result = Random(each["id"]), solved(each["control"], each)
+        for answer in (one for one in result.answers if one.contour):
+            system = answer.system
+            stated = [one for one in system.words if one.source is not None and one.source.number is not None]
+            if not stated:
+                continue
+            named = rng.choice(stated)
+            word = named.source
+            number = word.number
+            other = rng.choice((-number, number + Decimal(rng.choice((-1.0, 0.5, -0.125, 10.0))), *map(Decimal, ODD)))
+            key = rng.choice((named.name, f"{word.span.line}:{word.address}"))
+            found = system.subs({key: other})
+            text = result.program.syntax.words.spell(word.address, f"{float(other):.6f}".rstrip("0"))
+            lines, (begin, end) = [*each["program"]], (word.span.column - 1, word.span.end_column - 1)
+            lines[word.span.line - 1] = lines[word.span.line - 1][:begin] + text + lines[word.span.line - 1][end:]
+            written = solved(each["control"], {**each, "program": lines}).contour_at(answer.lines[0]).system
+            assert shown(found) == shown(written), (each["id"], key, other)
+            assert shown(found.subs({key: number}))[1:] == shown(system.subs({key: number}))[1:], (each["id"], key)
+            count += 1
+    assert count >= len(programs)
+
+
+def test_a_system_with_other_numbers_keeps_its_facts_and_what_is_free():
+    system = contoursolve.system("G111 X100. A180. K? B120. P5.", start=START, facts=["length of line 1 = 31"])
+    moved = contoursolve.system("G111 X100. A180. K? B120. P5.", start=START, facts=["length of line 1 = 40."])
+    assert shown(system.subs(fact1=40)) == shown(moved)
+    shaft = contoursolve.system(SHAFT, start=START)
+    assert shaft.free("K").subs(X=50).free == shaft.free("K").free
+    for value in ("a", float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="is no number"):
+            shaft.subs(X=value)
 
 
 def test_a_system_with_facts_or_free_contours_has_a_condition_and_the_rank_of_residues():

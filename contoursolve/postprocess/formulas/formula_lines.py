@@ -7,8 +7,8 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.diagnosis import typed_text
 from contoursolve.execution import Assign, CodeLine, Known, Unknown, When, evaluate, place_in, variables_of
-from contoursolve.families import write
 from contoursolve.gcode import Block, Word, parse_block
 from contoursolve.numeric import Constant, Term, Variable
 from contoursolve.program import Lines
@@ -47,7 +47,7 @@ class MacroLine(Struct, frozen=True):
         their word. Texts stay as they are."""
         text, shift, places = self.code.rest, 0, dict[int, Slot]()
         for slot in self.slots:
-            number = write(float(values.get(slot.free.name, slot.free.value)))
+            number = typed_text(float(values.get(slot.free.name, slot.free.value)))
             text = text[: slot.begin + shift] + number + text[slot.end + shift :]
             places[slot.begin + shift] = slot
             shift += len(number) - (slot.end - slot.begin)

@@ -70,7 +70,7 @@ class Reader(Struct, frozen=True, eq=False):
         claim = self.dialect.find(blocks, 0, self.moved(known), self.dialect.modes)
         if claim is None:
             raise FormulaError("with other values of its variables it is no contour")
-        return examine(claim, self.dialect.rules, self.policy, depth=Depth.PATH)
+        return examine(claim, self.dialect, self.policy, depth=Depth.PATH)
 
     def follow(self, values: Values) -> dict[str, Affine]:
         """The stated values of the blocks as affine functions near some values, by name. Limits of the control's
