@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal, InvalidOperation
 from functools import cached_property
 from math import atan2, nan
-from typing import Any
+from typing import Any, Protocol
 
 from contoursolve.diagnosis.chosen_solution import Chosen, chosen_solution
 from contoursolve.diagnosis.edits import Edit, change, typed_text, with_value
@@ -17,7 +17,6 @@ from contoursolve.diagnosis.equation_records import (
     SystemValue,
     TiedWords,
 )
-from contoursolve.diagnosis.examine import ReadBy
 from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.hand_calculation import HandCalculation
 from contoursolve.diagnosis.hand_sheet import Derivation
@@ -40,7 +39,7 @@ from contoursolve.geometry import (
     scalar,
 )
 from contoursolve.numeric import COSINE, SINE, Expression, angle, symbol
-from contoursolve.reading import ParsedContour
+from contoursolve.reading import Dialect, ParsedContour
 from contoursolve.solving import (
     Alternatives,
     ConstructionStep,
@@ -108,6 +107,23 @@ class FreeUnknowns(tuple[Any, ...]):
         return result
 
 
+class Reader(Protocol):
+    """The control of a contour, which reads its blocks again."""
+
+    @property
+    def dialect(self) -> Dialect:
+        """Its tables."""
+        ...
+
+    def read(self, claim: ParsedContour, edits: Iterable[Edit]) -> ParsedContour | None:
+        """The contour with edits; None where that is another one, or none."""
+        ...
+
+    def profile(self, claim: ParsedContour, without: frozenset[str]) -> Profile:
+        """The profile of a contour without what some words state. Raises ValueError."""
+        ...
+
+
 class EquationSystem(Shown):
     """The system of equations of one contour, as `contoursolve.system` gives it.
 
@@ -116,7 +132,7 @@ class EquationSystem(Shown):
     """
 
     def __init__(
-        self, claim: ParsedContour, profile: Profile, read_by: ReadBy, without: frozenset[str] = frozenset()
+        self, claim: ParsedContour, profile: Profile, read_by: Reader, without: frozenset[str] = frozenset()
     ) -> None:
         self.claim, self.profile, self._read_by, self._left_out = claim, profile, read_by, without
         self._system: System = assemble(profile)
