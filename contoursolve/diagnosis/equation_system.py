@@ -107,7 +107,7 @@ class FreeUnknowns(tuple[Any, ...]):
         return result
 
 
-class Reader(Protocol):
+class Rereading(Protocol):
     """The control of a contour, which reads its blocks again."""
 
     @property
@@ -132,7 +132,7 @@ class EquationSystem(Shown):
     """
 
     def __init__(
-        self, claim: ParsedContour, profile: Profile, read_by: Reader, without: frozenset[str] = frozenset()
+        self, claim: ParsedContour, profile: Profile, read_by: Rereading, without: frozenset[str] = frozenset()
     ) -> None:
         self.claim, self.profile, self._read_by, self._left_out = claim, profile, read_by, without
         self._system: System = assemble(profile)
