@@ -194,7 +194,7 @@ def missing(place: Place, corner: Corner) -> float:
         else:
             ways.append(each.turn.sign * 1j * unit(place.point(corner.at) - place.point(each.center)))
     is_out = len(ways) > 1 and abs(cross(*ways)) <= corner.guard and dot(*ways) > 0
-    return 0.0 if is_out else place.at.scalars.get(f"{corner.name}.radius", place.at.amounts.get(corner.size, 0.0))
+    return 0.0 if is_out else place.at.scalars.get(corner.radius, place.at.amounts.get(corner.size, 0.0))
 
 
 def side_of(place: Place, choice: Choice) -> tuple[float, float] | None:

@@ -64,6 +64,7 @@ from contoursolve.solving import (
     steps_of,
     symbolic_values,
     tie_of,
+    values_at,
 )
 
 
@@ -146,8 +147,9 @@ class EquationSystem(Shown):
 
     @cached_property
     def words(self) -> tuple[SystemValue, ...]:
-        """The values that words state, and the start point: each with its symbol, meaning and number."""
-        return (*self._start(), *map(self._value, self._stated()))
+        """The values that words state, the start point, and the sides on which the contour that was solved touches or
+        lies, where nothing states them: each with its symbol, meaning and number."""
+        return (*self._start(), *map(self._value, self._stated()), *self._open_sides())
 
     @property
     def values(self) -> dict[Any, Any]:
@@ -364,7 +366,7 @@ class EquationSystem(Shown):
             if given.follows in givens:
                 moved = float(given.value - profile.givens[given.follows].value)
                 givens[given.name] = givens[given.follows] + moved
-        return inputs, TypedValues((start[0], start[1]), givens)
+        return inputs, TypedValues((start[0], start[1]), givens, self._sides)
 
     def _conditions_of(self, at: Mapping[str, Any]) -> list[Any]:
         """The conditions as expressions of CasADi, of the values by name."""
@@ -375,6 +377,7 @@ class EquationSystem(Shown):
                 values[symbols.angle(given.name)] = angle(at[given.name + SINE], at[given.name + COSINE])
             else:
                 values[symbols.scalar(given.name)] = at[given.name]
+        values |= {symbols.scalar(name): sign for name, sign in self._sides.items()}
         for line in system.figure.carriers:
             cosine, sine, _ = line_scalars(line)
             values[symbolic().symbol(self._names[line])] = angle(at[sine], at[cosine])
@@ -417,8 +420,20 @@ class EquationSystem(Shown):
     @cached_property
     def _chosen(self) -> Chosen | None:
         """The solution that the control takes."""
-        is_ready = self.profile.start.is_known and self.is_determined
+        figure, known = self._system.figure, {*self.profile.givens, *self._system.unknowns}
+        # Where a fact that asks for its size is refused, a corner has none.
+        is_sized = all(each.size in known or each.radius in known for each in figure.corners)
+        is_ready = is_sized and self.profile.start.is_known and self.is_determined
         return chosen_solution(self.profile) if is_ready else None
+
+    @cached_property
+    def _sides(self) -> Mapping[str, int]:
+        """The sign of each side that no word states, in the contour that was solved, by its name."""
+        facts = self._system.facts
+        if self._chosen is None or not any(fact.sides() for fact in facts):
+            return {}
+        signs = values_at(self.profile, facts, self._chosen.scalars).signs
+        return {side: signs[side] for fact in facts for side in fact.sides()}
 
     def _unknown(self, name: str) -> SystemUnknown:
         thing, _, part = name.rpartition(".")
@@ -457,6 +472,20 @@ class EquationSystem(Shown):
             found.append(SystemValue(self._symbols.scalar(name), meaning, "mm", number, self._names[name]))
         return found
 
+    def _open_sides(self) -> list[SystemValue]:
+        """The sides as values: -1 or 1, of which a number says which way a contour touches."""
+        named = {side: fact.side_names for fact in self._system.facts for side in fact.sides()}
+        return [
+            SystemValue(
+                self._symbols.scalar(side),
+                f"the side on which it touches: 1 is {first}, -1 is {second}",
+                "",
+                symbolic().exact(Decimal(self._sides[side])) if side in self._sides else None,
+                self._names[side],
+            )
+            for side, (first, second) in named.items()
+        ]
+
     def _value(self, given: Given) -> SystemValue:
         is_angle = given.unit is Unit.DEGREE
         symbol = self._symbols.angle(given.name) if is_angle else self._symbols.scalar(given.name)
@@ -489,7 +518,7 @@ class EquationSystem(Shown):
     def _corner(self, corner: Corner) -> CornerSystem:
         numeric, pairs = symbolic(), self._places(corner)
         at = symbolic_values(self._symbols, numeric.FUNCTIONS, self._system.headed)
-        size = f"{corner.name}.radius" if f"{corner.name}.radius" in self._system.unknowns else corner.size
+        size = corner.radius if corner.radius in self._system.unknowns else corner.size
         told = corner_equations(
             corner, self._system.figure, at, self._symbols.scalar(size), *(pairs[place] for place in CORNER_PLACES)
         )

@@ -302,7 +302,7 @@ def explain_missing(
     free = set(verdict.free)
     absent = absent_words(claim, profile, free)
     # Of a corner whose size is not determined, nothing is.
-    corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
+    corners = tuple(f"{corner.name}." for corner in profile.figure.corners if corner.radius in free)
     shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
     open_count = len(assemble(profile).unknowns) - verdict.rank
     ways = [] if is_brief else list(_adding(absent, claim, profile, unable))

@@ -55,8 +55,7 @@ class HandCorners(HandSheet):
         return size * share * first, size * share * second
 
     def _size(self, corner: Corner) -> Any:
-        name = f"{corner.name}.radius"
-        return self._symbols.scalar(name if name in self._system.unknowns else corner.size)
+        return self._symbols.scalar(corner.radius if corner.radius in self._system.unknowns else corner.size)
 
     def _angle_of(self, line: Line) -> Any:
         if not line.name:

@@ -15,7 +15,7 @@ def symbol_names(claim: ParsedContour, profile: Profile, system: System) -> Mapp
 
     A word goes by its letters, with the line where several have them (`A`, `A_2`), and `,R` beside R as `comma_R`; a
     coordinate by the axis and the point (`Z_V1`); of a line whose direction is unknown, `c`, `s` and `d` are its
-    cosine, its sine and its place.
+    cosine, its sine and its place; `side_1` is the first side that no word states.
     """
     keys = word_keys(claim.words.values())
     letters = {word.address for word in claim.words.values()}
@@ -35,6 +35,8 @@ def symbol_names(claim: ParsedContour, profile: Profile, system: System) -> Mapp
         called[line] = f"angle_{line}"
     called |= {name: name.replace(".radius", "") + "_size" for name in system.unknowns if name.endswith(".radius")}
     called |= {name: name for name in system.unknowns if name not in called}
+    sides = dict.fromkeys(side for fact in system.facts for side in fact.sides())
+    called |= {side: f"side_{number}" for number, side in enumerate(sides, 1)}
     return _each_once(called)
 
 

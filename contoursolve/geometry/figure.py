@@ -123,6 +123,11 @@ class Corner(Struct, frozen=True):
     least: float = 0.0
     """Sine of the change of direction up to which the control refuses the corner instead."""
 
+    @property
+    def radius(self) -> str:
+        """The name of its size where that is an unknown."""
+        return f"{self.name}.radius"
+
 
 class Circle(Struct, frozen=True):
     """A circle that is not part of the path, about a point with a radius; either may be known or unknown."""

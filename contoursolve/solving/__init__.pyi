@@ -3,6 +3,7 @@ from .affine import (
     Circuit as Circuit,
     IndependentFacts as IndependentFacts,
     affine_facts as affine_facts,
+    values_at as values_at,
 )
 from .alternatives import (
     choose as choose,

@@ -249,8 +249,8 @@ def _sizes(profile: Profile, numbers: Mapping[str, Number]) -> dict[str, Number]
     """The sizes of all corners by the words that state or ask for them."""
     found, givens = dict[str, Number](), profile.givens
     for corner in profile.figure.corners:
-        if f"{corner.name}.radius" in numbers:
-            found[corner.size] = numbers[f"{corner.name}.radius"]
+        if corner.radius in numbers:
+            found[corner.size] = numbers[corner.radius]
         if corner.size in givens:
             found[corner.size] = ball.exact(givens[corner.size].value)
     return found

@@ -21,6 +21,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.numeric import (
     COSINE,
+    SIDE,
     SINE,
     Expression,
     Tape,
@@ -43,10 +44,12 @@ _RADIANS = radians(1)
 
 
 class TypedValues(Struct, frozen=True):
-    """The values of a contour as expressions of what is typed: `start` (mm), `givens` by name (mm or degrees)."""
+    """The values of a contour as expressions of what is typed: `start` (mm), `givens` by name (mm or degrees); `sides`
+    are the signs of what no word states."""
 
     start: Pair
     givens: Mapping[str, Any]
+    sides: Mapping[str, int] = {}
 
 
 def build_function(
@@ -88,6 +91,7 @@ def _values(profile: Profile, system: System, typed: TypedValues, start: Pair) -
     """All inputs of the functions of a system: what is typed, and what nobody types, with coordinates as they are, and
     where the contour starts."""
     found: dict[str, Any] = dict(inputs_of(profile, system))
+    found |= {SIDE + name: float(sign) for name, sign in typed.sides.items()}
     for name, given in profile.givens.items():
         value = typed.givens.get(name, float(given.value))
         if given.unit is not Unit.DEGREE:
@@ -118,6 +122,8 @@ def _outputs(
 ) -> dict[str, list[list[Any]]]:
     figure, machine = system.figure, compile_path(system)
     values = {**_values(profile, system, typed, typed.start), **unknowns}
+    # The size of a corner that is asked for is an unknown.
+    values |= {each.size: unknowns[each.radius] for each in figure.corners if each.radius in unknowns}
     found = put_in(machine.tape, [*machine.tape.outputs], values)
     path, at = machine.path.read(found.__getitem__), {**values, **found}
 

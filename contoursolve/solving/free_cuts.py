@@ -136,7 +136,7 @@ def place_cuts(profile: Profile, open_: Sequence[str]) -> tuple[Profile, tuple[s
 def _has_open_corner(profile: Profile) -> bool:
     """Whether nothing states, or asks for by a fact, how large a corner is."""
     sizes, unknowns = sizes_of(profile), assemble(profile).unknowns
-    return any(each.size not in sizes and f"{each.name}.radius" not in unknowns for each in profile.figure.corners)
+    return any(each.size not in sizes and each.radius not in unknowns for each in profile.figure.corners)
 
 
 def _cuts(profile: Profile, open_: Sequence[str]) -> tuple[list[str], Mapping[str, float]] | None:
