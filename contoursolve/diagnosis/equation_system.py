@@ -446,7 +446,8 @@ class EquationSystem(Shown):
     def _stated(self) -> list[Given]:
         used = {name for fact in self._system.facts for name in (fact.given, *map(str, fact.reads()))}
         used |= {corner.size for corner in self._system.figure.corners}
-        used |= {heading for heading, _ in self._system.headed.values()}
+        for heading, place in self._system.headed.values():
+            used |= {heading, *both(place)}
         return [given for given in self.profile.givens.values() if given.name in used and given.unit is not Unit.SIGN]
 
     def _typed_words(self) -> list[Given]:

@@ -6,12 +6,14 @@ solution must satisfy words and facts, and where there is only one, what was era
 """
 
 from cmath import phase, rect
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from math import copysign, degrees, isclose, pi, radians, remainder
 from random import Random
 from typing import Any, NamedTuple
 
+import numpy as np
 import pytest
 from oracle import Outcome, g111
 
@@ -401,6 +403,42 @@ def test_a_taper_comes_back_from_a_fact_instead_of_a_word(seed: int) -> None:
             assert all(each.value is None for each in answer.answers)
         count += 1
     assert count >= 4
+
+
+@pytest.mark.parametrize(
+    "seeds",
+    [pytest.param([24], id="some"), pytest.param(range(0, 24, 6), id="more", marks=pytest.mark.slow)],
+)
+def test_the_system_of_a_contour_with_facts_has_every_symbol_and_its_function_is_what_is_solved(
+    seeds: Iterable[int],
+) -> None:
+    count = 0
+    cases = (case for seed in seeds for case in taper_cases(seed))
+    for case in islice(cases, 0, None, 3):
+        (answer,) = solve(case.program, **case.arguments).answers
+        if answer.contour is None:
+            continue
+        system, told = answer.system, (case.program, case.arguments)
+        known = {each.symbol for each in system.unknowns} | system.values.keys()
+        assert {symbol for each in system.equations for symbol in each.free_symbols} <= known, told
+        assert system.margin is not None or system.condition is None, told
+        found = {key: np.array(value) for key, value in system.function()(**system.inputs).items()}
+        rows = dict(zip(system.rows["elements"], found["elements"], strict=True))
+        for element in answer.contour.elements:
+            assert np.allclose(rows[element.name], [*element.start, *element.end], rtol=0, atol=1e-7), told
+        assert abs(found["residuals"]).max() < 1e-7, told
+        count += 1
+    assert count > 1
+
+
+def test_a_refused_fact_leaves_a_system_that_can_be_looked_at() -> None:
+    (answer,) = solve(
+        "G111 X100. A180. K-30. B120. P?", start="X40. Z0.", facts=["length of corner 1 = 12"], depth="verdict"
+    ).answers
+    system = answer.system
+    assert answer.status is Status.REJECTED
+    assert [each.value for each in system.unknowns] == [None] * 4
+    assert len(system.equations) == 4
 
 
 def assert_asked(case: Case, answer: Answer) -> None:
