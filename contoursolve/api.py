@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import Unpack
 
 from msgspec.structs import replace
 
-from contoursolve import gcode
+# Rooms by name: what they hold is imported when it is asked for, by `help` and `typing.get_type_hints` too.
+from contoursolve import diagnosis, gcode, postprocess, program as programs, tool_radius
 from contoursolve.diagnosis import Depth
 from contoursolve.diagnostics import Diagnostic, choice_of
 from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
@@ -33,12 +34,6 @@ from contoursolve.program import (
     takes,
 )
 from contoursolve.reading import Dialect
-
-if TYPE_CHECKING:
-    from contoursolve.diagnosis import EquationSystem
-    from contoursolve.postprocess import Conversion, Expansion, Post
-    from contoursolve.program import Mended
-    from contoursolve.tool_radius import ToolReport
 
 __all__ = [
     "UnreadableProgramError",
@@ -121,7 +116,7 @@ def solve(
 
 
 @takes(SolveKeywords)
-def system(text: str, *, name: str = "<program>", **options: Unpack[SolveKeywords]) -> EquationSystem:
+def system(text: str, *, name: str = "<program>", **options: Unpack[SolveKeywords]) -> diagnosis.EquationSystem:
     """The system of equations of a block, or of a program with one contour.
 
     Arguments and errors as for `solve`; raises ValueError where there is no contour, or more than one.
@@ -185,7 +180,7 @@ def apply_fixes(
     unsafe: bool = False,
     name: str = "<program>",
     **options: Unpack[CheckKeywords],
-) -> Mended:
+) -> programs.Mended:
     """The program with all fixes that keep the contour applied, one after the other, until none is left.
 
     With `unsafe`, the first fix of each finding is applied, too, where it changes the contour. The program is examined
@@ -254,7 +249,7 @@ def solve_with_tool(
     outside: str | None = None,
     name: str = "<program>",
     **options: Unpack[SolveKeywords],
-) -> tuple[Result, ToolReport]:
+) -> tuple[Result, tool_radius.ToolReport]:
     """Solve every contour of a program for a tool: its radius in the unit of the program, and its tip on a lathe, such
     as `"R0.8, tip 3"`; or `program` for what the program and the project file state.
 
@@ -307,7 +302,7 @@ _MANY = 64
 def expand(
     text: str,
     *,
-    post: str | Post = "same",
+    post: str | postprocess.Post = "same",
     arcs: str = "center",
     decimals: int | None = None,
     comments: bool = True,
@@ -319,7 +314,7 @@ def expand(
     scratch: str | None = None,
     name: str = "<program>",
     **options: Unpack[ProgramKeywords],
-) -> Expansion:
+) -> postprocess.Expansion:
     """A program with every contour written as plain G00, G01, G02 and G03, and everything else as it was.
 
     A control that is not programmed in G codes gets its own lines and arcs; for another target, all of its program is
@@ -388,7 +383,7 @@ def convert(
     comments: bool = True,
     name: str = "<program>",
     **options: Unpack[ReadingKeywords],
-) -> Conversion:
+) -> postprocess.Conversion:
     """A program with every contour in another control's own words, as far as it has them.
 
     All else stays as it was.

@@ -59,6 +59,7 @@ from contoursolve.reading import (
     unused_words,
 )
 from contoursolve.solving import (
+    Alternatives,
     ArcSegment,
     Certificate,
     Contour,
@@ -82,7 +83,6 @@ from contoursolve.tolerance import LENGTH
 if TYPE_CHECKING:
     from contoursolve.diagnosis.equation_system import EquationSystem
     from contoursolve.gcode import Block, Word
-    from contoursolve.solving import Alternatives
 
 
 class Policy(Enum):

@@ -161,8 +161,6 @@ from .partition import (
     order as order,
 )
 from .picks import (
-    Alternative as Alternative,
-    Alternatives as Alternatives,
     numbers_of as numbers_of,
     pick as pick,
     resolved_later as resolved_later,
@@ -184,6 +182,8 @@ from .sketch import (
 )
 from .solution import (
     DECIMALS as DECIMALS,
+    Alternative as Alternative,
+    Alternatives as Alternatives,
     Certificate as Certificate,
     CornerSolution as CornerSolution,
     Note as Note,

@@ -24,8 +24,7 @@ from contoursolve.solving.checks import MeasuredFigure, unverified
 from contoursolve.solving.compare import compare_fact, increments_of
 from contoursolve.solving.compile import compile_corners, compile_path
 from contoursolve.solving.determinacy import analyse, basis_of, circuits_of, groups_of, spare_of
-from contoursolve.solving.elimination import Obstacle
-from contoursolve.solving.enumerate import Doubt, Enumeration, ExactSolution, enumerate_solutions
+from contoursolve.solving.enumerate import Enumeration, ExactSolution, enumerate_solutions
 from contoursolve.solving.events import NoteKind, RefusalKind, Status, Topic, refusals_about
 from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range, vanishing_lines
@@ -33,9 +32,21 @@ from contoursolve.solving.krawczyk import Prover
 from contoursolve.solving.numbers import corner_of
 from contoursolve.solving.partition import Group, order
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.picks import Alternative, Alternatives, pick
+from contoursolve.solving.picks import pick
 from contoursolve.solving.sides import BOTH, sides_of
-from contoursolve.solving.solution import Certificate, CornerSolution, Note, Point, Proof, Refusal, Solution
+from contoursolve.solving.solution import (
+    Alternative,
+    Alternatives,
+    Certificate,
+    CornerSolution,
+    Doubt,
+    Note,
+    Obstacle,
+    Point,
+    Proof,
+    Refusal,
+    Solution,
+)
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
 

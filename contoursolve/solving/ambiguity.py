@@ -30,13 +30,11 @@ from contoursolve.solving.alternatives import decide, find_alternatives
 from contoursolve.solving.compare import compare_affine
 from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, groups_of
-from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Enumeration, enumerate_solutions
 from contoursolve.solving.events import Status, Topic, events_about, refusals_about
 from contoursolve.solving.identities import is_affine
 from contoursolve.solving.partition import Group
-from contoursolve.solving.picks import Alternative, Alternatives
-from contoursolve.solving.solution import Note, Refusal, Solution
+from contoursolve.solving.solution import Alternative, Alternatives, Note, Obstacle, Refusal, Solution
 from contoursolve.solving.solve import solve
 
 

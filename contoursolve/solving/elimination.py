@@ -8,6 +8,7 @@ from msgspec import Struct
 
 from contoursolve.numeric import PRIME, Number, ball
 from contoursolve.solving.determinacy import witness_of
+from contoursolve.solving.solution import Obstacle
 from contoursolve.solving.step_equations import (
     Coefficient,
     Monomial,
@@ -21,17 +22,6 @@ from contoursolve.solving.step_equations import (
 SHEAR = 0.4140625
 """Two conics are turned by this much (as a shear) before one unknown is eliminated, so that no two of their
 intersections have the same abscissa in ordinary drawings."""
-
-
-class Obstacle(Enum):
-    """The reasons why a step could not be solved in closed form."""
-
-    SINGULAR = "at these values its equations do not fix it"
-    UNDECIDED = "whether its equations have one solution is too close to decide"
-    TOUCHING = "whether it has two solutions or none is too close to decide"
-    NO_CLOSED_FORM = "no closed form is known for it"
-    UNFINISHED = "the search was given up before all of its range was decided"
-    FARTHER = "the search was given up before all that lies farther away was decided"
 
 
 class ObstacleError(Exception):

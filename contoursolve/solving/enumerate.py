@@ -12,10 +12,11 @@ from contoursolve.numeric import SIDE, Number, ball
 from contoursolve.solving.branch_and_prune import Division, Task, conditions_of, divide, settle
 from contoursolve.solving.closed_steps import close_step
 from contoursolve.solving.determinacy import groups_of, witness_of
-from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
+from contoursolve.solving.elimination import Close, ObstacleError, Root, solve_step
 from contoursolve.solving.exact_inputs import Ground, ground_of
 from contoursolve.solving.partition import Group
 from contoursolve.solving.senses import Sense, senses_of
+from contoursolve.solving.solution import Doubt, Obstacle
 from contoursolve.solving.step_equations import Coefficient, Kernel, Local, local_of, make_kernel, polynomials_of
 
 
@@ -44,13 +45,6 @@ class ExactSolution(Struct, frozen=True):
     scalars: Mapping[str, Number]
     signs: Mapping[str, int]
     doubles: tuple[str, ...] = ()
-
-
-class Doubt(Struct, frozen=True):
-    """A part of the search that could not be decided: the unknowns of the step, and why."""
-
-    unknowns: tuple[str, ...]
-    obstacle: Obstacle
 
 
 class Enumeration(Struct, frozen=True):

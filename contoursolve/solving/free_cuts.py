@@ -31,8 +31,7 @@ from contoursolve.solving.ambiguity import restrict, settle
 from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.events import Status
 from contoursolve.solving.numbers import sizes_of
-from contoursolve.solving.picks import Alternatives
-from contoursolve.solving.solution import Point
+from contoursolve.solving.solution import Alternatives, Point
 from contoursolve.tolerance import LENGTH
 
 _SHIFTS = (-0.25, 0.25, 0.0)

@@ -6,55 +6,11 @@ from itertools import pairwise
 from math import atan2, cos, dist, pi, remainder, sin, tau
 from statistics import fmean
 
-from msgspec import Struct
-
 from contoursolve.geometry import Arc, Line, Pick, Profile, System, assemble
 from contoursolve.solving.determinacy import analyse, groups_of
-from contoursolve.solving.enumerate import Doubt
-from contoursolve.solving.events import NoteKind, RefusalKind, Status
-from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution
+from contoursolve.solving.events import NoteKind, RefusalKind
+from contoursolve.solving.solution import Alternative, Note, Point, Refusal
 from contoursolve.tolerance import LENGTH
-
-
-class Alternative(Struct, frozen=True):
-    """One solution of the equations, as a path or with what speaks against it.
-
-    `scalars` holds every unknown in mm. `sides` are the branches by the point or the elements that they are about;
-    `name` tells it from the others.
-    """
-
-    solution: Solution
-    scalars: Mapping[str, float]
-    sides: Mapping[str, str]
-    certificate: Certificate
-    name: str = ""
-
-    @property
-    def is_path(self) -> bool:
-        """Whether the control could make it."""
-        return self.solution.status in (Status.SOLVED, Status.OVERDETERMINED)
-
-
-class Alternatives(Struct, frozen=True):
-    """All solutions of a profile's equations; the list is complete, with proof, if there is no doubt.
-
-    `reach` is how far from the start point there is no other one, mm, where they were searched for; None where the
-    closed form gives all.
-    """
-
-    items: tuple[Alternative, ...]
-    doubts: tuple[Doubt, ...]
-    reach: float | None
-
-    @property
-    def is_complete(self) -> bool:
-        """Whether these are proven to be all."""
-        return not self.doubts
-
-    @property
-    def paths(self) -> tuple[Alternative, ...]:
-        """The solutions that the control could make."""
-        return tuple(item for item in self.items if item.is_path)
 
 
 def pick(paths: Sequence[Alternative], profile: Profile) -> tuple[list[Alternative], list[Refusal | Note]]:

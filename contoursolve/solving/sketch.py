@@ -38,7 +38,7 @@ from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.drawn import Asked, Drawings, Drawn, Stated, worded
 from contoursolve.solving.events import RefusalKind, Status
 from contoursolve.solving.numbers import lookup, scalars_of
-from contoursolve.solving.picks import Alternative, Alternatives
+from contoursolve.solving.solution import Alternative, Alternatives
 from contoursolve.tolerance import LARGEST
 
 Number = Decimal | float | int | str

@@ -133,3 +133,62 @@ class Solution(Struct, frozen=True):
     certificate: Certificate | None = None
     scalars: Mapping[str, float] = field(default_factory=dict)
     """Other unknowns: directions and places of lines."""
+
+
+class Obstacle(Enum):
+    """The reasons why a step could not be solved in closed form."""
+
+    SINGULAR = "at these values its equations do not fix it"
+    UNDECIDED = "whether its equations have one solution is too close to decide"
+    TOUCHING = "whether it has two solutions or none is too close to decide"
+    NO_CLOSED_FORM = "no closed form is known for it"
+    UNFINISHED = "the search was given up before all of its range was decided"
+    FARTHER = "the search was given up before all that lies farther away was decided"
+
+
+class Doubt(Struct, frozen=True):
+    """A part of the search that could not be decided: the unknowns of the step, and why."""
+
+    unknowns: tuple[str, ...]
+    obstacle: Obstacle
+
+
+class Alternative(Struct, frozen=True):
+    """One solution of the equations, as a path or with what speaks against it.
+
+    `scalars` holds every unknown in mm. `sides` are the branches by the point or the elements that they are about;
+    `name` tells it from the others.
+    """
+
+    solution: Solution
+    scalars: Mapping[str, float]
+    sides: Mapping[str, str]
+    certificate: Certificate
+    name: str = ""
+
+    @property
+    def is_path(self) -> bool:
+        """Whether the control could make it."""
+        return self.solution.status in (Status.SOLVED, Status.OVERDETERMINED)
+
+
+class Alternatives(Struct, frozen=True):
+    """All solutions of a profile's equations; the list is complete, with proof, if there is no doubt.
+
+    `reach` is how far from the start point there is no other one, mm, where they were searched for; None where the
+    closed form gives all.
+    """
+
+    items: tuple[Alternative, ...]
+    doubts: tuple[Doubt, ...]
+    reach: float | None
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether these are proven to be all."""
+        return not self.doubts
+
+    @property
+    def paths(self) -> tuple[Alternative, ...]:
+        """The solutions that the control could make."""
+        return tuple(item for item in self.items if item.is_path)

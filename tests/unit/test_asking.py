@@ -409,7 +409,7 @@ def test_a_taper_comes_back_from_a_fact_instead_of_a_word(seed: int) -> None:
     "seeds",
     [pytest.param([24], id="some"), pytest.param(range(0, 24, 6), id="more", marks=pytest.mark.slow)],
 )
-def test_the_system_of_a_contour_with_facts_has_every_symbol_and_its_function_is_what_is_solved(
+def test_a_system_with_facts_has_every_symbol_and_its_function_is_what_is_solved(
     seeds: Iterable[int],
 ) -> None:
     count = 0

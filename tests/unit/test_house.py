@@ -1,9 +1,12 @@
 """The floors of the house: a room imports only from lower floors; some imports are for some rooms only."""
 
 import ast
+import inspect
+import pydoc
 import re
 import subprocess
 import sys
+import typing
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
@@ -237,6 +240,17 @@ def test_no_public_class_name_has_two_meanings():
         for name in re.findall(r"^class ([A-Z]\w*)", code_of(module), re.MULTILINE):
             homes.setdefault(name, []).append(short(module))
     assert {name: files for name, files in homes.items() if len(files) > 1} == {}
+
+
+def test_help_and_the_types_of_every_public_name_can_be_asked_for():
+    """Types that are imported late, too; those of the explorers need another package."""
+    assert "class Answer(" in pydoc.render_doc(contoursolve, renderer=pydoc.plaintext)
+    for name in contoursolve.__all__:
+        thing = getattr(contoursolve, name)
+        if callable(thing) and not name.startswith("explore"):
+            assert typing.get_type_hints(thing) is not None
+        if inspect.isfunction(thing):
+            assert "(" in str(inspect.signature(thing))
 
 
 def test_no_control_stands_in_where_none_is_named():
