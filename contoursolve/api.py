@@ -78,7 +78,7 @@ def solve(
         text: the program, one or more lines.
         control: its name, such as `fanuc-lathe`, or a control of your own as its tables (see `Dialect`); found from
             the program where it is clear.
-        start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
+        start: words that give the start point, such as `"X40. Z0."`, as the control reads them; or `{"X": 40, "Z": 0}`.
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).
         depth: `full`, or `verdict` for findings without reasons and repairs (see `Depth`).

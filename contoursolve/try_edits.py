@@ -34,7 +34,7 @@ def what_if(
     add: Iterable[str] = (),
     change: Mapping[str, str] | None = None,
     control: str | Dialect | None = None,
-    start: str | None = None,
+    start: str | Mapping[str, float] | None = None,
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
@@ -73,7 +73,11 @@ def _edit(program: Program, address: str, text: str) -> Edit:
 
 
 def completions(
-    block: str, *, control: str | Dialect | None = None, start: str | None = None, units: str = "mm"
+    block: str,
+    *,
+    control: str | Dialect | None = None,
+    start: str | Mapping[str, float] | None = None,
+    units: str = "mm",
 ) -> tuple[Completion, ...]:
     """Every single word that would complete a block, with its value where the geometry fixes it already.
 

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit, read_edits
 from contoursolve.diagnosis.explain import (
     AGAINST,
     LEAVING_FREE,
@@ -81,6 +80,7 @@ from contoursolve.solving import (
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
+    from contoursolve.diagnosis.edits import Edit
     from contoursolve.diagnosis.equation_system import EquationSystem
     from contoursolve.gcode import Block, Word
 
@@ -108,6 +108,8 @@ class ReadBy:
 
     def read(self, claim: ParsedContour, edits: Iterable[Edit]) -> ParsedContour | None:
         """A contour with edits of its blocks; None where these are another one then, or none."""
+        from contoursolve.diagnosis.edits import read_edits  # noqa: PLC0415 - few contours are read again
+
         blocks = read_edits(claim.blocks, edits, self.dialect.modes.syntax)
         found = self.dialect.find(blocks, 0, claim.before, self.dialect.modes)
         is_same = isinstance(found, ParsedContour) and len(found.blocks) == len(claim.blocks)

@@ -16,7 +16,7 @@ from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
 from contoursolve.gcode import FACT, Directive, Program, Word, call
-from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run
+from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run, start_text
 from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.solving import Point
 
@@ -324,7 +324,7 @@ class SweepSpec(Struct, frozen=True):
 class BlockOptions(TypedDict, total=False):
     """Options of every question about a block: how it is read (see `family`)."""
 
-    start: str | None
+    start: str | Mapping[str, float] | None
     control: str | Dialect | None
     facts: Iterable[str]
     units: str
@@ -337,7 +337,7 @@ def spec_of(  # noqa: PLR0913 - what `family` takes
     block: str,
     names: Iterable[str] = (),
     *,
-    start: str | None = None,
+    start: str | Mapping[str, float] | None = None,
     control: str | Dialect | None = None,
     facts: Iterable[str] = (),
     units: str = "mm",
@@ -351,4 +351,4 @@ def spec_of(  # noqa: PLR0913 - what `family` takes
     options = tuple(sorted((settings or {}).items()))
     known = tuple((name.strip().upper(), float(value)) for name, value in (variables or {}).items())
     names = tuple(map(name_of, names))
-    return SweepSpec(block, names, start, control, stated, units, rules, options, known, branches)
+    return SweepSpec(block, names, start_text(start), control, stated, units, rules, options, known, branches)

@@ -123,7 +123,7 @@ def family(
     block: str,
     *,
     vary: Mapping[str, ArrayLike],
-    start: str | None = None,
+    start: str | Mapping[str, float] | None = None,
     control: str | Dialect | None = None,
     facts: Iterable[str] = (),
     paired: bool = False,
@@ -142,7 +142,7 @@ def family(
         vary: the values of each free word, as written in the block, by its name: its letter (`A`, `,A`), with its
             line where several have it (`2:,A`); `start.X` of the start point; for a fact, what it gives the value of
             (`length of line 1`).
-        start: words that give the start point, such as `"X40. Z0."`, as the control reads them.
+        start: words that give the start point, such as `"X40. Z0."`, as the control reads them; or `{"X": 40, "Z": 0}`.
         control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables; found from the block where it is
             clear.
         facts: further facts, as for `solve`.

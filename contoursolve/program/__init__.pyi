@@ -84,6 +84,7 @@ from .request import (
     Request as Request,
     SolveKeywords as SolveKeywords,
     SolveOptions as SolveOptions,
+    start_text as start_text,
     takes as takes,
 )
 from .running import (

@@ -76,7 +76,7 @@ class ReadingKeywords(TypedDict, total=False):
 class ProgramKeywords(ReadingKeywords, total=False):
     """These, and what is stated beside a program."""
 
-    start: "str | None"
+    start: "str | Mapping[str, float] | None"
     facts: "Iterable[str | Statement]"
     variables: "Mapping[str, float] | None"
     folders: "Iterable[str | Path]"
@@ -109,7 +109,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     """The keywords of `solve` and its kin, as they are stated; see there."""
 
     control: "str | Dialect | None" = None
-    start: str | None = None
+    start: "str | Mapping[str, float] | None" = None
     units: str = "mm"
     rules: str = "enforce"
     depth: str = "full"
@@ -124,13 +124,16 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     def request(self, name: str, dialect: Dialect | None = None) -> Request:
         """The request for the program of this name, for a control; a text alone is one fact. Raises ValueError where
         units, rules or depth is none of its choices."""
+        start = start_text(self.start)
         several = [self.facts] if isinstance(self.facts, str) else self.facts
+        if not isinstance(several, Iterable):
+            raise TypeError(f'facts are texts such as "length of line 1 = 30", not {several!r}')
         asked = Request(
             None,
             choice_of(Length, self.units, "units"),
             choice_of(Policy, self.rules, "rules"),
             choice_of(Depth, self.depth, "depth"),
-            parse(self.start, name, first_line=0) if self.start is not None else None,
+            parse(start, name, first_line=0) if start is not None else None,
             tuple(_fact(fact, -number) for number, fact in enumerate(several, 1)),
             tuple(_named(NamedAs.TRUST, self.trust) + _named(NamedAs.REFERENCE, self.reference)),
             surroundings_of(name, self.variables, self.folders),
@@ -139,6 +142,18 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
         if dialect is None and asked.around.values:
             check_names(asked.around.values, [each.modes.language for each in DIALECTS.values() if each.modes.language])
         return asked.of(dialect) if dialect is not None else asked
+
+
+def start_text(start: object) -> str | None:
+    """The words of a start point: as they are typed, or numbers by letters such as `{"X": 40, "Z": 0}`, which count as
+    the words do. Raises TypeError for anything else."""
+    if start is None or isinstance(start, str):
+        return start
+    if not isinstance(start, Mapping):
+        raise TypeError(f'the start is words such as "X40. Z0.", or {{"X": 40, "Z": 0}}, not {start!r}')
+    from contoursolve.diagnosis import typed_text  # noqa: PLC0415 - few starts are numbers
+
+    return " ".join(f"{letter}{typed_text(value)}" for letter, value in start.items())
 
 
 def takes(keywords: type[ReadingKeywords]) -> Callable[[Callable[P, T]], Callable[P, T]]:
