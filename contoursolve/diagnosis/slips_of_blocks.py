@@ -44,6 +44,7 @@ _RESPELLED = (
     (re.compile(r"(?<=\d)[ \t]+(?=\.?\d)"), ""),
     (re.compile(r"\b([GM])[OQ](?=\d)"), r"\g<1>0"),
     (re.compile(r"\b([GM])[lI]\b"), r"\g<1>1"),
+    (re.compile(r"(?<==)([AI]C)([+-]?\d+\.?\d*)(?!\S)"), r"\1(\2)"),
 )
 """Text that is almost a word, and the word."""
 
