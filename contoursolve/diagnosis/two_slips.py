@@ -55,7 +55,9 @@ def two_slips(trial: Trial) -> list[Candidate]:
         for second in drafts[key]:
             if not any(_meet(one, two) for one in first.edits for two in second.edits):
                 found.setdefault(frozenset({*first.edits, *second.edits}), both(first, second))
-    return sorted(found.values(), key=lambda each: round(each.cost, 6))[:MOST_PAIRS]
+    pairs = sorted(found.values(), key=lambda each: round(each.cost, 6))[:MOST_PAIRS]
+    prospects = trial.prospects
+    return [each for each in pairs if prospects is None or prospects.has(each.edits, is_double=True)]
 
 
 def _drafts(trial: Trial, marked: Marked) -> Iterator[Candidate]:
