@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair, Repairs
 from contoursolve.diagnosis.certain_slips import MendedText, about, certain_slips
-from contoursolve.diagnosis.edits import EditKind, edited
+from contoursolve.diagnosis.edits import Edit, EditKind, edited
 from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Depth, Policy, examine, problems, rank
 from contoursolve.diagnosis.explain import (
     AGAINST,
@@ -22,6 +22,7 @@ from contoursolve.diagnosis.explain import (
 from contoursolve.diagnosis.fix_text import fixes_of, with_fixes
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
+from contoursolve.diagnosis.slips_around import touches
 from contoursolve.diagnosis.vocabulary import names_like
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnosis.wording import SHOWN, count, join, length_text
@@ -183,6 +184,11 @@ class _Diagnosed(Struct, frozen=True):
         findings = _with_able(findings, answer, dialect, repairs)
         # The rules of a control whose words are facts of all kinds are meant as they are.
         main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
+        if main is None and repairs.repairs:
+            # What is almost a number depends on nothing.
+            places = [each.span if each.about is ReadIssue.VARIABLE else None for each in findings]
+            edits = repairs.repairs[0].edits
+            main = next((at for at, span in enumerate(places) if span and all(_writes(e, span) for e in edits)), None)
         fixing = dict[int, Sequence[Repair]]()
         if main is not None:
             for number in (main, *_both(findings)):
@@ -195,6 +201,11 @@ class _Diagnosed(Struct, frozen=True):
         alone = (each.cost_of_edits for each in repairs.repairs if not each.is_double)
         cost = min(alone, default=float("inf"))
         return cls(replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis), fixing, cost)
+
+
+def _writes(edit: Edit, span: Span) -> bool:
+    """Whether an edit writes something else at a place."""
+    return edit.kind is EditKind.CHANGE and touches(edit, span)
 
 
 def _is_like_own(word: Word, dialect: Dialect) -> bool:

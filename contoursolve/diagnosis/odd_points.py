@@ -41,12 +41,29 @@ class Vertex(NamedTuple):
     """The size of the corner at it, mm; 0 for none."""
 
 
-def aslant(answer: Answer) -> Iterator[tuple[Edit, SlipKind]]:
-    """The words without whose number all lines would be parallel to an axis, each with the one that makes them so, and
-    the slip that explains it."""
-    vertices = _vertices(answer)
-    if len(vertices) <= _FEWEST or sum(map(_is_aslant, vertices, vertices[1:])) not in (1, 2):
+Meant = tuple[Edit, SlipKind]
+"""A word with another number, and the slip that explains it."""
+
+
+def aslant(answer: Answer) -> Iterator[tuple[Meant, ...]]:
+    """The word without whose number all lines would be parallel to an axis, with each one that makes them so; of a
+    milled contour, two such words where no one does."""
+    vertices, is_turned = _vertices(answer), any(answer.plane.diameters)
+    count = _count_aslant(vertices)
+    if len(vertices) <= _FEWEST or count not in (1, 2):
         return
+    moved = [*_moves(answer, vertices)]
+    alone = [(each,) for new, each in moved if not _count_aslant(new)]
+    yield from alone
+    for new, first in moved if not (alone or is_turned) else ():
+        if _count_aslant(new) < count:
+            for last, second in _moves(answer, new):
+                if first[0].place < second[0].place and not _count_aslant(last):
+                    yield first, second
+
+
+def _moves(answer: Answer, vertices: list[Vertex]) -> Iterator[tuple[list[Vertex], Meant]]:
+    """The vertices with one of another place, at which a line that may have been meant is parallel to an axis."""
     is_turned = any(answer.plane.diameters)
     for at in range(1, len(vertices)):
         before, *after = (vertices[each].place for each in (at - 1, at + 1) if each < len(vertices))
@@ -56,17 +73,18 @@ def aslant(answer: Answer) -> Iterator[tuple[Edit, SlipKind]]:
             here = vertices[at].place[axis]
             for value in dict.fromkeys(place[axis] for place in (before, *after)):
                 new = _moved(vertices, at, axis, value)
-                if new is None or any(map(_is_aslant, new, new[1:])):
+                if new is None or _count_aslant(new) >= _count_aslant(vertices):
                     continue
                 is_short = min(before[axis], value) < here < max(before[axis], value)
                 is_shifted = is_short and abs(abs(value - here) - vertices[at].size) <= AGREEMENT
                 # A taper is meant, unless it leads back.
                 is_back = _turns(vertices, is_turned=is_turned) > _turns(new, is_turned=is_turned)
                 if is_shifted or is_back or not is_turned:
-                    yield from _explained(answer, word, value, is_shifted=is_shifted, is_back=is_back)
+                    meant = _explained(answer, word, value, is_shifted=is_shifted, is_back=is_back)
+                    yield from ((new, each) for each in meant)
 
 
-def open_end(answer: Answer) -> Iterator[tuple[Edit, SlipKind]]:
+def open_end(answer: Answer) -> Iterator[tuple[Meant, ...]]:
     """The words of a milled contour with which it ends where it began, if a slip explains their number."""
     vertices = _vertices(answer)
     if any(answer.plane.diameters) or len(vertices) <= _FEWEST:
@@ -78,7 +96,7 @@ def open_end(answer: Answer) -> Iterator[tuple[Edit, SlipKind]]:
     for vertex in reversed(vertices):
         if (word := vertex.words[apart[0]]) is not None:
             found = _explained(answer, word, start[apart[0]], is_shifted=False, is_back=False)
-            yield from (each for each in found if each[1] in (SIGN_LOST, SIGN_ADDED, POINT_MOVED, ZERO_LOST))
+            yield from ((each,) for each in found if each[1] in (SIGN_LOST, SIGN_ADDED, POINT_MOVED, ZERO_LOST))
             return
 
 
@@ -126,6 +144,10 @@ def _is_aslant(one: Vertex, other: Vertex) -> bool:
     return all(abs(one.place[axis] - other.place[axis]) > AGREEMENT for axis in (0, 1))
 
 
+def _count_aslant(vertices: list[Vertex]) -> int:
+    return sum(map(_is_aslant, vertices, vertices[1:]))
+
+
 def _moved(vertices: list[Vertex], at: int, axis: int, value: float) -> list[Vertex] | None:
     """The vertices with another number, which counts until the next one that is stated; None where nothing changes, or
     a line has no length then."""
@@ -156,9 +178,7 @@ def _turns(vertices: list[Vertex], *, is_turned: bool) -> int:
     return count
 
 
-def _explained(
-    answer: Answer, word: Word, value: float, *, is_shifted: bool, is_back: bool
-) -> Iterator[tuple[Edit, SlipKind]]:
+def _explained(answer: Answer, word: Word, value: float, *, is_shifted: bool, is_back: bool) -> Iterator[Meant]:
     """A word with another value, mm, if a slip explains it, or it is shifted by a corner."""
     claim = answer.claim
     for text in explained(word, value, claim, (*_OF_NUMBERS, *OF_DIGITS) if is_back else _OF_NUMBERS):

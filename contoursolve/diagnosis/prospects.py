@@ -104,8 +104,8 @@ class Prospects(Struct, frozen=True):
             reach,
         )
 
-    def has(self, edits: tuple[Edit, ...]) -> bool:
-        """Whether the edits may undo all that is wrong."""
+    def has(self, edits: tuple[Edit, ...], *, is_double: bool = False) -> bool:
+        """Whether the edits may undo all that is wrong, as one slip or as two."""
         touched = {edit.span.line if edit.span else edit.line for edit in edits}
         is_of_code = any(edit.address == "G" for edit in edits)
         is_everywhere = any(map(is_lasting, edits))
@@ -118,7 +118,7 @@ class Prospects(Struct, frozen=True):
             return False
         for spans in () if is_everywhere else self.words:
             # Elsewhere, it means nothing either.
-            if len(touched) > 1 or not touched & {span.line for span in spans}:
+            if (len(touched) > 1 and not is_double) or not touched & {span.line for span in spans}:
                 return False
             if not is_of_code and not any(touches(edit, span) for edit in edits for span in spans):
                 return False

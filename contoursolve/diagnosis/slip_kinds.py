@@ -232,7 +232,7 @@ def _angles(others: Callable[[Decimal], Iterable[Decimal]]) -> Callable[[Typed],
 
     def texts(typed: Typed) -> Texts:
         value = typed.value
-        if not typed.is_angle or not 0 < abs(value) <= _FULL_TURN:
+        if not typed.is_angle or abs(value) > _FULL_TURN:
             return ()
         found = (each for each in others(value) if (each or abs(value) == _HALF) and abs(each) < _FULL_TURN)
         return typed.as_value(*found)
@@ -414,7 +414,7 @@ NEIGHBOUR = SlipKind(
 SIGN_ADDED = SlipKind("sign-added", "a minus sign too many", "X-50. for X50.", 1.8, SEEN, _S, _sign_added)
 SUPPLEMENT = SlipKind(
     *("supplement", "the angle from the other side", ",A30. for ,A150.", 1.9, MEANING, _D),
-    _angles(lambda angle: [(_HALF if angle > 0 else -_HALF) - angle] if abs(angle) < _HALF else ()),
+    _angles(lambda angle: [(_HALF if angle >= 0 else -_HALF) - angle] if abs(angle) < _HALF else ()),
 )
 POINT_LOST_IN_FEW = SlipKind(
     "point-lost-few", "a lost decimal point", "X125 for X12.5", 2.2, TYPING, _D, _point_lost_in_few

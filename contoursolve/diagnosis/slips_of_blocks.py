@@ -44,6 +44,7 @@ _RESPELLED = (
     (re.compile(r"(?<=\d)[ \t]+(?=\.?\d)"), ""),
     (re.compile(r"\b([GM])[OQ](?=\d)"), r"\g<1>0"),
     (re.compile(r"\b([GM])[lI]\b"), r"\g<1>1"),
+    (re.compile(r"(?<==)([AI]C)([+-]?\d+\.?\d*)(?!\S)"), r"\1(\2)"),
 )
 """Text that is almost a word, and the word."""
 
@@ -326,8 +327,9 @@ def _respelled(near: Near) -> Iterator[Edits]:
 
 def rewritten(window: Window, blocks: Iterable[Block]) -> Iterator[Edit]:
     """Text that is almost a word, as the word: with a comma, a point or an equals sign more or less."""
-    addresses = window.dialect.modes.lexicon.addresses
-    has_marks = any(address.startswith("#") for address in addresses)
+    lexicon = window.dialect.modes.lexicon
+    equal = {address for address in lexicon.addresses if "=" in lexicon.spell(address, "1")}
+    has_marks = any(address.startswith("#") for address in lexicon.addresses)
     for block in blocks:
         for pattern, new in _RESPELLED:
             for match in pattern.finditer(block.text) if has_marks or "#" not in new else ():
@@ -335,7 +337,7 @@ def rewritten(window: Window, blocks: Iterable[Block]) -> Iterator[Edit]:
                 end = (block.text + " ").find(" ", match.end())
                 old = block.text[begin:end]
                 text = block.text[begin : match.start()] + match.expand(new) + block.text[match.end() : end]
-                if text != old and ("=" not in new or text.partition("=")[0].upper() in addresses):
+                if text != old and ("=" not in new or text.partition("=")[0].upper() in equal):
                     yield Edit(EditKind.CHANGE, "", Span(block.line, begin + 1, end + 1), old, text)
 
 

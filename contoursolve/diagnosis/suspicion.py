@@ -3,7 +3,7 @@ draws nothing where one like it would, a corner or a taper unlike all others; to
 meant."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import pairwise
+from itertools import pairwise, permutations
 
 from msgspec.structs import replace
 
@@ -58,7 +58,8 @@ def suspect(answer: Answer, window: Window) -> Answer:
     if settings.get(SUSPICIONS) == "off":
         return answer
     for reason, kinds, words in _doubtful(answer, window):
-        found = sorted(_meant(answer, window, kinds, words), key=lambda repair: repair.cost)
+        found = [*_meant(answer, window, kinds, words)] or [*_meant_twice(answer, window, kinds, words)]
+        found.sort(key=lambda repair: repair.cost)
         if found:
             finding = _told(answer, window, found, reason)
             return replace(answer, diagnostics=(*answer.diagnostics, finding))
@@ -84,7 +85,7 @@ def _unlike(answer: Answer, window: Window) -> Iterator[tuple[str, Sequence[Word
         yield reason, [word], "", [*_drafts(answer, window, (COMPLEMENT,), frozenset({word.span}))]
     aside = "a line runs aslant there, and all others are parallel to an axis"
     for reason, points in ((aside, aslant(answer)), ("the path does not end where it began", open_end(answer))):
-        if drafts := [_replaced(*each, window) for each in points]:
+        if drafts := [_replaced(each, window) for each in points]:
             yield reason, (), "", drafts
     if sharp := sharp_corner(claim, window.blocks):
         block, word = sharp
@@ -94,10 +95,12 @@ def _unlike(answer: Answer, window: Window) -> Iterator[tuple[str, Sequence[Word
         yield reason, own, f"{own[0].text.strip()} {text}", [Candidate((edit,), (None,), ())]
 
 
-def _replaced(edit: Edit, slip: SlipKind, window: Window) -> Candidate:
-    """The draft that gives a word another number."""
-    familiar = (Feature.FAMILIAR, familiarity((edit,), numbers_of(window.blocks)))
-    return Candidate((edit,), (slip,), ((Feature.KIND, slip.cost), (Feature.ROUND, rounding_of(edit)), familiar))
+def _replaced(meant: Sequence[tuple[Edit, SlipKind]], window: Window) -> Candidate:
+    """The draft that gives words other numbers."""
+    edits, slips = tuple(edit for edit, _ in meant), tuple(slip for _, slip in meant)
+    familiar = (Feature.FAMILIAR, familiarity(edits, numbers_of(window.blocks)))
+    kind = sum(slip.cost for slip in slips)
+    return Candidate(edits, slips, ((Feature.KIND, kind), (Feature.ROUND, sum(map(rounding_of, edits))), familiar))
 
 
 def _doubtful(answer: Answer, window: Window) -> Iterator[tuple[str, tuple[SlipKind, ...], frozenset[Span]]]:
@@ -162,6 +165,30 @@ def _meant(answer: Answer, window: Window, kinds: tuple[SlipKind, ...], words: f
         return is_less_wide and odd.get(Feature.TURNING, 0.0) < old.get(Feature.TURNING, 0.0) - _LESS
 
     yield from _tried(answer, window, _drafts(answer, window, kinds, words), is_better)
+
+
+def _meant_twice(
+    answer: Answer, window: Window, kinds: tuple[SlipKind, ...], words: frozenset[Span]
+) -> Iterator[Repair]:
+    """The repairs by two slips in these words without which nothing is odd, where one takes some of it away."""
+    from contoursolve.diagnosis.two_slips import both  # noqa: PLC0415 - most have one slip
+
+    odd, drafts = _odd(window.before), [*_drafts(answer, window, kinds, words)] if kinds else []
+    better = [each for each in drafts if (seen := window.mended(each.edits)) is not None and _odd(seen) < odd]
+    pairs = (both(one, two) for one, two in permutations(drafts, 2) if one in better and not _is_same(one, two))
+    found = sorted({each.edits: each for each in pairs}.values(), key=lambda each: round(each.cost, 6))
+    yield from _tried(answer, window, found[:MOST_TRIED], lambda seen: not _odd(seen))
+
+
+def _is_same(one: Candidate, two: Candidate) -> bool:
+    """Whether two drafts change the same word."""
+    return not {edit.span for edit in one.edits}.isdisjoint(edit.span for edit in two.edits)
+
+
+def _odd(seen: Seen) -> float:
+    """How much of a path is odd."""
+    odd = oddities(seen.moves)
+    return sum(odd.get(each, 0.0) for each in _ODD)
 
 
 def _drafts(answer: Answer, window: Window, kinds: tuple[SlipKind, ...], words: frozenset[Span]) -> Iterator[Candidate]:

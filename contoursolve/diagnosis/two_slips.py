@@ -8,6 +8,7 @@ from contoursolve.diagnosis.attempt import SHORT, Trial
 from contoursolve.diagnosis.edits import Edit
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.plausibility import Feature
+from contoursolve.diagnosis.reach import is_of_codes
 from contoursolve.diagnosis.slip_kinds import FEW
 from contoursolve.diagnosis.slips_around import Candidate, Marked, drafts_around, touches
 from contoursolve.diagnosis.window import Seen
@@ -17,7 +18,7 @@ MOST_FIRST, MOST_PAIRS = 16, 40
 """Slips of which each is looked at alone, and pairs that are tried; the corpus of pairs gains nothing by more."""
 
 MOST_LACKING = 2
-"""Facts that may be missing: each slip hides one word at most."""
+"""Facts that may be missing: each slip hides one word at most, unless it is of a code."""
 
 SECOND = 1.0
 """The cost of a second slip besides that of its kind: two are less likely than one."""
@@ -29,18 +30,19 @@ def two_slips(trial: Trial) -> list[Candidate]:
     cause."""
     if len(trial.claim.blocks) > SHORT or trial.claim.directives or trial.answer.profile.questions:
         return []
-    if trial.prospects is not None and trial.prospects.lacking > MOST_LACKING:
-        return []
     first_line = trial.window.lines[0]
     ahead = {each.code for each in trial.window.before.problems if each.span.line < first_line}
     if any(each.code in ahead for each in _own(trial, trial.window.before)):
         return []
     found = dict[frozenset[Edit], Candidate]()
     drafts = dict[frozenset[tuple[str, int]], list[Candidate]]()
+    is_lacking = trial.prospects is not None and trial.prospects.lacking > MOST_LACKING
     # What cannot be read is an error until an edit touches it.
     torn = {each.span for block in trial.window.own for each in block.faults}
     for first in islice(_drafts(trial, trial.marked), MOST_FIRST):
         if torn and not any(touches(edit, span) for edit in first.edits for span in torn):
+            continue
+        if is_lacking and not any(map(is_of_codes, first.edits)):
             continue
         left = _left(trial, first.edits)
         if not left:
@@ -52,8 +54,10 @@ def two_slips(trial: Trial) -> list[Candidate]:
             drafts[key] = [*islice(_drafts(trial, marked), MOST_FIRST)]
         for second in drafts[key]:
             if not any(_meet(one, two) for one in first.edits for two in second.edits):
-                found.setdefault(frozenset({*first.edits, *second.edits}), _both(first, second))
-    return sorted(found.values(), key=lambda each: round(each.cost, 6))[:MOST_PAIRS]
+                found.setdefault(frozenset({*first.edits, *second.edits}), both(first, second))
+    pairs = sorted(found.values(), key=lambda each: round(each.cost, 6))[:MOST_PAIRS]
+    prospects = trial.prospects
+    return [each for each in pairs if prospects is None or prospects.has(each.edits, is_double=True)]
 
 
 def _drafts(trial: Trial, marked: Marked) -> Iterator[Candidate]:
@@ -85,7 +89,7 @@ def _meet(one: Edit, two: Edit) -> bool:
     return touches(one, two.span)
 
 
-def _both(first: Candidate, second: Candidate) -> Candidate:
+def both(first: Candidate, second: Candidate) -> Candidate:
     """Both as one, in the order of the text."""
     parts = sorted((first, second), key=lambda each: min(edit.place for edit in each.edits))
     amounts = dict.fromkeys(Feature, 0.0)

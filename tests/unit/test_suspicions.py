@@ -12,6 +12,8 @@ from contoursolve.cli import main
 
 BACK = "G00 X40. Z0.\nG111 A180. K-30. B60. X100.\nG01 Z-60.\n"
 FILLETS = "G17 G90\nG00 X0. Y0.\nG01 X60. ,R4. F150.\nY30. ,R4.\nX40. ,R4.\nY50.\nX0. ,R4.\nY0."
+FRAME = "G17 G90\nG00 X0. Y0.\nG01 X80. Y0. ,C3. F300.\nX80. Y44. ,R6.\nX-45. Y50. ,R4.\nX45. Y65. ,C3.\nX0. Y65."
+KNOB = "G18 G90 DIAMON\nG0 X10 Z1\nG1 Z-5 F0.15\nX16 ANG=60\nCT X40 Z30\nG1 Z-50 RND=2\nX60"
 CONES = "G18 G90 DIAMON\nG0 X20 Z2\nG1 Z-15 F0.2\nX50 ANG=150\nZ-60\nX70 ANG=150\nZ-90\nX90 ANG=120\nZ-120"
 FIXES = [
     ("yasnac-lx3", BACK, 2, "write B120. for B60."),
@@ -24,6 +26,8 @@ FIXES = [
     ),
     ("isg", "G17 G90\nG0 X0 Y0\nG1 X70 F400\nG302 I2\nG1 Y45\nG310 I5\nX10", 6, "write G301 for G310"),
     ("siemens-840d", CONES, 8, "write ANG=150 for ANG=120"),
+    ("fanuc-mill", FRAME, 4, "write Y50. for Y44. (the start of the corner); write X45. for X-45."),
+    ("siemens-840d", KNOB, 4, "write ANG=120 for ANG=60 (the angle from the other side); write Z-30 for Z30"),
     (
         "yasnac-lx3",
         "G00 X40. Z0.\nG111 A180. K-20. B150. X60.\nG111 A180. K-20. B150. X80.\nG111 A180. K-20. B120. X100.",

@@ -54,6 +54,32 @@ def span_text(text: str, span: tuple[int, int, int]) -> str:
     return text.split("|")[span[0] - 1][span[1] - 1 : span[2] - 1]
 
 
+TOGETHER = {
+    "code and sign": (
+        "fanuc-mill",
+        "G17 G90|G00 X-10. Y-12.|G01 Y30. F250.|X25. ,R5.|G03 X45. Y10. R20.|G01 X70. ,C4.|Y-20. ,R8.|X-10.|Y-12.",
+        {"G01 X70.": "X70.", "Y-20.": "Y20."},
+    ),
+    "angle of 0 and sign": (
+        "yasnac-lx3",
+        "G00 X60. Z2.|G01 Z0. F0.15|G111 A180. K-25. B210. X40. P3. Q2.|G01 Z-70.|X34.",
+        {"A180.": "A0.", "Z-70.": "Z70."},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TOGETHER)
+def test_one_fix_undoes_two_slips_that_no_single_one_explains(name):
+    control, right, slips = TOGETHER[name]
+    text = right
+    for meant, typed in slips.items():
+        text = text.replace(meant, typed, 1)
+    result = contoursolve.solve(text.replace("|", "\n"), control=control)
+    finding, fix = next((each, fix) for each in result.diagnostics for fix in each.fixes)
+    changes = contoursolve.changes_of(fix, result.lines_of(finding), dict(enumerate(text.split("|"), 1)))
+    assert changed(text.replace("|", "\n"), changes).split("\n") == right.split("|")
+
+
 LOST = {
     "before another contour": (
         "G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X56. Z-80. ,R1.|Z-95.|X62.",
