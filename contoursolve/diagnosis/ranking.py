@@ -279,10 +279,10 @@ def repair_of(draft: Candidate, trial: Trial, is_better: Callable[[Seen], bool] 
     if contour is not None:
         repair = trial.made(contour, draft.edits, replacement)
     beside = tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in trial.lines)
-    evidence = _of_path(repair, seen, draft.evidence)
     # What is beside the contour draws a path, too, or says how it is followed.
     applicability = Applicability.CHANGES_CONTOUR if beside else repair.applicability
-    return replace(repair, applicability=applicability, slips=draft.slips, evidence=evidence, beside=beside)
+    repair = replace(repair, applicability=applicability, slips=draft.slips, beside=beside)
+    return replace(repair, evidence=_of_path(repair, seen, draft.evidence))
 
 
 def _weighed(repair: Repair, trial: Trial) -> Repair:
@@ -336,7 +336,7 @@ def _of_path(
         *known,
         *oddities(moves).items(),
         (Feature.POINTS, -round_points(contour)),
-        (Feature.SAME, -float(contour is not None and repair.deviation <= AGREEMENT)),
+        (Feature.SAME, -float(contour is not None and repair.deviation <= AGREEMENT and not repair.beside)),
         (Feature.WARNING, float(repair.warnings + len(_LEADING_ZERO.findall(repair.replacement)))),
     )
 
