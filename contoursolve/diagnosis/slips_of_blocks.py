@@ -28,6 +28,7 @@ _ENDS = (("X", "Y"), ("X", "Z"), ("U", "W"), ("P", "Q"))
 _MOTIONS, _AXES = ("G0", "G1", "G2", "G3"), "XYZUVW"
 _SIDES = ("G41", "G42")
 _KLARTEXT_ARCS = ("FC", "FCT", "C", "CR", "CT", "CP", "CTP")
+_TURNING = ("FC", "FCT", "C", "CR", "CP")
 _KLARTEXT_LINES = ("FL", "FLT", "L", "LP", "LT")
 _OF_PATHS = (Effect.MOTION, Effect.PLANE, Effect.CONTOUR, Effect.CORNER, Effect.ABSOLUTE, Effect.INCREMENTAL)
 _FEW_INCREMENTS = 1000
@@ -253,14 +254,22 @@ def _motion_lost(near: Near) -> Iterator[Edits]:
     like = "G01" if any(re.match(r"G0\d", word.text.strip()) for block in blocks for word in block.words) else "G1"
     for block in blocks:
         codes = [plain_code(word.text) for word in block.words if word.address == "G"]
-        motion = next((code for code in codes if code in _MOTIONS), "" if codes else motion)
+        motion = next((code for code in codes if near.window.codes.get(code) is Effect.MOTION), "" if codes else motion)
         addresses = {word.address for word in block.words}
         if not motion or codes or block.line not in near.lines or addresses.isdisjoint(_AXES):
             continue
         is_round = not addresses.isdisjoint(near.centres)
-        if is_round is not (motion in _MOTIONS[2:]):
+        if is_round is (motion in _MOTIONS[:2]):
             for code in _MOTIONS[2:] if is_round else _MOTIONS[1:2]:
                 yield (Edit(EditKind.ADD, "G", text=_like(like, code), line=block.line),)
+
+
+def _sense_lost(near: Near) -> Iterator[Edits]:
+    """The sense of rotation of an arc of Klartext that has none."""
+    for block in near.blocks:
+        codes = [plain_code(word.text) for word in block.words if word.address == "G"]
+        if block.line in near.lines and not block.find("DR") and any(code in _TURNING for code in codes):
+            yield from ((Edit(EditKind.ADD, "DR", text=text, line=block.line),) for text in ("DR+", "DR-"))
 
 
 # Blocks, and text that is no word --------------------------------------------------------------------------------
@@ -428,6 +437,7 @@ SEVERAL = (
         _codes(_pairs(*_both("G2", "G3"), *_both("DR+", "DR-"))),
     ),
     _kind("motion-lost", "", "G03 X40. Y70. R20.|X0. for G03 X40. Y70. R20.|G01 X0.", 1.6, _motion_lost),
+    _kind("sense-lost", "", "C X+10 Y+0 for C X+10 Y+0 DR+", 1.6, _sense_lost),
     _kind("line-for-arc", "an arc", "G01 X40. Y70. R20. for G02 X40. Y70. R20.", 1.6, _codes(_arc_for_line)),
     _kind("tangent", "the tangent", "FC DR+ R20|FL X+10 for FC DR+ R20|FLT X+10", 1.9, _codes(_tangents)),
     _kind(
