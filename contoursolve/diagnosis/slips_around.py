@@ -3,6 +3,7 @@ most plausible first."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from enum import Enum
 from functools import cached_property
 from itertools import chain
 
@@ -23,6 +24,7 @@ from contoursolve.diagnosis.slip_kinds import (
     LETTER_ALIKE,
     NEIGHBOUR,
     OF_DIGITS,
+    OPPOSITE,
     POINT_LOST,
     POINT_LOST_IN_FEW,
     SIGN_LOST,
@@ -42,6 +44,7 @@ from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import AXES, Block, Word
 from contoursolve.reading import ParsedContour
+from contoursolve.solving import RefusalKind
 
 MOST_TRIED, MOST_OF_DIGITS = 30, 16
 """Drafts around one finding that are tried; the rest is less plausible than these. The second of wrong digits."""
@@ -57,8 +60,10 @@ _NAMED, _ODD = 0.8, 0.6
 _READ, _NEGATIVE, _EARLIER, _SIZE, _OTHER_POINTS, _ACROSS = 1.1, 0.5, 0.6, 1.6, 1.5, 1.6
 """The costs of a wrong letter that has a meaning there, of a negative angle, of the first of two equal words, of a
 negative size, of one point that is lost where others are, and of a negative diameter."""
-_TENS = 0.3
+_TENS = 1.0
 """The cost of a zero too many in a place."""
+_REVERSED = 0.8
+"""By so much more plausible the other way along a line is that a message says to be reversed."""
 _SIZES = ("R", "CR", "P", "Q", "C", "D", "RND", "CHR", "CHF")
 _BESIDE_PLANE, _USUAL_ANGLE, _USUAL_STEP, _HALF_TURN = 1.5, 0.4, 30, 180
 """The cost of a wrong letter of an axis that lifts the tool, and by so much more plausible a lost zero is with which an
@@ -86,11 +91,13 @@ class Candidate(Struct, frozen=True):
 
 
 class Marked(Struct, frozen=True, dict=True):
-    """The places that a finding marks, and the lines in which they are; `told` are the messages about it."""
+    """The places that a finding marks, and the lines in which they are; `told` are the messages about it, and
+    `events` what they are about."""
 
     spans: frozenset[Span]
     lines: frozenset[int]
     told: str = ""
+    events: frozenset[Enum] = frozenset()
 
     @cached_property
     def named(self) -> frozenset[str]:
@@ -244,6 +251,8 @@ class Prices(Struct, frozen=True, dict=True):
         elif kind is ZERO_ADDED:
             # Of places, tens are more frequent than those of one digit.
             cost += _TENS * (edit.address[:1] in AXES)
+        elif kind is OPPOSITE:
+            cost -= _REVERSED * (RefusalKind.LINE_REVERSED in self.marked.events and edit.span in self.marked.spans)
         typed = Typed.of(word, self.speech(block, kind)) if kind in _OF_MEANING else None
         if typed is None:
             return cost
@@ -265,6 +274,9 @@ class Prices(Struct, frozen=True, dict=True):
             return -_NAMED
         if typed.is_diameter and (typed.word.number or 0) < 0:
             return -_ODD
+        if typed.word.address in "IJK" and typed.word.address not in self.window.state.plane.centers:
+            # The centre of another plane has none.
+            return 0.0
         row = self.outside.lexicon.addresses.get(typed.word.address)
         return _READ * (typed.word.span in self.read or bool(row and row.axis))
 
