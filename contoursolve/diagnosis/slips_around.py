@@ -39,12 +39,13 @@ from contoursolve.diagnosis.slip_kinds import (
     texts_of,
     turned_axis,
 )
-from contoursolve.diagnosis.slips_of_blocks import CODES, SEVERAL, Edits, Near
+from contoursolve.diagnosis.slips_of_blocks import CODES, OTHER_BLOCK, SEVERAL, Edits, Near
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import AXES, Block, Word
-from contoursolve.reading import ParsedContour
-from contoursolve.solving import RefusalKind
+from contoursolve.geometry import Unit
+from contoursolve.reading import ParsedContour, ReadIssue
+from contoursolve.solving import NoteKind, RefusalKind
 
 MOST_TRIED, MOST_OF_DIGITS = 30, 16
 """Drafts around one finding that are tried; the rest is less plausible than these. The second of wrong digits."""
@@ -55,6 +56,8 @@ _POINTED, _FEW_ROUND = 0.8, 0.5
 """By so much more plausible a lost point is where no more than this share of the numbers is round."""
 _BLOCK = 0.6
 """The distance of the block of what a finding marks."""
+_ASKED, _ASKING = 2.3, {ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED, NoteKind.SEVERAL}
+"""By so much more plausible a word was meant for the block beside if it is missing there; and what tells that."""
 _NAMED, _ODD = 0.8, 0.6
 """By so much more plausible a letter is that a message names, and another one than that of a negative diameter."""
 _READ, _NEGATIVE, _EARLIER, _SIZE, _OTHER_POINTS, _ACROSS = 1.1, 0.5, 0.6, 1.6, 1.5, 1.6
@@ -137,7 +140,7 @@ def drafts_around(
     found: dict[Edits, Candidate] = {}
     numbers, near, kinds = numbers_of(window.blocks), _near_blocks(window, marked), tuple(kinds)
     coarse, trusted = coarseness(numbers), claim.trusted if claim is not None else frozenset[Span]()
-    several = _of_several(Near(window, near)) if kinds != OF_DIGITS else iter(())
+    several = _of_several(Near(window, near), marked) if kinds != OF_DIGITS else iter(())
     words = _of_words(Prices.of(window, marked, claim), near, kinds, is_in_vain)
     for edits, slips, cost in chain(words, several):
         if any(edit.span in trusted for edit in edits) or not may_mend(edits):
@@ -170,10 +173,19 @@ def _near_blocks(window: Window, marked: Marked) -> list[Block]:
     return [block for at, block in enumerate(blocks) if at in near]
 
 
-def _of_several(near: Near) -> Iterator[tuple[Edits, Slips, float]]:
+def _of_several(near: Near, marked: Marked) -> Iterator[tuple[Edits, Slips, float]]:
     for kind in SEVERAL:
         told = kind.slip if kind.slip.sentence else None
-        yield from ((edits, (told,) * len(edits), kind.slip.cost) for edits in kind.edits(near))
+        for edits in kind.edits(near):
+            is_asked = kind.slip is OTHER_BLOCK and _is_asked(edits[1].address, near, marked)
+            yield edits, (told,) * len(edits), kind.slip.cost - _ASKED * is_asked
+
+
+def _is_asked(address: str, near: Near, marked: Marked) -> bool:
+    """Whether a message names a word because it is missing, or chooses nothing where it is."""
+    row = near.window.dialect.modes.lexicon.addresses.get(address)
+    is_missing = not marked.events.isdisjoint(_ASKING) or (row is not None and row.unit is Unit.SIGN)
+    return is_missing and address in marked.named
 
 
 def _of_words(

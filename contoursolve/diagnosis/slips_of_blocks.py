@@ -303,17 +303,21 @@ def _body(block: Block) -> Word:
 
 
 def _other_block(near: Near) -> Iterator[Edits]:
-    """A word of a corner or an angle that stands in the block before or behind the one that it belongs to."""
+    """A word of a corner or an angle, or one of two for an axis, that stands in the block before or behind the one that
+    it belongs to."""
     beside = [*pairwise(near.blocks)]
     for one, two in (*beside, *((two, one) for one, two in beside)):
         for word in one.words if two.words else ():
-            if _is_apart(word, near.window) and two.find(word.address) is None:
+            is_twice = word.address in _AXES and sum(each.address == word.address for each in one.words) > 1
+            if (is_twice or _is_apart(word, near.window)) and two.find(word.address) is None:
                 yield drop(word), Edit(EditKind.ADD, word.address, text=word.text.strip(), line=two.line)
 
 
 def _is_apart(word: Word, window: Window) -> bool:
-    """Whether a word is one of a corner or an angle, by its spelling. Without its offset, a contour lies elsewhere."""
-    is_long = word.address.startswith((",", "#")) or len(word.address) > 1
+    """Whether a word is one of a corner or an angle, by its spelling, or chooses. Without its offset, a contour lies
+    elsewhere."""
+    row = window.dialect.modes.lexicon.addresses.get(word.address)
+    is_long = word.address.startswith((",", "#")) or len(word.address) > 1 or bool(row and row.unit is Unit.SIGN)
     return is_long and word.address not in window.dialect.modes.zero.names
 
 
@@ -394,6 +398,9 @@ def _less(place: Place, other: Place) -> Place:
 
 _ORIGIN = Decimal(0), Decimal(0)
 
+OTHER_BLOCK = SlipKind(
+    "other-block", "a word of the block beside", "G01 X40.|Y70. ,C2. for G01 X40. ,C2.|Y70.", 4.2, MEANING
+)
 SEVERAL = (
     _kind("respelled", "", "G01 X30. ,,C2. for G01 X30. ,C2.", 0.5, _respelled),
     _kind("misspelt", "", "FTL X+10 for FLT X+10", 0.7, _misspelt),
@@ -469,13 +476,7 @@ SEVERAL = (
     _kind("rapid", "", "G00 X40. ,C2. for G01 X40. ,C2.", 2.8, _codes(_pairs(("G0", "G1")))),
     _kind("between", "", "G00 X0.|G01 X40. ,C2.|M08|Y70. for G00 X0.|M08|G01 X40. ,C2.|Y70.", 0.0, _between),
     _kind("blocks-swapped", "two blocks swapped", "G01 X40.|Y70. for Y70.|G01 X40.", 3.2, _swapped_blocks),
-    _kind(
-        "other-block",
-        "a word of the block beside",
-        "G01 X40.|Y70. ,C2. for G01 X40. ,C2.|Y70.",
-        4.2,
-        _other_block,
-    ),
+    SeveralKind(OTHER_BLOCK, _other_block),
     _kind("reference-lost", "", "5 FL AN+30|6 FL DP 10 for 5 FL AN+30|6 FL DP 10 PAR 5", 1.8, _references),
     _kind("too-many", "", "G01 X40. ,C2. for G01 X40.", 4.2, _dropped),
 )
