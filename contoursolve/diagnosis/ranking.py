@@ -368,12 +368,13 @@ def _large_marked(found: list[Repair], before: Contour | None) -> list[Repair]:
 
 
 def _usual_marked(found: list[Repair]) -> list[Repair]:
-    """Repairs; those whose path nobody knows turn as the most plausible one of the others does."""
+    """Repairs; those whose path nobody knows turn, and close, as the most plausible one of the others does."""
     known = (dict(each.evidence) for each in found if each.contour or each.example != each.edits)
-    turning = next((each[Feature.TURNING] for each in known if Feature.TURNING in each), _USUAL_TURNING)
+    usual = next((each for each in known if Feature.TURNING in each), {Feature.TURNING: _USUAL_TURNING})
+    path = tuple((each, usual[each]) for each in (Feature.TURNING, Feature.CLOSED) if each in usual)
     return [
         each if any(one[0] is Feature.TURNING for one in each.evidence) else
-        replace(each, evidence=(*each.evidence, (Feature.TURNING, turning)))
+        replace(each, evidence=(*each.evidence, *path))
         for each in found
     ]  # fmt: skip
 

@@ -164,6 +164,7 @@ FIRST = {
     "turn": "write A200. for A400.",  # across
     "two corners": "delete ,R1",  # large
     "nc-hook-08": "write X10 for X-10",  # long
+    "fm-frame-07": "write G90 for G91",  # closed
     "mi-lever-02": "write A350. for A170.",  # same
     "he-wing-01": "write FLT for FL",
     "he-star-02": "add PA?",
