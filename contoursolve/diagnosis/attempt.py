@@ -312,7 +312,8 @@ class Trial(Struct, frozen=True, dict=True):
             own += [block for block in self.claim.blocks if block.find(self.dialect.modes.radius)]
         own += self.claim.blocks if self.is_about(OPEN) and len(self.claim.blocks) <= SHORT else ()
         spans = {word.span for block in own for word in block.words}
-        return Marked(blamed | spans, lines | {block.line for block in own}, self.told)
+        events = frozenset(each.about for each in self.answer.diagnostics if each.about and not self.about)
+        return Marked(blamed | spans, lines | {block.line for block in own}, self.told, events)
 
     @cached_property
     def _prices(self) -> Prices:

@@ -34,6 +34,7 @@ class Feature(Enum):
     INWARD = "inward"
     TURNING = "turning"
     WIDE = "wide"
+    CLOSED = "closed"
     ACROSS = "across"
     LARGE = "large"
     LONG = "long"
@@ -52,6 +53,7 @@ FEATURES: dict[Feature, tuple[float, str]] = {
     Feature.INWARD: (0.9, "a turned path runs back across"),
     Feature.TURNING: (1.4, "the path turns by half a turn more"),
     Feature.WIDE: (1.3, "an arc sweeps more than half a turn"),
+    Feature.CLOSED: (1.4, "a milled path ends where it began, which it hardly does by chance"),
     Feature.ACROSS: (4.0, "a turned path crosses the spindle axis"),
     Feature.LARGE: (
         1.1,
@@ -239,6 +241,8 @@ def _oddities_of(cutting: Sequence[Stretch]) -> Iterator[tuple[Feature, float]]:
     yield Feature.WIDE, float(sum(abs(each.sweep) > _HALF_TURN for each in cutting))
     turned = next((each.turned for each in cutting if each.turned is not None), None)
     if turned is None:
+        gap = max(abs(one - other) for one, other in zip(cutting[0].start, cutting[-1].end, strict=True))
+        yield Feature.CLOSED, -float(len(cutting) > 1 and gap <= AGREEMENT)
         return
     cutting = [each for each in cutting if each.turned is not None]
     along = 1 - turned

@@ -279,10 +279,10 @@ def repair_of(draft: Candidate, trial: Trial, is_better: Callable[[Seen], bool] 
     if contour is not None:
         repair = trial.made(contour, draft.edits, replacement)
     beside = tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in trial.lines)
-    evidence = _of_path(repair, seen, draft.evidence)
     # What is beside the contour draws a path, too, or says how it is followed.
     applicability = Applicability.CHANGES_CONTOUR if beside else repair.applicability
-    return replace(repair, applicability=applicability, slips=draft.slips, evidence=evidence, beside=beside)
+    repair = replace(repair, applicability=applicability, slips=draft.slips, beside=beside)
+    return replace(repair, evidence=_of_path(repair, seen, draft.evidence))
 
 
 def _weighed(repair: Repair, trial: Trial) -> Repair:
@@ -336,7 +336,7 @@ def _of_path(
         *known,
         *oddities(moves).items(),
         (Feature.POINTS, -round_points(contour)),
-        (Feature.SAME, -float(contour is not None and repair.deviation <= AGREEMENT)),
+        (Feature.SAME, -float(contour is not None and repair.deviation <= AGREEMENT and not repair.beside)),
         (Feature.WARNING, float(repair.warnings + len(_LEADING_ZERO.findall(repair.replacement)))),
     )
 
@@ -368,12 +368,13 @@ def _large_marked(found: list[Repair], before: Contour | None) -> list[Repair]:
 
 
 def _usual_marked(found: list[Repair]) -> list[Repair]:
-    """Repairs; those whose path nobody knows turn as the most plausible one of the others does."""
+    """Repairs; those whose path nobody knows turn, and close, as the most plausible one of the others does."""
     known = (dict(each.evidence) for each in found if each.contour or each.example != each.edits)
-    turning = next((each[Feature.TURNING] for each in known if Feature.TURNING in each), _USUAL_TURNING)
+    usual = next((each for each in known if Feature.TURNING in each), {Feature.TURNING: _USUAL_TURNING})
+    path = tuple((each, usual[each]) for each in (Feature.TURNING, Feature.CLOSED) if each in usual)
     return [
         each if any(one[0] is Feature.TURNING for one in each.evidence) else
-        replace(each, evidence=(*each.evidence, (Feature.TURNING, turning)))
+        replace(each, evidence=(*each.evidence, *path))
         for each in found
     ]  # fmt: skip
 

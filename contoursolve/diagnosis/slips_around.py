@@ -3,6 +3,7 @@ most plausible first."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from enum import Enum
 from functools import cached_property
 from itertools import chain
 
@@ -23,6 +24,7 @@ from contoursolve.diagnosis.slip_kinds import (
     LETTER_ALIKE,
     NEIGHBOUR,
     OF_DIGITS,
+    OPPOSITE,
     POINT_LOST,
     POINT_LOST_IN_FEW,
     SIGN_LOST,
@@ -37,11 +39,13 @@ from contoursolve.diagnosis.slip_kinds import (
     texts_of,
     turned_axis,
 )
-from contoursolve.diagnosis.slips_of_blocks import CODES, SEVERAL, Edits, Near
+from contoursolve.diagnosis.slips_of_blocks import CODES, OTHER_BLOCK, SEVERAL, Edits, Near
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import AXES, Block, Word
-from contoursolve.reading import ParsedContour
+from contoursolve.geometry import Unit
+from contoursolve.reading import ParsedContour, ReadIssue
+from contoursolve.solving import NoteKind, RefusalKind
 
 MOST_TRIED, MOST_OF_DIGITS = 30, 16
 """Drafts around one finding that are tried; the rest is less plausible than these. The second of wrong digits."""
@@ -52,13 +56,17 @@ _POINTED, _FEW_ROUND = 0.8, 0.5
 """By so much more plausible a lost point is where no more than this share of the numbers is round."""
 _BLOCK = 0.6
 """The distance of the block of what a finding marks."""
+_ASKED, _ASKING = 2.3, {ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED, NoteKind.SEVERAL}
+"""By so much more plausible a word was meant for the block beside if it is missing there; and what tells that."""
 _NAMED, _ODD = 0.8, 0.6
 """By so much more plausible a letter is that a message names, and another one than that of a negative diameter."""
 _READ, _NEGATIVE, _EARLIER, _SIZE, _OTHER_POINTS, _ACROSS = 1.1, 0.5, 0.6, 1.6, 1.5, 1.6
 """The costs of a wrong letter that has a meaning there, of a negative angle, of the first of two equal words, of a
 negative size, of one point that is lost where others are, and of a negative diameter."""
-_TENS = 0.3
+_TENS = 1.0
 """The cost of a zero too many in a place."""
+_REVERSED = 0.8
+"""By so much more plausible the other way along a line is that a message says to be reversed."""
 _SIZES = ("R", "CR", "P", "Q", "C", "D", "RND", "CHR", "CHF")
 _BESIDE_PLANE, _USUAL_ANGLE, _USUAL_STEP, _HALF_TURN = 1.5, 0.4, 30, 180
 """The cost of a wrong letter of an axis that lifts the tool, and by so much more plausible a lost zero is with which an
@@ -86,11 +94,13 @@ class Candidate(Struct, frozen=True):
 
 
 class Marked(Struct, frozen=True, dict=True):
-    """The places that a finding marks, and the lines in which they are; `told` are the messages about it."""
+    """The places that a finding marks, and the lines in which they are; `told` are the messages about it, and
+    `events` what they are about."""
 
     spans: frozenset[Span]
     lines: frozenset[int]
     told: str = ""
+    events: frozenset[Enum] = frozenset()
 
     @cached_property
     def named(self) -> frozenset[str]:
@@ -130,7 +140,7 @@ def drafts_around(
     found: dict[Edits, Candidate] = {}
     numbers, near, kinds = numbers_of(window.blocks), _near_blocks(window, marked), tuple(kinds)
     coarse, trusted = coarseness(numbers), claim.trusted if claim is not None else frozenset[Span]()
-    several = _of_several(Near(window, near)) if kinds != OF_DIGITS else iter(())
+    several = _of_several(Near(window, near), marked) if kinds != OF_DIGITS else iter(())
     words = _of_words(Prices.of(window, marked, claim), near, kinds, is_in_vain)
     for edits, slips, cost in chain(words, several):
         if any(edit.span in trusted for edit in edits) or not may_mend(edits):
@@ -163,10 +173,19 @@ def _near_blocks(window: Window, marked: Marked) -> list[Block]:
     return [block for at, block in enumerate(blocks) if at in near]
 
 
-def _of_several(near: Near) -> Iterator[tuple[Edits, Slips, float]]:
+def _of_several(near: Near, marked: Marked) -> Iterator[tuple[Edits, Slips, float]]:
     for kind in SEVERAL:
         told = kind.slip if kind.slip.sentence else None
-        yield from ((edits, (told,) * len(edits), kind.slip.cost) for edits in kind.edits(near))
+        for edits in kind.edits(near):
+            is_asked = kind.slip is OTHER_BLOCK and _is_asked(edits[1].address, near, marked)
+            yield edits, (told,) * len(edits), kind.slip.cost - _ASKED * is_asked
+
+
+def _is_asked(address: str, near: Near, marked: Marked) -> bool:
+    """Whether a message names a word because it is missing, or chooses nothing where it is."""
+    row = near.window.dialect.modes.lexicon.addresses.get(address)
+    is_missing = not marked.events.isdisjoint(_ASKING) or (row is not None and row.unit is Unit.SIGN)
+    return is_missing and address in marked.named
 
 
 def _of_words(
@@ -244,6 +263,8 @@ class Prices(Struct, frozen=True, dict=True):
         elif kind is ZERO_ADDED:
             # Of places, tens are more frequent than those of one digit.
             cost += _TENS * (edit.address[:1] in AXES)
+        elif kind is OPPOSITE:
+            cost -= _REVERSED * (RefusalKind.LINE_REVERSED in self.marked.events and edit.span in self.marked.spans)
         typed = Typed.of(word, self.speech(block, kind)) if kind in _OF_MEANING else None
         if typed is None:
             return cost
@@ -265,6 +286,9 @@ class Prices(Struct, frozen=True, dict=True):
             return -_NAMED
         if typed.is_diameter and (typed.word.number or 0) < 0:
             return -_ODD
+        if typed.word.address in "IJK" and typed.word.address not in self.window.state.plane.centers:
+            # The centre of another plane has none.
+            return 0.0
         row = self.outside.lexicon.addresses.get(typed.word.address)
         return _READ * (typed.word.span in self.read or bool(row and row.axis))
 

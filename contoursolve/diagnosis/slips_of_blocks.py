@@ -28,6 +28,7 @@ _ENDS = (("X", "Y"), ("X", "Z"), ("U", "W"), ("P", "Q"))
 _MOTIONS, _AXES = ("G0", "G1", "G2", "G3"), "XYZUVW"
 _SIDES = ("G41", "G42")
 _KLARTEXT_ARCS = ("FC", "FCT", "C", "CR", "CT", "CP", "CTP")
+_TURNING = ("FC", "FCT", "C", "CR", "CP")
 _KLARTEXT_LINES = ("FL", "FLT", "L", "LP", "LT")
 _OF_PATHS = (Effect.MOTION, Effect.PLANE, Effect.CONTOUR, Effect.CORNER, Effect.ABSOLUTE, Effect.INCREMENTAL)
 _FEW_INCREMENTS = 1000
@@ -254,14 +255,22 @@ def _motion_lost(near: Near) -> Iterator[Edits]:
     like = "G01" if any(re.match(r"G0\d", word.text.strip()) for block in blocks for word in block.words) else "G1"
     for block in blocks:
         codes = [plain_code(word.text) for word in block.words if word.address == "G"]
-        motion = next((code for code in codes if code in _MOTIONS), "" if codes else motion)
+        motion = next((code for code in codes if near.window.codes.get(code) is Effect.MOTION), "" if codes else motion)
         addresses = {word.address for word in block.words}
         if not motion or codes or block.line not in near.lines or addresses.isdisjoint(_AXES):
             continue
         is_round = not addresses.isdisjoint(near.centres)
-        if is_round is not (motion in _MOTIONS[2:]):
+        if is_round is (motion in _MOTIONS[:2]):
             for code in _MOTIONS[2:] if is_round else _MOTIONS[1:2]:
                 yield (Edit(EditKind.ADD, "G", text=_like(like, code), line=block.line),)
+
+
+def _sense_lost(near: Near) -> Iterator[Edits]:
+    """The sense of rotation of an arc of Klartext that has none."""
+    for block in near.blocks:
+        codes = [plain_code(word.text) for word in block.words if word.address == "G"]
+        if block.line in near.lines and not block.find("DR") and any(code in _TURNING for code in codes):
+            yield from ((Edit(EditKind.ADD, "DR", text=text, line=block.line),) for text in ("DR+", "DR-"))
 
 
 # Blocks, and text that is no word --------------------------------------------------------------------------------
@@ -295,17 +304,21 @@ def _body(block: Block) -> Word:
 
 
 def _other_block(near: Near) -> Iterator[Edits]:
-    """A word of a corner or an angle that stands in the block before or behind the one that it belongs to."""
+    """A word of a corner or an angle, or one of two for an axis, that stands in the block before or behind the one that
+    it belongs to."""
     beside = [*pairwise(near.blocks)]
     for one, two in (*beside, *((two, one) for one, two in beside)):
         for word in one.words if two.words else ():
-            if _is_apart(word, near.window) and two.find(word.address) is None:
+            is_twice = word.address in _AXES and sum(each.address == word.address for each in one.words) > 1
+            if (is_twice or _is_apart(word, near.window)) and two.find(word.address) is None:
                 yield drop(word), Edit(EditKind.ADD, word.address, text=word.text.strip(), line=two.line)
 
 
 def _is_apart(word: Word, window: Window) -> bool:
-    """Whether a word is one of a corner or an angle, by its spelling. Without its offset, a contour lies elsewhere."""
-    is_long = word.address.startswith((",", "#")) or len(word.address) > 1
+    """Whether a word is one of a corner or an angle, by its spelling, or chooses. Without its offset, a contour lies
+    elsewhere."""
+    row = window.dialect.modes.lexicon.addresses.get(word.address)
+    is_long = word.address.startswith((",", "#")) or len(word.address) > 1 or bool(row and row.unit is Unit.SIGN)
     return is_long and word.address not in window.dialect.modes.zero.names
 
 
@@ -387,6 +400,9 @@ def _less(place: Place, other: Place) -> Place:
 
 _ORIGIN = Decimal(0), Decimal(0)
 
+OTHER_BLOCK = SlipKind(
+    "other-block", "a word of the block beside", "G01 X40.|Y70. ,C2. for G01 X40. ,C2.|Y70.", 4.2, MEANING
+)
 SEVERAL = (
     _kind("respelled", "", "G01 X30. ,,C2. for G01 X30. ,C2.", 0.5, _respelled),
     _kind("misspelt", "", "FTL X+10 for FLT X+10", 0.7, _misspelt),
@@ -430,6 +446,7 @@ SEVERAL = (
         _codes(_pairs(*_both("G2", "G3"), *_both("DR+", "DR-"))),
     ),
     _kind("motion-lost", "", "G03 X40. Y70. R20.|X0. for G03 X40. Y70. R20.|G01 X0.", 1.6, _motion_lost),
+    _kind("sense-lost", "", "C X+10 Y+0 for C X+10 Y+0 DR+", 1.6, _sense_lost),
     _kind("line-for-arc", "an arc", "G01 X40. Y70. R20. for G02 X40. Y70. R20.", 1.6, _codes(_arc_for_line)),
     _kind("tangent", "the tangent", "FC DR+ R20|FL X+10 for FC DR+ R20|FLT X+10", 1.9, _codes(_tangents)),
     _kind(
@@ -461,13 +478,7 @@ SEVERAL = (
     _kind("rapid", "", "G00 X40. ,C2. for G01 X40. ,C2.", 2.8, _codes(_pairs(("G0", "G1")))),
     _kind("between", "", "G00 X0.|G01 X40. ,C2.|M08|Y70. for G00 X0.|M08|G01 X40. ,C2.|Y70.", 0.0, _between),
     _kind("blocks-swapped", "two blocks swapped", "G01 X40.|Y70. for Y70.|G01 X40.", 3.2, _swapped_blocks),
-    _kind(
-        "other-block",
-        "a word of the block beside",
-        "G01 X40.|Y70. ,C2. for G01 X40. ,C2.|Y70.",
-        4.2,
-        _other_block,
-    ),
+    SeveralKind(OTHER_BLOCK, _other_block),
     _kind("reference-lost", "", "5 FL AN+30|6 FL DP 10 for 5 FL AN+30|6 FL DP 10 PAR 5", 1.8, _references),
     _kind("too-many", "", "G01 X40. ,C2. for G01 X40.", 4.2, _dropped),
 )

@@ -115,11 +115,12 @@ def _apart(typed: str, other: str) -> int | None:
 
 def names_like(typed: str, lexicon: Lexicon, codes: Iterable[str]) -> Iterator[str]:
     """The names that a word or a code may have been meant to have, as they are typed: one letter too many, lost or
-    exchanged, or the same letters in another order."""
+    exchanged, or the same letters in another order; of two letters the last alone if there is such a name."""
     bare, known = typed.upper(), (*codes, *(_name(each, lexicon) for each in lexicon.plain_names()))
-    for name in dict.fromkeys(known):
-        if name.strip("#,").isalpha() and name != bare and _is_like(bare.lstrip("#"), name.lstrip("#")):
-            yield name
+    names = (name for name in dict.fromkeys(known) if name.strip("#,").isalpha() and name != bare)
+    found = [name for name in names if _is_like(bare.lstrip("#"), name.lstrip("#"))]
+    turned = [name for name in found if len(bare) == _SHORTEST and sorted(name) == sorted(bare)]
+    yield from turned or found
 
 
 def _name(address: str, lexicon: Lexicon) -> str:

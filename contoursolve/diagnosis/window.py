@@ -15,7 +15,7 @@ from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
 from contoursolve.gcode import Block
 from contoursolve.geometry import Start, Unit
-from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, advance, leave
+from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, advance, arc_of, faults_of, leave
 from contoursolve.solving import ArcSegment, Contour, LineSegment, Point, Segment, opposes
 from contoursolve.tolerance import AGREEMENT
 
@@ -170,14 +170,20 @@ class Window(Struct, frozen=True, dict=True):
         return replace(_seen(seen), changed=lines)
 
     def mended(self, edits: tuple[Edit, ...], meant: Collection[Enum] = ()) -> Seen | None:
-        """The result with edits; None where it is no better, where one of its own contours has no path, or where none
-        is left although no word is dropped."""
+        """The result with edits; None where it is no better, where one of its own contours has no path, where something
+        is wrong with an arc that is left alone, or where none is left although no word is dropped."""
         seen = self.after(edits)
         if seen is None or not self.mends(seen, meant):
             return None
         is_left = self.has_contour(seen) or all(edit.kind is EditKind.DROP for edit in edits)
-        is_whole = all(part.answer is None or part.answer.contour is not None for part in self._own(seen))
-        return seen if is_left and is_whole else None
+        return seen if is_left and all(map(self._is_drawn, self._own(seen))) else None
+
+    def _is_drawn(self, part: WindowPart) -> bool:
+        """Whether a contour has a path; of plain blocks, whether nothing is wrong with their arcs."""
+        if part.answer is not None:
+            return part.answer.contour is not None
+        arcs = (arc_of(block, part.before, self.dialect.modes) for block in part.blocks)
+        return not any(arc is not None and any(faults_of(arc)) for arc in arcs)
 
     def begins_at(self, start: Start) -> bool:
         """Whether its own blocks begin at a start; else that is assumed, and the blocks before do not lead there."""
