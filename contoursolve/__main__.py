@@ -90,6 +90,22 @@ def main() -> None:
         sys.stderr.write(f"Error: the output cannot be written: {error.strerror}\n")
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(2)
+    except Exception as error:
+        if os.environ.get("CONTOURSOLVE_DEBUG"):
+            raise
+        sys.stderr.write(fault_text(error))
+        sys.exit(2)
+
+
+def fault_text(error: Exception) -> str:
+    """What is said of a fault of our own: one sentence, and how to report it."""
+    from contoursolve import __version__  # noqa: PLC0415 - hardly ever needed
+
+    what = " ".join(f"{type(error).__name__} {error}".split())[:200]
+    return (
+        f"Error: a fault of contoursolve {__version__} ended this run: {what}. Please report it, with the command and "
+        "the program; CONTOURSOLVE_DEBUG=1 shows where it is\n"
+    )
 
 
 if __name__ == "__main__":

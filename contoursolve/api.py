@@ -456,5 +456,5 @@ def read_program(path: str | Path) -> Program:
     Raises UnreadableProgramError if there is no such file, or it is not text.
     """
     name = str(path)
-    text = decode(gcode.read_bytes(name, "a program file"), name)
+    text = decode(gcode.read_bytes(name, "a program file", gcode.MOST_OF_PROGRAM), name)
     return gcode.parse(text, "<standard input>" if name == STANDARD_INPUT else name)

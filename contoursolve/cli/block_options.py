@@ -29,7 +29,7 @@ from contoursolve.cli.options import (
 from contoursolve.cli.printing import say
 from contoursolve.diagnostics import need
 from contoursolve.families import TOOL, FamilyError, RefusedError, name_of
-from contoursolve.gcode import parse
+from contoursolve.gcode import open_regular, parse
 from contoursolve.reading import ReadIssue
 from contoursolve.tolerance import LARGEST
 
@@ -148,12 +148,17 @@ def read_range(text: str) -> tuple[str, Numbers]:
     return word, numpy.fromiter((float(first + number * step) for number in range(count)), float, count)
 
 
+_MOST_BYTES = 1_000_000_000
+"""Bytes of a file with values: more than the most values take as text."""
+
+
 def _read_column(word: str, text: str) -> Numbers:
     match = _FILE.fullmatch(text)
     if match is None:
         raise click.UsageError(f"--vary {word}={text}: name a file that ends with .csv or .parquet, @FILE:COLUMN")
     file, column = Path(match["file"]), match["column"] or word
     try:
+        open_regular(file, _MOST_BYTES).close()
         found = (_from_csv if match["kind"].lower() == "csv" else _from_parquet)(file, column)
     except FileNotFoundError:
         raise FamilyError(f"{file}: no such file") from None

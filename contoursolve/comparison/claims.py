@@ -177,7 +177,9 @@ class ClaimedResult(Struct, frozen=True):
 def read_document(path: str) -> Document:
     """The bytes of a file; `-` is standard input. Raises CannotVerifyError if there is no such file."""
     try:
-        return Document("<standard input>" if path == STANDARD_INPUT else path, gcode.read_bytes(path))
+        return Document(
+            "<standard input>" if path == STANDARD_INPUT else path, gcode.read_bytes(path, most=gcode.MOST_OF_PROGRAM)
+        )
     except UnreadableProgramError as error:
         raise CannotVerifyError(str(error)) from None
 

@@ -27,7 +27,16 @@ from contoursolve.execution.macro_language import (
     Unknown,
     When,
 )
-from contoursolve.gcode import Block, Program, Syntax, UnreadableProgramError, decode, parse, read_bytes
+from contoursolve.gcode import (
+    MOST_OF_PROGRAM,
+    Block,
+    Program,
+    Syntax,
+    UnreadableProgramError,
+    decode,
+    parse,
+    read_bytes,
+)
 from contoursolve.numeric import Constant, Term
 
 
@@ -312,7 +321,7 @@ class Library:
 
     def _open(self, path: Path) -> ProgramFile | None:
         try:
-            text = decode(read_bytes(str(path)), str(path))
+            text = decode(read_bytes(str(path), most=MOST_OF_PROGRAM), str(path))
         except UnreadableProgramError:
             return None
         return ProgramFile(parse(text, path.name, syntax=self.syntax), self.language, is_other=True)

@@ -71,8 +71,11 @@ from .syntax import (
     nested as nested,
 )
 from .text import (
+    MOST_OF_OTHERS as MOST_OF_OTHERS,
+    MOST_OF_PROGRAM as MOST_OF_PROGRAM,
     STANDARD_INPUT as STANDARD_INPUT,
     UnreadableProgramError as UnreadableProgramError,
+    open_regular as open_regular,
     read_bytes as read_bytes,
 )
 from .word import (

@@ -14,7 +14,15 @@ from msgspec import Struct
 
 from contoursolve.diagnostics import UserError
 from contoursolve.gcode.decoding import encoding_of
-from contoursolve.gcode.text import STANDARD_INPUT, UnreadableProgramError, opening, standard_input
+from contoursolve.gcode.text import (
+    MOST_OF_PROGRAM,
+    STANDARD_INPUT,
+    UnreadableProgramError,
+    check_size,
+    open_regular,
+    opening,
+    standard_input,
+)
 
 ENDINGS = (
     *(".nc", ".ngc", ".cnc", ".tap", ".mpf", ".spf", ".arc", ".eia", ".min", ".h", ".gcode", ".iso"),
@@ -85,7 +93,7 @@ def open_program_file(path: str | Path) -> Iterator[OpenFile]:
     """
     name = str(path)
     with opening(name, "a program file"):
-        data = _spool() if name == STANDARD_INPUT else Path(path).open("rb")  # noqa: SIM115 - closed below
+        data = _spool() if name == STANDARD_INPUT else open_regular(path, MOST_OF_PROGRAM)
     with data:
         stamp = _stamp_of(data) if name != STANDARD_INPUT else None
         encoding, mark = encoding_of(iter(partial(data.read, _CHUNK), b""), name)
@@ -132,6 +140,7 @@ def _spool() -> BinaryIO:
     data = standard_input()
     while chunk := data.read(_CHUNK):
         copy.write(chunk)
+        check_size(copy.tell(), MOST_OF_PROGRAM)
     copy.seek(0)
     return copy  # type: ignore[return-value]
 

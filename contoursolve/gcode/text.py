@@ -1,6 +1,8 @@
 """The text of programs: files and bytes as they come from controls, tapes and DOS."""
 
 import errno
+import os
+import stat
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -45,10 +47,43 @@ _BLOCK = late_pattern(r"(?:[Nn]\d+ ?)?[Gg]\d+ ?[A-Za-z,]|[A-Za-z],?-?\d+\.? [A-Z
 """Beginning of a block."""
 
 
-def read_bytes(path: str, wanted: str = "a file") -> bytes:
-    """The bytes of a file; `-` is standard input. Raises UnreadableProgramError; `wanted` is what should be there."""
+MOST_OF_PROGRAM, MOST_OF_OTHERS = 100_000_000, 20_000_000
+"""Bytes of a program, and of a file of any other kind, that are read: a hundred times what the largest ones have."""
+
+
+def read_bytes(path: str, wanted: str = "a file", most: int = MOST_OF_OTHERS) -> bytes:
+    """The bytes of a file; `-` is standard input. Raises UnreadableProgramError, also for more than `most` bytes;
+    `wanted` is what should be there."""
     with opening(path, wanted):
-        return standard_input().read() if path == STANDARD_INPUT else Path(path).read_bytes()
+        if path != STANDARD_INPUT:
+            with open_regular(path, most) as file:
+                return file.read(most)
+        data = standard_input().read(most + 1)
+        check_size(len(data), most)
+        return data
+
+
+def open_regular(path: str | Path, most: int) -> BinaryIO:
+    """A file, open for reading. Raises OSError for what is no regular file, of which nobody knows whether it ever ends,
+    and for one of more than `most` bytes."""
+    mode = Path(path).stat().st_mode
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(mode):
+        raise OSError(errno.EINVAL, "it is a pipe or a device, not a file; give its text on standard input, as -")
+    file = Path(path).open("rb")  # noqa: SIM115 - the caller closes it
+    try:
+        check_size(os.fstat(file.fileno()).st_size, most)
+    except OSError:
+        file.close()
+        raise
+    return file
+
+
+def check_size(size: int, most: int) -> None:
+    """Raise OSError for more bytes than are read."""
+    if size > most:
+        raise OSError(errno.EFBIG, f"it has more than {most // 1_000_000} MB, and no more are read")
 
 
 def standard_input() -> BinaryIO:

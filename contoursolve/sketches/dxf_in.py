@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS
 from contoursolve.diagnostics import importing
+from contoursolve.gcode import MOST_OF_OTHERS, open_regular
 from contoursolve.sketches.dxf_chain import (
     JOINED,
     Contents,
@@ -196,11 +197,17 @@ class _Placing(Struct, frozen=True):
         return (at[0] - self.origin[0]) * self.scale, (at[1] - self.origin[1]) * self.scale
 
 
+def _read(path: str | Path) -> bytes:
+    """The bytes of a file. Raises OSError."""
+    with open_regular(path, MOST_OF_OTHERS) as file:
+        return file.read()
+
+
 def _opened(drawing: str | Path | bytes) -> tuple[Any, list[str]]:
     """The document of a drawing, and what is damaged in it. Raises DxfError, OSError, MissingExtraError."""
     with importing("dxf", "reading a DXF drawing"):
         from ezdxf.recover import read as recover  # noqa: PLC0415 - an extra
-    data = drawing if isinstance(drawing, bytes) else Path(drawing).read_bytes()
+    data = drawing if isinstance(drawing, bytes) else _read(drawing)
     if data.startswith(b"AC10"):
         raise DxfError("this is a DWG drawing; save it as DXF in your CAD")
     notes = list[str]()

@@ -157,6 +157,53 @@ def test_a_fact_with_characters_that_the_program_cannot_hold_is_told(folder, dat
     assert "error" in done.stderr
 
 
+WAYS_IN = (
+    *("check IN", "solve IN", "expand IN", "convert IN --to isg", "plot IN", "report IN", "filter IN", "verify IN IN"),
+    *("diff IN IN", "write IN --to fanuc-mill", "check IN --baseline IN", "check part.nc --baseline IN"),
+    *("verify part.nc IN", "plot IN.toml", "write IN.dxf --to fanuc-mill", "solve part.nc --tool-table IN"),
+)
+"""Commands with a file of each kind that is read."""
+
+
+@pytest.mark.parametrize("way", WAYS_IN)
+@pytest.mark.parametrize("kind", ["pipe", "endless", "large", "folder"])
+def test_what_is_no_file_of_a_usual_size_is_refused_at_once(folder, way, kind):
+    """A pipe without a writer once waited for ever; ten gigabytes of nothing were read."""
+    Path("part.nc").write_text(PROGRAM)
+    name = next(each for each in way.split() if each.startswith("IN"))
+    if kind == "large":
+        with Path(name).open("wb") as file:
+            file.truncate(10**10)
+    elif kind == "folder" and "check" not in way:
+        Path(name).mkdir()
+    elif hasattr(os, "mkfifo"):
+        os.mkfifo(name) if kind == "pipe" else Path(name).symlink_to("/dev/zero")
+    result = run(*way.split(), status=2)
+    assert len(result.output.strip().split("\n")) <= 4, result.output
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes with names")
+def test_a_subprogram_that_is_a_pipe_is_not_there(folder):
+    Path("part.nc").write_text(
+        "(contoursolve control: fanuc-lathe)\nG00 X30. Z0.\nG01 Z-10. ,R2.\nX40.\nM98 P3000\nG01 Z-20. ,R5.\nX60."
+    )
+    os.mkfifo("O3000.NC")
+    run("check", "part.nc", status=1, says="1 solved")
+    run("check", ".", status=2, says="O3000.NC cannot be read: it is a pipe or a device")
+
+
+@pytest.mark.parametrize("debug", ["", "1"])
+def test_a_fault_of_our_own_is_one_sentence_and_a_status(debug):
+    run = "import contoursolve.__main__ as entry; entry.commands = lambda: {}['corner 1']; entry.main()"
+    environment = {**os.environ, "CONTOURSOLVE_DEBUG": debug}
+    done = subprocess.run([sys.executable, "-c", run], env=environment, capture_output=True, text=True, check=False)
+    first = (
+        "Traceback" if debug else "Error: a fault of contoursolve 0.1.0 ended this run: KeyError 'corner 1'. Please "
+    )
+    assert done.stderr.startswith(first)
+    assert (done.returncode, done.stderr.count("\n") == 1) == ((1, False) if debug else (2, True))
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
 def test_a_pipe_holds_no_settings(folder):
     for name, status in (("contoursolve.toml", 2), ("pyproject.toml", 0)):
