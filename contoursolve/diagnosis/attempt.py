@@ -35,6 +35,7 @@ from contoursolve.diagnosis.prospects import Prospects
 from contoursolve.diagnosis.reach import Reach, is_of_codes
 from contoursolve.diagnosis.slip_kinds import ROUND, SlipKind, partners, recognise
 from contoursolve.diagnosis.slips_around import (
+    OPEN,
     Marked,
     Prices,
 )
@@ -543,7 +544,6 @@ _USUAL_ANGLES = [Decimal(each) for each in (45, 135, 90, 30, 60, 120, 150, 0)]
 _MOST_NUMBERS = 8
 """Numbers that are tried for one placeholder, where none can be computed."""
 
-OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 _OF_CIRCLES = tuple(kind for kind in RefusalKind if re.search("radius|circle", kind.event.code))
 
 

@@ -96,7 +96,7 @@ class Policy(Enum):
     """The rules are not applied: the geometry alone decides."""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
 class ReadBy:
     """The control that reads a contour, and what its rules do; with it the contour can be read again."""
 
@@ -105,6 +105,12 @@ class ReadBy:
 
     def __repr__(self) -> str:
         return f"ReadBy({self.dialect.name!r}, {self.policy})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ReadBy) and repr(self) == repr(other)
+
+    def __hash__(self) -> int:
+        return hash(repr(self))
 
     def read(self, claim: ParsedContour, edits: Iterable[Edit]) -> ParsedContour | None:
         """A contour with edits of its blocks; None where these are another one then, or none."""

@@ -8,7 +8,7 @@ from math import copysign, sqrt
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import OPEN, Repairs, Trial
+from contoursolve.diagnosis.attempt import Repairs, Trial
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
     commas,
@@ -23,6 +23,7 @@ from contoursolve.diagnosis.examine import Answer, Policy, examine, problems
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.ranking import choose_repairs
 from contoursolve.diagnosis.slip_kinds import explained
+from contoursolve.diagnosis.slips_around import OPEN
 from contoursolve.diagnosis.spelling import torn_codes
 from contoursolve.diagnosis.stated_values import Geometry
 from contoursolve.diagnosis.subsets import (

@@ -24,7 +24,6 @@ from contoursolve.diagnosis.slip_kinds import (
     LETTER_ALIKE,
     NEIGHBOUR,
     OF_DIGITS,
-    OPPOSITE,
     POINT_LOST,
     POINT_LOST_IN_FEW,
     SIGN_LOST,
@@ -56,7 +55,9 @@ _POINTED, _FEW_ROUND = 0.8, 0.5
 """By so much more plausible a lost point is where no more than this share of the numbers is round."""
 _BLOCK = 0.6
 """The distance of the block of what a finding marks."""
-_ASKED, _ASKING = 2.3, {ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED, NoteKind.SEVERAL}
+OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
+"""What is said of a contour that lacks something."""
+_ASKED, _ASKING = 2.3, {*OPEN, NoteKind.SEVERAL}
 """By so much more plausible a word was meant for the block beside if it is missing there; and what tells that."""
 _NAMED, _ODD = 0.8, 0.6
 """By so much more plausible a letter is that a message names, and another one than that of a negative diameter."""
@@ -65,8 +66,6 @@ _READ, _NEGATIVE, _EARLIER, _SIZE, _OTHER_POINTS, _ACROSS = 1.1, 0.5, 0.6, 1.6, 
 negative size, of one point that is lost where others are, and of a negative diameter."""
 _TENS = 1.0
 """The cost of a zero too many in a place."""
-_REVERSED = 0.8
-"""By so much more plausible the other way along a line is that a message says to be reversed."""
 _SIZES = ("R", "CR", "P", "Q", "C", "D", "RND", "CHR", "CHF")
 _BESIDE_PLANE, _USUAL_ANGLE, _USUAL_STEP, _HALF_TURN = 1.5, 0.4, 30, 180
 """The cost of a wrong letter of an axis that lifts the tool, and by so much more plausible a lost zero is with which an
@@ -263,8 +262,6 @@ class Prices(Struct, frozen=True, dict=True):
         elif kind is ZERO_ADDED:
             # Of places, tens are more frequent than those of one digit.
             cost += _TENS * (edit.address[:1] in AXES)
-        elif kind is OPPOSITE:
-            cost -= _REVERSED * (RefusalKind.LINE_REVERSED in self.marked.events and edit.span in self.marked.spans)
         typed = Typed.of(word, self.speech(block, kind)) if kind in _OF_MEANING else None
         if typed is None:
             return cost

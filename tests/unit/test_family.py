@@ -274,7 +274,7 @@ def test_a_value_that_is_asked_for_is_a_column():
         (BLOCK, {"start": None}, FamilyError, "start point"),
         (BLOCK, {"units": "cm"}, ValueError, "units cannot be 'cm'; choose from mm, inch"),
         (BLOCK, {"rules": "none"}, ValueError, "rules cannot be 'none'; choose from enforce, warn, off"),
-        (BLOCK, {"start": ("X40.", "Z0.")}, TypeError, "the start is a text"),
+        (BLOCK, {"start": ("X40.", "Z0.")}, TypeError, "the start is words such as"),
         (BLOCK, {"vary": ["A", "B"]}, TypeError, "vary is a mapping"),
         (
             BLOCK,

@@ -191,7 +191,6 @@ FIRST = {
     "hm-slot-02": "write I25. for K25.",
     "ya-collar-01": "write I12. for I24.",
     "nc-wedge-05": "write ,A60 for ,A6",
-    "nc-rail-04": "write ,A345 for ,A165 (the other way along the line)",
 }
 """The first fix of a slip, and the feature of `diagnosis/plausibility.py` that decides that it is the first."""
 
