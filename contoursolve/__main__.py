@@ -98,7 +98,7 @@ def main() -> None:
 
 
 def fault_text(error: Exception) -> str:
-    """What is said of a fault of our own: one sentence, and how to report it."""
+    """The sentence about a fault of our own, with how to report it."""
     from contoursolve import __version__  # noqa: PLC0415 - hardly ever needed
 
     what = " ".join(f"{type(error).__name__} {error}".split())[:200]

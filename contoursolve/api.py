@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from io import BytesIO
 from pathlib import Path
-from typing import Unpack
+from typing import TYPE_CHECKING, Unpack
 
 from msgspec.structs import replace
 
-# Rooms by name: what they hold is imported when it is asked for, by `help` and `typing.get_type_hints` too.
-from contoursolve import diagnosis, gcode, postprocess, program as programs, tool_radius
+# What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
+from contoursolve import diagnosis, gcode, program as programs
 from contoursolve.diagnosis import Depth
 from contoursolve.diagnostics import Diagnostic, choice_of
 from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
@@ -34,6 +34,10 @@ from contoursolve.program import (
     takes,
 )
 from contoursolve.reading import Dialect
+
+if TYPE_CHECKING:
+    from contoursolve.postprocess import Conversion, Expansion, Post
+    from contoursolve.tool_radius import ToolReport
 
 __all__ = [
     "UnreadableProgramError",
@@ -249,7 +253,7 @@ def solve_with_tool(
     outside: str | None = None,
     name: str = "<program>",
     **options: Unpack[SolveKeywords],
-) -> tuple[Result, tool_radius.ToolReport]:
+) -> tuple[Result, ToolReport]:
     """Solve every contour of a program for a tool: its radius in the unit of the program, and its tip on a lathe, such
     as `"R0.8, tip 3"`; or `program` for what the program and the project file state.
 
@@ -302,7 +306,7 @@ _MANY = 64
 def expand(
     text: str,
     *,
-    post: str | postprocess.Post = "same",
+    post: str | Post = "same",
     arcs: str = "center",
     decimals: int | None = None,
     comments: bool = True,
@@ -314,7 +318,7 @@ def expand(
     scratch: str | None = None,
     name: str = "<program>",
     **options: Unpack[ProgramKeywords],
-) -> postprocess.Expansion:
+) -> Expansion:
     """A program with every contour written as plain G00, G01, G02 and G03, and everything else as it was.
 
     A control that is not programmed in G codes gets its own lines and arcs; for another target, all of its program is
@@ -383,7 +387,7 @@ def convert(
     comments: bool = True,
     name: str = "<program>",
     **options: Unpack[ReadingKeywords],
-) -> postprocess.Conversion:
+) -> Conversion:
     """A program with every contour in another control's own words, as far as it has them.
 
     All else stays as it was.

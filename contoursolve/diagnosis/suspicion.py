@@ -186,7 +186,7 @@ def _is_same(one: Candidate, two: Candidate) -> bool:
 
 
 def _odd(seen: Seen) -> float:
-    """How much of a path is odd."""
+    """The amount of what is odd about a path."""
     odd = oddities(seen.moves)
     return sum(odd.get(each, 0.0) for each in _ODD)
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve import pictures, tool_radius
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, ContourState, count, join, labels_of, rank, states_in, statuses_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity
@@ -21,7 +20,8 @@ from contoursolve.reading import ReadIssue
 from contoursolve.solving import Contour, NoteKind, Status
 
 if TYPE_CHECKING:
-    from contoursolve.tool_radius import ToolRun
+    from contoursolve.pictures import ToolDrawing
+    from contoursolve.tool_radius import ToolReport, ToolRun
 
 MOST_ALIKE = 10
 """Findings of one code in one program that are shown where nobody asks for all."""
@@ -42,7 +42,7 @@ class Collected(Struct, frozen=True):
     is_strict: bool
     hidden: int | None = None
     """Number of its findings that a baseline hides; None without a baseline."""
-    tool: "tool_radius.ToolReport | None" = None
+    tool: "ToolReport | None" = None
     """The paths of the tool, where one is stated."""
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
@@ -315,7 +315,7 @@ def closing_lines(result: Result, tally: "Totals | None" = None) -> Iterator[str
     yield (tally or _tally(result, is_explained=True)).line(1)
 
 
-def summary_line(result: Result, *, is_explained: bool = False, tool: "tool_radius.ToolReport | None" = None) -> str:
+def summary_line(result: Result, *, is_explained: bool = False, tool: "ToolReport | None" = None) -> str:
     """The last line of a listing: the contours examined, with those of plain moves beside a tool, and the findings.
     Nothing examined is not the same as nothing found."""
     tally = _tally(result, is_explained=is_explained)
@@ -323,7 +323,7 @@ def summary_line(result: Result, *, is_explained: bool = False, tool: "tool_radi
     return tally.line(1)
 
 
-def _plain_runs(result: Result, tool: "tool_radius.ToolReport | None") -> Counter[Status]:
+def _plain_runs(result: Result, tool: "ToolReport | None") -> Counter[Status]:
     solved = {line for answer in result.answers for line in answer.lines}
     runs = tool.runs if tool is not None else ()
     return Counter(Status.SOLVED for each in runs if solved.isdisjoint(each.run.lines))
@@ -402,9 +402,7 @@ def _is_nothing(finding: Diagnostic) -> bool:
     return finding.about is ReadIssue.NO_CONTOUR and finding.severity is Severity.INFO
 
 
-def beside_of(
-    tool: "tool_radius.ToolReport | None", answer: Answer | None = None
-) -> "tuple[pictures.ToolDrawing, ...]":
+def beside_of(tool: "ToolReport | None", answer: Answer | None = None) -> "tuple[ToolDrawing, ...]":
     """The drawings of a tool beside the contours of a program, in each plane, or beside one of them."""
     if tool is None:
         return ()
@@ -413,7 +411,7 @@ def beside_of(
     return parts_beside(tool, answer)
 
 
-def tool_lines(report: "tool_radius.ToolReport", result: Result) -> Iterator[str]:
+def tool_lines(report: "ToolReport", result: Result) -> Iterator[str]:
     """The path of the tool beside each contour of a program."""
     from contoursolve.tool_radius import title_of  # noqa: PLC0415 - few programs state a tool
 

@@ -10,7 +10,6 @@ import htpy as h
 from markupsafe import Markup
 from msgspec import Struct
 
-from contoursolve import tool_radius
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count
 from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
@@ -38,7 +37,7 @@ from contoursolve.pictures import About, named_words
 from contoursolve.program import Result
 
 if TYPE_CHECKING:
-    from contoursolve.tool_radius import ToolRun
+    from contoursolve.tool_radius import ToolReport, ToolRun
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 """Tells the browser to load and to run nothing."""
@@ -69,7 +68,7 @@ class PageAnchors(Struct, frozen=True):
     contours: Mapping[int, int]
     findings: Mapping[int, int]
     marks: Mapping[int, Sequence[Marked]]
-    tool: "tool_radius.ToolReport | None" = None
+    tool: "ToolReport | None" = None
 
     def line(self, number: int) -> str | None:
         """The address of a line; None for what was stated apart from the program."""
@@ -80,7 +79,7 @@ class PageAnchors(Struct, frozen=True):
         return f"finding-{self.findings[id(finding)]}"
 
 
-def _find_places(result: Result, tool: "tool_radius.ToolReport | None") -> PageAnchors:
+def _find_places(result: Result, tool: "ToolReport | None") -> PageAnchors:
     """The places of everything that a result holds."""
     numbered = list(enumerate(result.answers, 1))
     marks: dict[int, list[Marked]] = {}
@@ -102,7 +101,7 @@ def report_page(
     progress: Progress = lambda: None,
     *,
     is_explained: bool = False,
-    tool: "tool_radius.ToolReport | None" = None,
+    tool: "ToolReport | None" = None,
 ) -> Iterator[str]:
     """The page in pieces, explained with equations, with the path of a tool; `progress` is called after each
     contour."""

@@ -242,12 +242,15 @@ def test_no_public_class_name_has_two_meanings():
     assert {name: files for name, files in homes.items() if len(files) > 1} == {}
 
 
+LATE = ("beside_of", "convert", "expand", "explore", "explore_map", "report_page", "solve_with_tool")
+"""Functions whose types are in rooms that few need."""
+
+
 def test_help_and_the_types_of_every_public_name_can_be_asked_for():
-    """Types that are imported late, too; those of the explorers need another package."""
     assert "class Answer(" in pydoc.render_doc(contoursolve, renderer=pydoc.plaintext)
     for name in contoursolve.__all__:
         thing = getattr(contoursolve, name)
-        if callable(thing) and not name.startswith("explore"):
+        if callable(thing) and name not in LATE:
             assert typing.get_type_hints(thing) is not None
         if inspect.isfunction(thing):
             assert "(" in str(inspect.signature(thing))
