@@ -56,7 +56,7 @@ _POINTED, _FEW_ROUND = 0.8, 0.5
 _BLOCK = 0.6
 """The distance of the block of what a finding marks."""
 OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
-"""What is said of a contour that lacks something."""
+"""The events of a contour that lacks something."""
 _ASKED, _ASKING = 2.3, {*OPEN, NoteKind.SEVERAL}
 """By so much more plausible a word was meant for the block beside if it is missing there; and what tells that."""
 _NAMED, _ODD = 0.8, 0.6
