@@ -177,7 +177,8 @@ class Examination:
         ahead = [block for each in reversed([*near(cursor.ahead)]) for block in each]
         around = [*ahead, *view[: found.lines + NEAR]]
         lost = lost_points(blocks, around, modes) if not cursor.state.is_incremental else []
-        return next(((at, word) for at, block in enumerate(blocks) for word in lost if word in block.words), None)
+        read = [word for word in lost if word.address in modes.lexicon.addresses]
+        return next(((at, word) for at, block in enumerate(blocks) for word in read if word in block.words), None)
 
     def _explain_lost(self, word: Word, blocks: Sequence[Block], state: State) -> Diagnostic:
         """That a word of some blocks has lost its point."""

@@ -272,8 +272,11 @@ class Recogniser:
 
     @property
     def _kind(self) -> str:
-        """The kind of machine that words speak for; empty where none does, or both are spoken for."""
+        """The kind of machine that words speak for; empty where none does, or both are spoken for alike."""
         kinds = self._shown & {_LATHE, _MILL}
+        if len(kinds) > 1:
+            # A lathe may have Y, and it drills.
+            kinds = {each for each in kinds if f"sure {each}" in self._shown}
         return next(iter(kinds)) if len(kinds) == 1 else ""
 
     def find(self) -> Dialect | None:
@@ -327,10 +330,16 @@ _KINDS = {
     _MILL: late_pattern(
         r"(?<![A-Z_$\[,])(?:Y\s*[-+.\d]|G0*43(?!\d).*H\s*\d|M0*6(?!\d)|G0*8[123](?!\d))", re.IGNORECASE
     ),
+    f"sure {_LATHE}": late_pattern(
+        r"(?<![A-Z_$\[,])(?:G0*50(?!\d).*S\s*\d|G0*96(?!\d)|G0*71(?!\d).*P\s*\d.*Q\s*\d|G0*76(?!\d).*P\s*\d{6})",
+        re.IGNORECASE,
+    ),
+    f"sure {_MILL}": late_pattern(r"(?<![A-Z_$\[,])G0*43(?!\d).*H\s*\d", re.IGNORECASE),
 }
 """Words that speak for a kind of machine, on Fanuc and its kin: tools with their offset in one number, limits of the
 spindle, constant cutting speed, increments by U and W, cycles that turn, feeds per turn; and of a mill Y, tool lengths,
-tool changes, drilling. A plane, G90 or G95 speaks for neither (assumed, from real programs)."""
+tool changes, drilling. A plane, G90 or G95 speaks for neither (assumed, from real programs). Where both are spoken for,
+the sure ones decide: limits of the spindle, constant cutting speed and turning cycles, or tool lengths."""
 _OF_CONTOURS = frozenset("ABCDIKPQRUW")
 """Words of a contour, which no pole has."""
 _OTHER_WORDS = {

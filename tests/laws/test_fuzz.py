@@ -105,6 +105,11 @@ MENDED = [
     ("fanuc-lathe", "sensitivity {blocks}", "G00 X20. Z0.\nG01 Z-20. ,R5. (contoursolve trust: X777.)\nX40. Z-30."),
     ("haas-mill", "convert part.nc --to fanuc-mill --rules off", "G17 G90 G00 X0 Y0\nG00 X30.\n,C5.\nX40. Y40."),
     ("heidenhain", "sweep {blocks} --vary tool=1:9:4 --side left --quiet", "X0 Y0\nFL AN+60\nFL X+80 Y+20 AN-30"),
+    (
+        "fanuc-mill",
+        "check part.nc",
+        "G01X-.032F.005\nG00Z.05\nX.625\nG71U400R500\nG71P10Q11U420W150F.009\nX-0.3708Y.0356 ,R0.02",
+    ),
     ("yasnac-lx3", "sensitivity {blocks}", "G00 X100. Z-50.\nG112 U0 I10. K-50. R30. P5. Q5.\nG00 X60.\nG112"),
     ("cnc-pilot", "solve part.nc", "FERTIGTEIL\nG0 X30 Z0\nG1 X30 Z-20\nG1 Z? X30\nG1 X30 Z-50\nG1 A60"),
     ("heidenhain", "check part.nc", "L X+0 Y+0\nFL X+30 Y+0\nFCT DR+ R10 CCA+0\nFLT\nFC DR+ R10\nFCT DR- CCX+Q1"),

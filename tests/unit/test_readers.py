@@ -57,6 +57,10 @@ PECKED = "G43 H1 Z5.\nG83 X10. Z-20. R2. Q5. F90\nG80"
         (f"G18\nG28 U0 W0\n{TURNED}", "fanuc-lathe"),
         (f"G18\nG76 P010060 Q100 R0.02\n{TURNED}", "fanuc-lathe"),
         (f"G18\n{TURNED.replace('M30', 'W-2.')}", "fanuc-lathe"),
+        # A lathe may have Y, and it drills.
+        (f"G18 G20 G99\nT0101\nG50 S2000\nG96 S200 M3\n{TURNED.replace('M30', 'G28 U0. Y0.')}", "fanuc-lathe"),
+        (f"G18 G20 G40 G80 G90 G99\nT0101\nG96 S1050 M3\nG0 X0 Z.1\nG83 Z-1.05 F.01\n{TURNED}", "fanuc-lathe"),
+        ("G17\nG43 H1 Z5.\nT0101\nG00 X0 Y0\nG01 X30. F100 ,R2.\nY20.", "nct-99m"),
         # Both are spoken for: what a plane says counts.
         (f"G18\nT0101 M06\n{TURNED}", None),
         (f"G18\n{TURNED}", None),
