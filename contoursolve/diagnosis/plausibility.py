@@ -180,8 +180,7 @@ def familiarity(edits: Iterable[Edit], numbers: NumbersAround) -> float:
     found = 0.0
     for edit in changes.values():
         new, old = number_in(edit.text), number_in(edit.old)
-        # What fits is computed from the numbers around.
-        if new and edit.text != edit.old and edit.why is not Why.FITS and (number := Decimal(new)):
+        if new and edit.text != edit.old and (number := Decimal(new)):
             letters = {address for span, address in numbers.places.get(number, ()) if span not in changes}
             is_same = edit.address.strip(",#") in letters
             if new != old:

@@ -3,6 +3,7 @@ most plausible first."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from decimal import Decimal
 from enum import Enum
 from functools import cached_property
 from itertools import chain
@@ -64,8 +65,8 @@ _NAMED, _ODD = 0.8, 0.6
 _READ, _NEGATIVE, _EARLIER, _SIZE, _OTHER_POINTS, _ACROSS = 1.1, 0.5, 0.6, 1.6, 1.5, 1.6
 """The costs of a wrong letter that has a meaning there, of a negative angle, of the first of two equal words, of a
 negative size, of one point that is lost where others are, and of a negative diameter."""
-_TENS = 1.0
-"""The cost of a zero too many in a place."""
+_TENS, _IN_PLACE = 1.0, 0.3
+"""The costs of a zero too many in a place of whole tens, and in another one."""
 _SIZES = ("R", "CR", "P", "Q", "C", "D", "RND", "CHR", "CHF")
 _BESIDE_PLANE, _USUAL_ANGLE, _USUAL_STEP, _HALF_TURN = 1.5, 0.4, 30, 180
 """The cost of a wrong letter of an axis that lifts the tool, and by so much more plausible a lost zero is with which an
@@ -261,7 +262,8 @@ class Prices(Struct, frozen=True, dict=True):
             cost -= _POINTED * self._is_coarse
         elif kind is ZERO_ADDED:
             # Of places, tens are more frequent than those of one digit.
-            cost += _TENS * (edit.address[:1] in AXES)
+            is_round = Decimal(number_in(edit.old) or 1) % 10 == 0
+            cost += (_TENS if is_round else _IN_PLACE) * (edit.address[:1] in AXES)
         typed = Typed.of(word, self.speech(block, kind)) if kind in _OF_MEANING else None
         if typed is None:
             return cost
