@@ -167,7 +167,8 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
     if is_absolute or codes & _OF_A_MILL or "Y" in stated:
         shown.add(_MILLED)
     text = ISO.comment.sub(" ", block.text)
-    shown |= {mark for mark, pattern in _KINDS.items() if pattern.search(text)}
+    kinds = {mark for mark, pattern in _KINDS.items() if pattern.search(text)}
+    shown |= kinds | {f"sure {mark}" for mark in kinds if _SURE[mark].search(text)}
     shown |= {mark for mark, pattern in _OTHER_WORDS.items() if pattern.search(block.text)}
     if "Y" in stated:
         shown.add(Y_AXIS)
@@ -330,16 +331,19 @@ _KINDS = {
     _MILL: late_pattern(
         r"(?<![A-Z_$\[,])(?:Y\s*[-+.\d]|G0*43(?!\d).*H\s*\d|M0*6(?!\d)|G0*8[123](?!\d))", re.IGNORECASE
     ),
-    f"sure {_LATHE}": late_pattern(
-        r"(?<![A-Z_$\[,])(?:G0*50(?!\d).*S\s*\d|G0*96(?!\d)|G0*71(?!\d).*P\s*\d.*Q\s*\d|G0*76(?!\d).*P\s*\d{6})",
-        re.IGNORECASE,
-    ),
-    f"sure {_MILL}": late_pattern(r"(?<![A-Z_$\[,])G0*43(?!\d).*H\s*\d", re.IGNORECASE),
 }
 """Words that speak for a kind of machine, on Fanuc and its kin: tools with their offset in one number, limits of the
 spindle, constant cutting speed, increments by U and W, cycles that turn, feeds per turn; and of a mill Y, tool lengths,
 tool changes, drilling. A plane, G90 or G95 speaks for neither (assumed, from real programs). Where both are spoken for,
 the sure ones decide: limits of the spindle, constant cutting speed and turning cycles, or tool lengths."""
+_SURE = {
+    _LATHE: late_pattern(
+        r"(?<![A-Z_$\[,])(?:G0*50(?!\d).*S\s*\d|G0*96(?!\d)|G0*71(?!\d).*P\s*\d.*Q\s*\d|G0*76(?!\d).*P\s*\d{6})",
+        re.IGNORECASE,
+    ),
+    _MILL: late_pattern(r"(?<![A-Z_$\[,])G0*43(?!\d).*H\s*\d", re.IGNORECASE),
+}
+"""Those of them that no machine of the other kind has."""
 _OF_CONTOURS = frozenset("ABCDIKPQRUW")
 """Words of a contour, which no pole has."""
 _OTHER_WORDS = {
