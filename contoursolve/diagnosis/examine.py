@@ -118,8 +118,9 @@ class ReadBy:
 
         blocks = read_edits(claim.blocks, edits, self.dialect.modes.syntax)
         found = self.dialect.find(blocks, 0, claim.before, self.dialect.modes)
-        is_same = isinstance(found, ParsedContour) and len(found.blocks) == len(claim.blocks)
-        return found if is_same and isinstance(found, ParsedContour) else None
+        if not isinstance(found, ParsedContour) or len(found.blocks) != len(claim.blocks):
+            return None
+        return found
 
     def profile(self, claim: ParsedContour, without: frozenset[str]) -> Profile:
         """The profile of a contour without what some words state, by the names of these. Raises ValueError for a fact
