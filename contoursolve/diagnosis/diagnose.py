@@ -17,12 +17,14 @@ from contoursolve.diagnosis.explain import (
     absent_advice,
     context_of,
     explain_missing,
+    explain_result,
     spans_of,
 )
 from contoursolve.diagnosis.fix_text import fixes_of, with_fixes
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.slips_around import touches
+from contoursolve.diagnosis.smallest_sets import NO_SETS, SmallestSets, TiedSet, is_exact, smallest_sets
 from contoursolve.diagnosis.vocabulary import names_like
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnosis.wording import SHOWN, count, join, length_text
@@ -39,11 +41,10 @@ from contoursolve.diagnostics import (
     Verdict,
 )
 from contoursolve.gcode import FACT, Block, FaultKind, Word
-from contoursolve.geometry import Profile, System, Unit, assemble
+from contoursolve.geometry import Fact, Profile, System, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, read
 from contoursolve.solving import (
     AffineFacts,
-    Circuit,
     NoteKind,
     RefusalKind,
     Ties,
@@ -155,8 +156,10 @@ class _Diagnosed(Struct, frozen=True):
         affine = affine_facts(profile, (*profile.facts, *profile.ignored))
         found = None
         if answer.start.is_known and (is_readable or affine is None):
-            is_told = any(each.about in SAID_AGAIN | _ABOUT_RADII for each in answer.diagnostics)
+            is_told = any(each.is_error or each.about in SAID_AGAIN | _ABOUT_RADII for each in answer.diagnostics)
             found = find_ties(profile, is_told=is_told)
+        sets = smallest_sets(answer.claim, found, profile) if found is not None else NO_SETS
+        answer = replace(answer, diagnostics=tuple(_compared_alone(answer, sets, dialect)))
         freedoms = affine.freedoms() if affine and is_readable else ()
         # What a contour needs and nobody reads here is no slip.
         repairs = Repairs((), is_complete=False)
@@ -166,8 +169,8 @@ class _Diagnosed(Struct, frozen=True):
         diagnosis = Diagnosis(
             layers=list_layers(answer, policy),
             freedoms=freedoms,
-            ties=tuple(_tie(answer, found, each) for each in found.circuits.found) if found else (),
-            ties_complete=is_readable and found is not None and found.circuits.is_complete,
+            ties=tuple(_tie(answer, found, each) for each in sets.found),
+            ties_complete=is_readable and sets.is_complete,
             repairs_complete=repairs.is_complete,
         )
         findings = []
@@ -312,24 +315,66 @@ def _start_labels(answer: Answer) -> tuple[Label, ...]:
     return tuple(Label(span, text) for span, text in labels.items())
 
 
-def _tie(answer: Answer, ties: Ties, circuit: Circuit) -> Tie:
-    profile = answer.profile
-    words = dict.fromkeys(filter(None, (profile.givens[name].word for name in ties.givens(circuit))))
+def _tie(answer: Answer, ties: Ties | None, words: TiedSet) -> Tie:
+    named = dict.fromkeys(filter(None, (answer.profile.givens[name].word for name in words.givens)))
     return Tie(
-        addresses=tuple(word.text if word.address == FACT else word.address for word in words),
-        identity=identity(profile, circuit.facts),
+        addresses=tuple(word.text if word.address == FACT else word.address for word in named),
+        identity=identity(answer.profile, words.facts),
         # Below the rounding of the arithmetic, which is another one on other machines.
-        off_by_mm=round(ties.off_by(circuit), 12),
-        is_conflict=ties.is_conflict(circuit) or _is_turned(answer, ties, circuit),
+        off_by_mm=round(words.off, 12),
+        is_conflict=words.is_conflict or _is_turned(answer, ties, words.facts),
     )
 
 
-def _is_turned(answer: Answer, ties: Ties, circuit: Circuit) -> bool:
+def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Dialect) -> Iterator[Diagnostic]:
+    """The findings of an answer; those that compare a word with others compare it with the others of a smallest set,
+    if one of these tells of it. What is wrong with these others is told by itself: of a word that agrees with all that
+    is not blamed nothing is told."""
+    context, blamed = context_of(answer.claim, dialect.rules), set[Span]()
+    for finding in answer.diagnostics:
+        if finding.about not in SAID_AGAIN | _ABOUT_RADII or finding.span is None:
+            yield finding
+            continue
+        own = {finding.span, *(label.span for label in finding.labels)}
+        able = [each for each in (*sets.found, *sets.beside) if _tells(each, finding, own)]
+        best = min(able, key=lambda each: (len(blamed & _places(each)), not each.is_conflict), default=None)
+        if best is not None and best.event is not None and best.event.kind is finding.about:
+            yield explain_result(context, best.event, best.profile)
+        elif finding.is_error:
+            if best is None:
+                yield finding
+        elif not _is_against(sets, finding.span):
+            yield finding
+        blamed.add(finding.span)
+
+
+def _is_against(sets: SmallestSets, span: Span) -> bool:
+    return any(each.is_conflict and span in _places(each) for each in sets.found)
+
+
+def _places(words: TiedSet) -> set[Span]:
+    stated = (words.profile.givens[name].word for name in words.givens)
+    return {word.span for word in stated if word is not None}
+
+
+def _tells(words: TiedSet, finding: Diagnostic, own: Set[Span]) -> bool:
+    """Whether a set tells of the same matter as a finding, about the same word; of two points of one circle, whether it
+    is about some of the words."""
+    if words.event is None or (finding.about in _ABOUT_RADII) != (words.event.kind in _ABOUT_RADII):
+        return False
+    if finding.about in _ABOUT_RADII:
+        return _places(words) <= own
+    given = words.profile.givens.get(words.event.subject)
+    return given is not None and given.word is not None and given.word.span == finding.span
+
+
+def _is_turned(answer: Answer, ties: Ties | None, facts: Sequence[Fact]) -> bool:
     """Whether a line runs against the angle of one of the facts that say the same: as the contour runs, or where these
     facts alone put its ends."""
     profile, contour = answer.profile, answer.contour
-    known = (ties.rows.fixed_by(circuit.facts) if ties.rows else {}) | scalars_of(contour.points if contour else {})
-    return runs_against(circuit.facts, profile, lookup(profile, known))
+    is_here = ties is not None and ties.rows is not None and ties.rows.places.keys() >= {*facts}
+    known = ties.rows.fixed_by(facts) if is_here and ties is not None and ties.rows is not None else {}
+    return runs_against(facts, profile, lookup(profile, known | scalars_of(contour.points if contour else {})))
 
 
 _ABOUT_RADII = events_about(Topic.RADII)
@@ -343,7 +388,7 @@ def _reasons(
     finding: Diagnostic,
 ) -> Iterator[str]:
     profile = answer.profile
-    if affine is not None and ties is not None and finding.about in _ABOUT_TIES:
+    if affine is not None and ties is not None and is_exact(ties) and finding.about in _ABOUT_TIES:
         words = ((each.unit, each.word) for each in profile.givens.values() if each.word)
         unit = next((unit for unit, word in words if word.span == finding.span), Unit.MM)
         is_opposite = opposes(finding.values, unit)
@@ -351,7 +396,7 @@ def _reasons(
             addresses = {word.address for word in profile.words_of(circuit.facts)}
             about = addresses if finding.about in SINGULAR else addresses.intersection(finding.addresses)
             if about and about <= {*finding.addresses}:
-                is_about_direction = is_opposite or _is_turned(answer, ties, circuit)
+                is_about_direction = is_opposite or _is_turned(answer, ties, circuit.facts)
                 trusted = answer.claim.trusted
                 yield from conflict_reasons(profile, affine, circuit, trusted, is_about_direction=is_about_direction)
     if finding.about in _ABOUT_FREEDOM:

@@ -21,6 +21,7 @@ from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.hand_calculation import HandCalculation
 from contoursolve.diagnosis.hand_sheet import Derivation
 from contoursolve.diagnosis.names_in_program import called_in_program
+from contoursolve.diagnosis.smallest_sets import smallest_sets
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
 from contoursolve.diagnostics import Shown, Span
@@ -56,6 +57,8 @@ from contoursolve.solving import (
     corner_equations,
     ends_somewhere,
     find_alternatives,
+    find_ties,
+    givens_of_facts,
     is_known,
     is_searched,
     jacobian_of,
@@ -203,13 +206,20 @@ class EquationSystem(Shown):
 
     @cached_property
     def ties(self) -> tuple[TiedWords, ...]:
-        """Each smallest set of words that say the same, with the equation that ties them, if it has a formula."""
-        system, names = self._system, dict(zip(self._system.facts, self.statements, strict=True))
+        """Each smallest set of words that say the same, with the equation that ties them, if it has a formula.
+
+        Of a start point that is not known, one for each word that others determine."""
+        profile, system = self.profile, self._system
+        if profile.start.is_known:
+            sets = smallest_sets(self.claim, find_ties(profile, is_told=True), profile).found
+            facts = [(each.facts, assemble(each.profile), each.givens) for each in sets]
+        else:
+            tied = [(*others, last) for last, others in circuits_of(system).items()]
+            facts = [(each, system, givens_of_facts(each, system)) for each in tied]
         found = []
-        for last, others in circuits_of(system).items():
-            facts = (*others, last)
-            words = tuple(names[fact].word for fact in facts if names[fact].word)
-            found.append(TiedWords(words, tie_of(system, facts, self._symbols)))
+        for each, of, givens in facts:
+            words = dict.fromkeys(word.text for name in givens if (word := profile.givens[name].word))
+            found.append(TiedWords(tuple(words), tie_of(of, each, self._symbols)))
         return tuple(found)
 
     @cached_property

@@ -32,7 +32,7 @@ from contoursolve.diagnosis.wording import (
 )
 from contoursolve.diagnostics import Basis, Diagnostic, Label, Span
 from contoursolve.gcode import FACT, Word
-from contoursolve.geometry import Arc, BlockRole, Fact, Length, Profile, Unit, assemble
+from contoursolve.geometry import Arc, BlockRole, Fact, Given, Length, Profile, Unit, assemble
 from contoursolve.reading import VERBS, Offence, ParsedContour, ReadIssue, Rule
 from contoursolve.solving import (
     BESIDE,
@@ -451,10 +451,7 @@ def explain_result(
     fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
     fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
     if "off_by_mm" in values:
-        # Of an opposite direction, millimetres tell nothing.
-        is_turned = bool(words) and (words[0].address == FACT or values["off_by_mm"] <= AGREEMENT)
-        is_angle = is_word and givens[0].unit is Unit.DEGREE and is_turned
-        turned = abs(values["expected"] - values["actual"]) if is_angle and "expected" in values else None
+        turned = _turned(event, givens, words)
         fields["off"] = _off(event, turned, context.unit, profile, is_diameter=is_word and givens[0].is_diameter)
     if is_word and "expected" in values:
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
@@ -486,8 +483,39 @@ def explain_result(
     finding = _against_trusted(context, event, words, values, profile, fields)
     finding = finding or report(context, event.kind, Basis.NUMERICAL, words, values, labels, **fields)
     if isinstance(event, Refusal):
+        finding = _without_number(finding, event, words, fields)
         finding = _with_what_helps(finding, event, values, asked, profile)
     return replace(finding, notes=finding.notes + notes)
+
+
+def _turned(event: Refusal | Note, givens: Sequence[Given], words: Sequence[Word]) -> float | None:
+    """By how much a direction is off, degrees; None where millimetres say it."""
+    if event.kind not in OF_A_WORD or givens[0].unit is not Unit.DEGREE or "expected" not in event.values or not words:
+        return None
+    # Of an opposite direction, millimetres tell nothing.
+    is_turned = words[0].address == FACT or event.values["off_by_mm"] <= AGREEMENT or _is_bare(words[0])
+    expected, actual = (givens[0].as_typed(event.values[name]) for name in ("expected", "actual"))
+    return abs(expected - actual) if is_turned else None
+
+
+def _is_bare(word: Word) -> bool:
+    """Whether a word states something without a number: that an element touches the one before it."""
+    return word.text == word.address
+
+
+def _without_number(
+    finding: Diagnostic, event: Refusal, words: Sequence[Word], fields: Mapping[str, str]
+) -> Diagnostic:
+    """The finding; about a word without a number, none that could be written instead."""
+    if event.kind not in SAID_AGAIN or not words or not _is_bare(words[0]):
+        return finding
+    word = words[0].text
+    return replace(
+        finding,
+        message=f"{word} disagrees with {fields['others']} by {fields['off']}",
+        help="correct one of them",
+        labels=tuple(replace(each, text="") for each in finding.labels),
+    )
 
 
 def _against_trusted(
@@ -519,6 +547,7 @@ def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Pro
     off = event.values["off_by_mm"]
     if any(event.subject == fact.statement and fact.parallel for fact in profile.facts):
         turned = degrees(asin(min(1.0, off)))
+    turned = event.values.get("turned_by", turned)
     return length_text(off * (1 + is_diameter), unit) if turned is None else angle_text(turned)
 
 
@@ -645,7 +674,7 @@ def _tied_words(event: Refusal | Note, profile: Profile) -> list[Word]:
     from contoursolve.solving import tied_with  # noqa: PLC0415 - few blocks say anything twice
 
     system = assemble(profile)
-    facts = [fact for fact in profile.facts if fact.given == event.subject]
+    facts = [fact for fact in profile.facts if fact.statement == event.subject]
     names = [name for fact in facts for name in tied_with(system, fact) if name != event.subject]
     return [word for word in (profile.givens[name].word for name in dict.fromkeys(names)) if word]
 

@@ -117,12 +117,18 @@ class ParallelLines(Fact, Struct, frozen=True):
 
 
 class Extent(Fact, Struct, frozen=True):
-    """From `tail` to `head`, both on the line, it goes the given length along the line."""
+    """From `tail` to `head`, both on the line, it goes the given length along the line, whose direction a word states
+    if it `is_headed`."""
 
     given: str
     line: str
     tail: str
     head: str
+    is_headed: bool = False
+
+    @property
+    def is_affine(self) -> bool:
+        return self.is_headed
 
     def residual(self, at: Lookup) -> Any:
         return self._extent(at) - at.amount(self.given)

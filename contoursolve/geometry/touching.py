@@ -154,9 +154,20 @@ class Foot(Fact, Struct, frozen=True):
     given: str = ""
     corner: str = ""
     way: int = 1
+    part_of: str = ""
+    """The given of a statement that says more than this, see `Parallel`."""
+
+    def __repr__(self) -> str:
+        """Without what it is a part of, which is no part of the equation: equations are told apart by their texts."""
+        stated = f"line={self.line!r}, point={self.point!r}, center={self.center!r}, given={self.given!r}"
+        return f"Foot({stated}, corner={self.corner!r}, way={self.way!r})"
 
     def residual(self, at: Lookup) -> Any:
         return dot(at.bearing(self.line), step(at, self.center, self.point))
+
+    @property
+    def statement(self) -> str:
+        return self.given or self.part_of
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         if not self.corner:
@@ -463,7 +474,8 @@ def make_smooth(before: Line | Arc, after: Line | Arc, at: str, given: str = "")
         before, after = after, before
     if isinstance(before, Arc) or isinstance(after, Line):
         return (TurnBetween(given, Along(before.name), Along(after.name)),)
-    return make_tangent(before, after, after.turn.sign, given), Foot(before.name, at, after.center)
+    foot = Foot(before.name, at, after.center, part_of=given)
+    return make_tangent(before, after, after.turn.sign, given), foot
 
 
 def round_off(corner: Corner, element: Line | Arc, point: str, way: int) -> tuple[Fact, ...]:

@@ -1,6 +1,7 @@
 """A contour form as tables: its points, the facts that words state, its path; and settings and assumptions."""
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -17,6 +18,8 @@ from contoursolve.geometry import (
     BlockRole,
     Corner,
     CornerShape,
+    Distance,
+    Extent,
     Fact,
     Figure,
     Layout,
@@ -287,6 +290,8 @@ def lay_out(
     `sharp` are the corner words of value 0, which make no corner.
     """
     facts = tuple(row.fact for row in form.outline.facts if stated.issuperset(row.needs))
+    if form.is_general:
+        facts = tuple(_with_lengths(form.outline.path, facts))
     read = {name for fact in facts for name in fact.reads()}
     mentioned = read | {name.rpartition(".")[0] for name in read}
     stating = {fact.given for fact in facts}
@@ -311,6 +316,21 @@ def lay_out(
         return Layout(figure, facts)
     wanted = {name for row in form.outline.facts if row.fact.given in asked for name in row.fact.reads()}
     return Layout(*_with_carriers(figure, facts, mentioned | {name.rpartition(".")[0] for name in wanted}))
+
+
+def _with_lengths(path: Iterable[Line | Arc], facts: tuple[Fact, ...]) -> Iterator[Fact]:
+    """The facts; the length of a line along the direction that a word states, if one does. Where nothing else is said
+    about the direction, it is the distance of the ends, which needs no unknowns for that."""
+    stating = {fact.given for fact in facts}
+    headed = {each.name for each in path if isinstance(each, Line) and each.heading in stating}
+    told = Counter(line for fact in facts for line in {name.rpartition(".")[0] for name in fact.reads()})
+    for fact in facts:
+        if not isinstance(fact, Extent):
+            yield fact
+        elif fact.line in headed:
+            yield replace(fact, is_headed=True)
+        else:
+            yield Distance(fact.given, fact.tail, fact.head) if told[fact.line] == 1 else fact
 
 
 def _with_carriers(figure: Figure, facts: tuple[Fact, ...], mentioned: set[str]) -> tuple[Figure, tuple[Fact, ...]]:

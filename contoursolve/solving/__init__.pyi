@@ -12,6 +12,7 @@ from .alternatives import (
 from .ambiguity import (
     before as before,
     headings_of as headings_of,
+    is_found_at_once as is_found_at_once,
     is_given_up as is_given_up,
     orders_of as orders_of,
     restrict as restrict,
@@ -205,6 +206,7 @@ from .ties import (
     Ties as Ties,
     circuits_for_all_values as circuits_for_all_values,
     find_ties as find_ties,
+    givens_of_facts as givens_of_facts,
     tied_with as tied_with,
 )
 from .vectors import (

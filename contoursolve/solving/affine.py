@@ -144,6 +144,12 @@ class AffineFacts(Struct, frozen=True, dict=True):
                 result.append(Freedom(point, along if is_line else None))
         return tuple(result)
 
+    def placed_by(self, facts: Sequence[Fact]) -> dict[str, float]:
+        """Values of all unknowns with which some facts that agree are true, mm; of those that can move, some place."""
+        rows = [self.places[fact] for fact in facts]
+        values = pinv(self.matrix_of(rows)) @ -self.constants[rows]
+        return dict(zip(self.unknowns, values.tolist(), strict=True))
+
     def fixed_by(self, facts: Sequence[Fact]) -> dict[str, float]:
         """The unknowns that some of the facts determine, with their values, mm."""
         rows = [self.places[fact] for fact in facts]

@@ -27,6 +27,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.alternatives import decide, find_alternatives
+from contoursolve.solving.closed_steps import is_searched
 from contoursolve.solving.compare import compare_affine
 from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, groups_of
@@ -263,6 +264,13 @@ def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:
     if found.items or not found.is_complete:
         return min(map(_compared, found.items), key=_disagreements) if found.items else ()
     return settle(part).solution.refusals
+
+
+def is_found_at_once(profile: Profile) -> bool:
+    """Whether what the facts of a profile determine takes no search."""
+    part = _determined(profile)
+    system = assemble(part) if part is not None else None
+    return system is None or not any(is_searched(system, group) for group in groups_of(system))
 
 
 def is_given_up(profile: Profile) -> bool:

@@ -1,7 +1,7 @@
 """Do facts that say the same agree? What each of them would have to state, and by how much it is off."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from math import hypot, inf
+from math import asin, degrees, hypot, inf
 from typing import Any
 
 from msgspec.structs import replace
@@ -141,6 +141,10 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
         return None
     name = fact.statement
     values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
+    if fact.foot is not None and not fact.given:
+        # A line that touches a circle there does so to an angle.
+        spoke = hypot(*map(float, step(at, *fact.foot[1:])))
+        values["turned_by"] = degrees(asin(min(1.0, off / spoke))) if spoke else 0.0
     is_word = fact.reach(at, increments_of(profile)) is not None
     gap = inf if is_word else abs(values.get("expected", inf) - values.get("actual", inf))
     # The equation alone is true of the opposite direction, too.
@@ -174,7 +178,9 @@ def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | 
         unknowns = {name for each in circuit.facts for name in system.unknowns_of(each)}
         fixed = basis.fixed(unknowns)
         off = circuit.off[-1]
-        if fixed.keys() >= {*system.unknowns_of(fact)} and _is_tied(fact, independent, generic, system):
+        if _is_tied(fact, independent, generic, system):
+            # What follows from others is so wherever these leave something free.
+            fixed = affine.placed_by(circuit.facts[:-1]) | fixed
             event = compare_fact(fact, off, profile, system, replace(here, scalars={**here.scalars, **fixed}))
             if event is not None:
                 yield event

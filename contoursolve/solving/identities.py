@@ -40,7 +40,9 @@ def _of_circle(system: System, facts: Sequence[Fact], symbols: Any) -> Any:
     affine = [fact.residual(at) for fact in facts if not fact.circle]
     unknowns = [symbols.scalar(name) for name in system.unknowns]
     found = symbolic.substitute_solution(first - second, affine, unknowns)
-    return symbolic.equation(found, 0) if found is not None else None
+    # What the words leave open of the circle takes part in no formula of theirs.
+    is_open = found is None or not found.free_symbols.isdisjoint(unknowns)
+    return None if is_open else symbolic.equation(found, 0)
 
 
 def derive_identity(system: System, facts: Sequence[Fact]) -> str:

@@ -113,7 +113,7 @@ class StraightIs(Statement, frozen=True):
             for number, (at, part) in enumerate(((line.tail, "end"), (line.head, "begin"))):
                 if corner.at == at:
                     ends[number] = draft.point(part, corner.name)
-        return _stated(draft, Extent(name, self.line, *ends), self.value, Unit.MM)
+        return _stated(draft, Extent(name, self.line, ends[0], ends[1]), self.value, Unit.MM)
 
 
 class DirectionIs(Statement, frozen=True):
