@@ -7,6 +7,12 @@ from msgspec import Struct
 from contoursolve.gcode import Word
 
 
+def _latex_of(expression: Any) -> str:
+    """An expression of sympy as a notebook shows it."""
+    text: str = expression._repr_latex_()
+    return text
+
+
 class SystemUnknown(Struct, frozen=True):
     """An unknown of a system: its symbol (of sympy), what it is, and its unit.
 
@@ -18,6 +24,12 @@ class SystemUnknown(Struct, frozen=True):
     unit: str
     value: float | None
     name: str
+
+    def _sympy_(self) -> Any:
+        return self.symbol
+
+    def _repr_latex_(self) -> str:
+        return _latex_of(self.symbol)
 
 
 class SystemValue(Struct, frozen=True):
@@ -34,6 +46,12 @@ class SystemValue(Struct, frozen=True):
     name: str
     source: Word | None = None
 
+    def _sympy_(self) -> Any:
+        return self.symbol
+
+    def _repr_latex_(self) -> str:
+        return _latex_of(self.symbol)
+
     @property
     def text(self) -> str:
         """The word as it is typed; empty without one."""
@@ -47,6 +65,12 @@ class Equation(Struct, frozen=True):
     equation: Any
     meaning: str
     source: Word | None = None
+
+    def _sympy_(self) -> Any:
+        return self.equation
+
+    def _repr_latex_(self) -> str:
+        return _latex_of(self.equation)
 
     @property
     def word(self) -> str:

@@ -181,6 +181,11 @@ class EquationSystem(Shown):
         figure = self._system.figure
         return tuple(self._corner(each) for each in figure.corners if ends_somewhere(each, figure))
 
+    def _repr_latex_(self) -> str:
+        """The equations, one below the other."""
+        latex = symbolic().latex
+        return "$\\displaystyle \\begin{aligned}" + " \\\\ ".join(map(latex, self.equations)) + "\\end{aligned}$"
+
     # What sympy says of it ---------------------------------------------------------------------------------------
 
     @cached_property

@@ -44,7 +44,7 @@ from contoursolve.diagnosis.spelling import (
     without_point,
 )
 from contoursolve.diagnosis.wording import ContourState, join, state_of
-from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Severity, Shown, Span
+from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Severity, Shown, Span, hash_of
 from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, Start, System, Unit, assemble
 from contoursolve.reading import (
     AT_ITS_LIMIT,
@@ -209,6 +209,8 @@ class Answer(Shown, Struct, frozen=True):
     """The lines of the blocks that call it, if it belongs to a subprogram."""
     mended: Answer | None = None
     """The answer with slips that are certain mended in thought, where something else is wrong as well."""
+
+    __hash__ = hash_of
 
     @property
     def state(self) -> str:

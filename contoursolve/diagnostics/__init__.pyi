@@ -7,6 +7,7 @@ from .choices import (
 from .display import (
     Renderer as Renderer,
     Shown as Shown,
+    hash_of as hash_of,
     plot_on as plot_on,
     register_renderer as register_renderer,
 )

@@ -1,6 +1,6 @@
 """Records that show themselves in notebooks, and are text where they are printed."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol
 
 
@@ -23,6 +23,23 @@ _load: list[Callable[[], Renderer]] = []
 def register_renderer(load: Callable[[], Renderer]) -> None:
     """Register what shows records from now on; it is loaded when one is shown for the first time."""
     _load[:] = [load]
+
+
+def hash_of(record: Any) -> int:
+    """The hash of a frozen record; of its mappings the names count, of what has no hash its type."""
+    fields: Iterable[str] = getattr(record, "__struct_fields__", ())
+    return hash((type(record), *(_part_of_hash(getattr(record, name)) for name in fields)))
+
+
+def _part_of_hash(value: Any) -> int:
+    if isinstance(value, Mapping):
+        return hash(frozenset(value))
+    if isinstance(value, (tuple, list)):
+        return hash(tuple(map(_part_of_hash, value)))
+    try:
+        return hash(value)
+    except TypeError:
+        return hash(type(value))
 
 
 class Shown:

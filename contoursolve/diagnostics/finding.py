@@ -6,7 +6,7 @@ from math import atan2, degrees
 
 from msgspec import Struct, field
 
-from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.display import Shown, hash_of
 from contoursolve.diagnostics.source import Evidence, Source, Span
 
 
@@ -148,6 +148,8 @@ class Diagnostic(Shown, Struct, frozen=True):
     fixes: tuple[Fix, ...] = ()
     about: Enum | None = None
     """The event that the finding is about, whatever the control calls it; None for a plain rule."""
+
+    __hash__ = hash_of
 
     @property
     def is_error(self) -> bool:

@@ -14,7 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
-from contoursolve.diagnostics import Shown
+from contoursolve.diagnostics import Shown, hash_of
 from contoursolve.families.block_template import BlockOptions, first_error, spec_of, subject_of
 from contoursolve.families.branch_rows import add_path
 from contoursolve.families.case_classes import CaseClass, case_in, results_of
@@ -51,6 +51,8 @@ class Sensitivity(Shown, Struct, frozen=True):
 
     slopes: Mapping[str, Mapping[str, float]]
     plane: Plane
+
+    __hash__ = hash_of
 
     def spread(self, tolerances: Mapping[str, float]) -> dict[str, Spread]:
         """The move of each result when the words are off by up to these tolerances, as written. Raises FamilyError

@@ -6,7 +6,7 @@ from typing import Any
 from msgspec import Struct, field
 
 from contoursolve.diagnosis import join
-from contoursolve.diagnostics import Diagnostic, ProgramError, Severity
+from contoursolve.diagnostics import Diagnostic, ProgramError, Severity, hash_of
 from contoursolve.gcode import Block, FaultKind
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import SAME, Arcs, Numbering, Post, Risk
@@ -126,6 +126,8 @@ class Conversion(Struct, frozen=True):
     to: str
     summary: Summary
     comparison: Any
+
+    __hash__ = hash_of
 
 
 def left_unread(block: Block) -> Left | None:

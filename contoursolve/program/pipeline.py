@@ -8,7 +8,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Policy, rank
-from contoursolve.diagnostics import Diagnostic, ProgramError, Shown, Span
+from contoursolve.diagnostics import Diagnostic, ProgramError, Shown, Span, hash_of
 from contoursolve.execution import ALONE, Machine, ProgramEvent, ProgramKind, Surroundings, kind_of
 from contoursolve.gcode import Directive, Program, spelled, telling
 from contoursolve.geometry import Length, Plane
@@ -55,6 +55,8 @@ class Result(Shown, Struct, frozen=True):
     """The values of variables, and where subprograms are."""
     is_concluded: bool = False
     """Whether a finding says from what its control is concluded."""
+
+    __hash__ = hash_of
 
     @property
     def has_errors(self) -> bool:

@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS
-from contoursolve.diagnostics import importing
+from contoursolve.diagnostics import hash_of, importing
 from contoursolve.gcode import MOST_OF_OTHERS, open_regular
 from contoursolve.sketches.dxf_chain import (
     JOINED,
@@ -74,6 +74,8 @@ class DxfSketch(Struct, frozen=True):
     notes: tuple[str, ...]
     layers: Mapping[str, int]
     measured: tuple[Mapping[str, Value], ...]
+
+    __hash__ = hash_of
 
 
 def read_dxf(

@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS
-from contoursolve.diagnostics import UserError
+from contoursolve.diagnostics import UserError, hash_of
 from contoursolve.reading import Dialect
 
 VERSION = 1
@@ -54,6 +54,8 @@ class SketchElement(Struct, frozen=True):
     guess: Mapping[str, Decimal] = {}
     facts: tuple[str, ...] = ()
 
+    __hash__ = hash_of
+
 
 class ContourSketch(Struct, frozen=True):
     """A contour as the drawing gives it.
@@ -75,6 +77,8 @@ class ContourSketch(Struct, frozen=True):
     closed: bool = False
     pole: Mapping[str, Decimal] = {}
     facts: tuple[str, ...] = ()
+
+    __hash__ = hash_of
 
     @property
     def control(self) -> Dialect:

@@ -82,6 +82,9 @@ class Contour(Shown):
     free: tuple[bool, bool] = field(default=(False, False), compare=False, repr=False)
     """The axes on which its coordinates count from its start, as its place is not known."""
 
+    def __hash__(self) -> int:
+        return hash((self.start, self.end, self.elements))
+
     def table(self) -> list[dict[str, str | float | None]]:
         """A row for each element, as `pandas.DataFrame` takes them; None for what an element does not have.
 

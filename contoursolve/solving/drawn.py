@@ -51,6 +51,9 @@ class Drawn(Shown):
     stated: Stated | None = field(default=None, compare=False)
     """The sketch, which its picture shows."""
 
+    def __hash__(self) -> int:
+        return hash((self.name, self.contour, tuple(self.points)))
+
     def __repr__(self) -> str:
         parts = [f"{name} {_place(at)}" for name, at in self.points.items()]
         parts += [f"{name} {_shown(radius)} mm" for name, radius in self.radii.items()]

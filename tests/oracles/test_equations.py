@@ -166,6 +166,25 @@ def test_other_values_and_fewer_words_give_other_systems():
         contoursolve.system("G00 X1.", control="yasnac-lx3")
 
 
+def test_sympy_takes_a_system_as_it_is():
+    system = contoursolve.system(SHAFT, start=START)
+    found = sympy.solve(system.equations, system.unknowns)
+    numbers = {name: float(value.subs(system.values)) for name, value in found.items()}
+    assert numbers == pytest.approx(system.solution)
+    assert sympy.sympify(system.words[0]) == system.words[0].symbol
+    assert sympy.sympify(system.statements[0]) == system.equations[0]
+    assert system.unknowns[0]._repr_latex_() == "$\\displaystyle Z_{V1}$"
+    assert system._repr_latex_().count("\\\\") == len(system.equations) - 1
+
+
+def test_two_equal_questions_have_equal_answers_and_one_hash():
+    one, same, other = (contoursolve.solve(SHAFT.replace("A180", f"A{a}"), start=START) for a in (180, 180, 170))
+    assert (one, hash(one), hash(one.answers[0].contour)) == (same, hash(same), hash(same.answers[0].contour))
+    assert len({one.answers[0], same.answers[0], other.answers[0]}) == 2
+    wrong = [contoursolve.solve("G111 X70. A150. K-20.", start=START).answers[0].diagnostics for _ in range(2)]
+    assert len({*wrong[0], *wrong[1]}) == len(wrong[0]) > 0
+
+
 ODD = (0, 15, 170, -30)
 """Numbers at which some forms are read otherwise, or have no contour."""
 
