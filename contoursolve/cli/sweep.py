@@ -36,6 +36,7 @@ from contoursolve.families import (
     Tally,
     csv_lines,
     failure_summary,
+    origin_of,
     others,
     parts_of,
     pieces,
@@ -370,14 +371,14 @@ def _tell(parts: Checkpoints, target: Path) -> None:
 def _write(target: Path, parts: Checkpoints, tables: Iterator[dict[str, Any]], *, is_forced: bool) -> None:
     """The whole file, or none; what is finished stays beside it until then."""
     try:
-        temporary = parts.temporary("whole")
+        ready, temporary = parts.ready, parts.temporary("whole")
         with open_whole(target, temporary=temporary) as whole:
             if target.suffix.lower() == ".csv":
                 text = TextIOWrapper(whole.file, encoding="utf-8", newline="")
                 text.writelines(csv_lines(tables))
                 text.detach()
             else:
-                write_parquet(whole.file, tables, parts.ready.measures())
+                write_parquet(whole.file, tables, ready.measures(), origin_of(ready.spec, ready.premises))
             if temporary.exists():
                 check_target(target, None, is_forced=is_forced)
     except CannotWriteError as error:

@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import AGAINST
-from contoursolve.geometry import Arc, Fact, Layout, OnCircle, Profile, apply_statements, assemble
+from contoursolve.geometry import Arc, Fact, Layout, Profile, apply_statements, assemble, put_on
 from contoursolve.reading import ParsedContour, read
 from contoursolve.solving import (
     Note,
@@ -137,7 +137,7 @@ class _Words:
         self._tied: dict[frozenset[str], bool] = {}
 
     def without_lent(self, ties: Ties) -> Iterator[Ties]:
-        """What ties the facts where words are left out by which other words are read as well."""
+        """The ties of the facts where words are left out by which other words are read as well."""
         named = sorted(set[str]().union(*(ties.givens(each) for each in ties.circuits.found)) & self._stating)
         lent = [name for name in named if self._is_lent(name)]
         if len(lent) > MOST_LENT:
@@ -274,7 +274,7 @@ def _closed(profile: Profile, whole: Profile) -> Profile:
         points=tuple(dict.fromkeys((*figure.points, *(arc.center for arc in arcs if arc.center != figure.start)))),
         radii=tuple(dict.fromkeys((*figure.radii, *(arc.radius for arc in arcs)))),
     )
-    more = (OnCircle(end, arc.center, arc.radius) for arc, end in lost)
+    more = (put_on(arc, end) for arc, end in lost)
     return replace(profile, layout=Layout(figure, (*profile.facts, *more)))
 
 

@@ -41,6 +41,7 @@ from .export import (
     Family as Family,
     Measure as Measure,
     csv_lines as csv_lines,
+    origin_of as origin_of,
     summary_of as summary_of,
     write_parquet as write_parquet,
 )

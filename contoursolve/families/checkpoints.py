@@ -8,7 +8,6 @@ import zipfile
 from collections.abc import Collection, Iterator
 from concurrent.futures import Executor
 from glob import escape
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from shutil import rmtree
 from time import perf_counter
@@ -18,6 +17,7 @@ from msgspec import Struct
 
 from contoursolve.families.compiled_sweep import CompiledSweep, Table
 from contoursolve.families.evaluate import STRETCH, rows_of, solve_parts
+from contoursolve.families.versions import versions
 
 MOST_ROWS = 100_000_000
 """Rows that are begun at a word: a minute or two where there is a closed form, and a file of some 20 GB. More come of a
@@ -137,17 +137,6 @@ def digest(ready: CompiledSweep) -> str:
         found.update(f"{word} {values.size} {values.dtype.str}".encode())
         found.update(numpy.ascontiguousarray(values).data)
     return found.hexdigest()[:16]
-
-
-def versions() -> tuple[str, ...]:
-    """The versions of what computes."""
-    found = []
-    for package in ("contoursolve", "numpy", "casadi", "python-flint"):
-        try:
-            found.append(f"{package} {version(package)}")
-        except PackageNotFoundError:  # it runs from its source
-            found.append(package)
-    return tuple(found)
 
 
 def seconds_of(ready: CompiledSweep) -> float:

@@ -11,18 +11,19 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, join
 from contoursolve.diagnostics import Shown, need, plot_on
 from contoursolve.families.block_template import SweepSpec, Template
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import kind_of
 from contoursolve.families.results import find_result, lengths_of, names_of_results
+from contoursolve.families.versions import versions
 from contoursolve.families.word_values import TOOL, Ranges
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.reading import Premises
-from contoursolve.solving import REASONS, Status, StatusCode
+from contoursolve.solving import REASONS, Contour, Status, StatusCode
 
 SOLUTION = "solution"
 """The axis of the solutions of each row."""
@@ -134,8 +135,40 @@ class Family(Shown):
         values = self.ranges.values[name][self.ranges.places(name, 0, self.ranges.count)]
         return values.repeat(len(self.solutions) or 1).reshape(self.shape)
 
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns or name in self.ranges.values
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def keys(self) -> tuple[str, ...]:
+        """The names of all arrays: `dict(family)` has them with their arrays."""
+        return self.names
+
     def __len__(self) -> int:
         return self.ranges.count
+
+    def contour(self, values: Mapping[str, float] | None = None, /, **words: float) -> Contour:
+        """The contour of some values of the free words, as they are written, whether a row has them or not:
+        `family.contour(A=175, P=2)`, `family.contour({"2:X": 80})`. A word with a single value needs none.
+
+        Raises FamilyError for words that are not free, for free ones without a value, and where there is no contour."""
+        single = {name: at.item() for name, at in self.ranges.values.items() if at.size == 1}
+        told = {**single, **(values or {}), **words}
+        free = self.ranges.values.keys()
+        if told.keys() != free:
+            raise FamilyError(f"the free words are {join(list(free))}; give each of them a value, and no other")
+        answer = self.spec.template().solve({name: float(told[name]) for name in free})
+        if answer.contour is None:
+            place = join([f"{name} = {told[name]:g}" for name in free])
+            reasons = "; ".join(each.message for each in answer.diagnostics if each.is_error)
+            raise FamilyError(f"there is no contour at {place}: {reasons or answer.status.value}")
+        return answer.contour
+
+    @property
+    def origin(self) -> dict[str, str]:
+        """The block, how it is read, and what its contours rest on; see `origin_of`."""
+        return origin_of(self.spec, self.premises)
 
     @property
     def has_contour(self) -> NDArray[numpy.bool_]:
@@ -184,9 +217,9 @@ class Family(Shown):
 
     def to_arrow(self) -> Any:
         """A pyarrow.Table with a column for each array: `status` and `reason` in words, as dictionaries (no reason is
-        null), and with each field its `unit` as metadata, for X of a lathe with the `measure` radius or diameter.
-        Raises MissingExtraError without pyarrow."""
-        return to_arrow(self._table(), self.measures())
+        null), and with each field its `unit` as metadata, for X of a lathe with the `measure` radius or diameter; its
+        own metadata are `origin`. Raises MissingExtraError without pyarrow."""
+        return to_arrow(self._table(), self.measures(), self.origin)
 
     def _table(self) -> dict[str, NDArray[Any]]:
         """The columns of a table: of several solutions, each in a row of its own, with its name."""
@@ -198,20 +231,41 @@ class Family(Shown):
         return found | {name: self[name].reshape(-1) for name in self.columns}
 
     def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
-        """The same as a stream of Arrow, by which polars, pyarrow and others take it: `polars.DataFrame(family)`."""
+        """The same as a stream of Arrow, by which other packages take it: `polars.DataFrame(family)`,
+        `pandas.DataFrame.from_arrow(family)`."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_parquet(self, path: str | Path) -> None:
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
-        write_parquet(path, [self._table()], self.measures())
+        write_parquet(path, [self._table()], self.measures(), self.origin)
 
     def to_xarray(self) -> Any:
         """An xarray.Dataset whose dimensions are the free words, or `row`; every variable has its `units` as an
-        attribute, `status` and `reason` the meanings of their numbers. Raises MissingExtraError without xarray."""
+        attribute, `status` and `reason` the meanings of their numbers; its own are `origin`. Raises MissingExtraError
+        without xarray."""
         arrays = {name: self[name] for name in self.columns}
-        return to_xarray(
+        found = to_xarray(
             dict(self.ranges.values), arrays, self.measures(), self.solutions, is_paired=self.ranges.is_paired
         )
+        found.attrs.update(self.origin)
+        return found
+
+
+def origin_of(spec: SweepSpec, premises: Premises) -> dict[str, str]:
+    """A block with how it is read, what its contours rest on, and the versions of what computed them, as plain names
+    and texts: they go with the tables and arrays of other packages."""
+    found = {
+        "block": spec.block,
+        "start": spec.start or "",
+        "control": premises.control or (spec.control if isinstance(spec.control, str) else ""),
+        "units": spec.units,
+        "rules": spec.rules,
+        "facts": "; ".join(spec.facts),
+        "settings": "; ".join(f"{each.setting.name}={each.value}" for each in premises.conventions),
+        "assumptions": "; ".join(each.meaning for each in premises.assumptions),
+        "versions": ", ".join(versions()),
+    }
+    return {name: text for name, text in found.items() if text}
 
 
 def summary_of(counts: NDArray[Any]) -> dict[Status, int]:
@@ -229,9 +283,9 @@ Measures = Mapping[str, Measure]
 """Units of columns, by name."""
 
 
-def to_arrow(columns: Mapping[str, NDArray[Any]], measures: Measures) -> Any:
+def to_arrow(columns: Mapping[str, NDArray[Any]], measures: Measures, origin: Mapping[str, str] | None = None) -> Any:
     """A pyarrow.Table: `status` and `reason` as dictionaries of words (null without a reason), and with each field its
-    `unit`, and whether a radius or a diameter is meant, as metadata."""
+    `unit`, and whether a radius or a diameter is meant, as metadata; `origin` is the metadata of the whole."""
     arrow = need("pyarrow", "family", "a family as an Arrow table")
     fields, arrays = [], []
     for name, values in columns.items():
@@ -241,7 +295,7 @@ def to_arrow(columns: Mapping[str, NDArray[Any]], measures: Measures) -> Any:
         arrays.append(array)
         metadata = measures[name].attributes() if name in measures else {}
         fields.append(arrow.field(name, array.type, metadata=metadata or None))
-    return arrow.Table.from_arrays(arrays, schema=arrow.schema(fields))
+    return arrow.Table.from_arrays(arrays, schema=arrow.schema(fields, metadata=origin or None))
 
 
 def _in_words(arrow: Any, values: NDArray[Any], words: list[str | None]) -> Any:
@@ -277,13 +331,16 @@ def to_xarray(
 
 
 def write_parquet(
-    path: str | Path | BinaryIO, tables: Iterable[Mapping[str, NDArray[Any]]], measures: Measures
+    path: str | Path | BinaryIO,
+    tables: Iterable[Mapping[str, NDArray[Any]]],
+    measures: Measures,
+    origin: Mapping[str, str] | None = None,
 ) -> None:
-    """A Parquet file with a row group for each table."""
+    """A Parquet file with a row group for each table, and `origin` as its metadata."""
     parquet, writer = need("pyarrow.parquet", "family", "a Parquet file"), None
     try:
         for columns in tables:
-            table = to_arrow(columns, measures)
+            table = to_arrow(columns, measures, origin)
             writer = writer or parquet.ParquetWriter(path, table.schema)
             writer.write_table(table)
     finally:

@@ -8,10 +8,12 @@ from types import SimpleNamespace
 import calling
 import flint
 import numpy as np
+import pandas
 import pyarrow
 import pytest
 from pyarrow import parquet
 
+import contoursolve
 from contoursolve.families import FamilyError, family, sensitivity
 from contoursolve.solving import REASONS, StatusCode
 
@@ -302,6 +304,27 @@ def test_families_go_to_arrow_parquet_and_xarray(tmp_path):
     assert float(data["V2.X"].sel(A=190, P=1)) == found["V2.X"][2, 0]
     meanings = data["status"].attrs["flag_meanings"].split()
     assert [meanings[code] for code in data["status"].values[0]] == ["solved", "no-solution"]
+
+
+def test_a_family_is_a_mapping_that_knows_where_it_comes_from_and_has_each_contour():
+    found = family(BLOCK, start=START, vary={"A": [170, 180, 190], "P": [1]})
+    assert ("A" in found, "V2.X" in found, "Q" in found) == (True, True, False)
+    assert list(found) == list(found.keys()) == list(dict(found))
+    row = found.contour(A=190)
+    assert row.points["V2"] == pytest.approx((found["V2.Z"][2, 0], found["V2.X"][2, 0]))
+    alone = contoursolve.solve(BLOCK.replace("A180.", "A185.").replace(" P5.", " P2."), start=START)
+    assert found.contour({"A": 185.0}, P=2) == alone.answers[0].contour
+    with pytest.raises(FamilyError, match="the free words are A and P; give each of them a value, and no other"):
+        found.contour(A=170, Q=1)
+    with pytest.raises(FamilyError, match="there is no contour at A = 180 and P = 60"):
+        found.contour(A=180, P=60)
+    frame = pandas.DataFrame.from_arrow(found)
+    assert (list(frame), frame["A"].tolist()) == (list(found), [170, 180, 190])
+    told = {"block": BLOCK, "start": START, "control": "yasnac-lx3"}
+    assert told.items() <= found.origin.items()
+    assert found.to_xarray().attrs == found.origin
+    metadata = {key.decode(): text.decode() for key, text in found.to_arrow().schema.metadata.items()}
+    assert metadata == found.origin
 
 
 def check_table(table, found):
