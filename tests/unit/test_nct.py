@@ -135,3 +135,9 @@ def test_alarms_are_those_that_the_sheet_prints():
     found = {rule.code: rule.alarm.number.split()[0] for rule in rows if rule.alarm}
     assert {code: found.get(code) for code in ALARMS} == ALARMS
     assert {rule.source.evidence.value for rule in rows if rule.code in ALARMS} == {"printed"}
+
+
+def test_a_q_beside_p_belongs_to_its_code_and_makes_no_contour():
+    program = "G17 G90 G0 X0 Y0\nG64 P0.1 Q0.1\nG1 X10 Y0 ,R1 F100\nX20 Y10\n"
+    result = solve(program, control="nct-99m")
+    assert ([answer.lines[0] for answer in result.answers], result.has_errors) == ([3], False)

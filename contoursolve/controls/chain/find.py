@@ -297,10 +297,10 @@ class ChainFinder:
 
     def _moves(self, block: Block, here: State) -> bool:
         """Whether a block is a motion: it has a coordinate, an angle, a corner; an arc a centre, R, or just its G code.
-        A Q that belongs to nothing is looked at, too."""
+        A Q that belongs to nothing is looked at, too; with M or P it belongs to these (`G64 P0.1 Q0.1`)."""
         stated = self._stated(block, here)
         is_arc = here.motion in _TURNS and stated & {"I", "J", "K", "R"}
-        is_choice = self.language.meeting.selector in stated and not block.find("M")
+        is_choice = self.language.meeting.selector in stated and not (block.find("M") or block.find("P"))
         if stated & self._moving or is_arc or is_choice:
             return True
         arcs = {*_TURNS, self.language.arc.tangent}
