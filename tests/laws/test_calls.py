@@ -62,7 +62,7 @@ def results(flat: Flat, control: str) -> dict[int, set[object]]:
     return found
 
 
-@drawn(12)
+@drawn(9)
 def test_contours_are_those_of_the_flat_program(control, seed):
     program, own = drawn_program(control, seed), defaultdict(list)
     flat = Flat(program)
@@ -93,7 +93,7 @@ def are_alike(one: str, other: str) -> bool:
     )
 
 
-@drawn(9)
+@drawn(7)
 def test_expanded_inline_it_is_the_flat_program(control, seed):
     program = drawn_program(control, seed)
     own = Flat(program)

@@ -19,7 +19,7 @@ Words = dict[str, float]
 Residual = Callable[[numpy.ndarray], list[float]]
 
 START = (10.0, 5.0)
-CONSISTENT, INCONSISTENT = 0.004, 0.04
+CONSISTENT, INCONSISTENT = 2e-4, 0.04
 """mm. What misses by more than the one and less than the other is nobody's to judge."""
 
 
@@ -125,7 +125,7 @@ def miss(names: frozenset[str], words: Words, says: dict[str, Residual], size: i
                 at, value, damping = moved, told, max(damping / 5, 1e-12)
             else:
                 damping *= 8
-            if damping > 1e8 or value @ value < 1e-8:
+            if damping > 1e8 or value @ value < 1e-10:
                 break
         best = min(best, float(abs(value).max()))
         if best < CONSISTENT:
@@ -238,7 +238,7 @@ def assert_advice(text: str, answer) -> None:
     assert "words-conflict" not in {each.code for each in again.diagnostics}, ("\n".join(changed), again.diagnostics)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("kind", [lines, arc, touching])
 def test_the_sets_that_are_listed_are_the_smallest_that_no_contour_fits(kind, seed):
     assert_conflicts(kind, seed, 6)
