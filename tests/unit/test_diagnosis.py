@@ -301,3 +301,11 @@ def test_a_decimal_comma_in_a_fact_is_told_as_in_a_word_and_mended():
     error = next(each for each in answer.diagnostics if each.severity is Severity.ERROR)
     assert error.message.endswith("30,5 has a decimal comma; write 30.5")
     assert error.fixes[0].replacement.endswith("length of line 1 = 30.5)")
+
+
+@pytest.mark.parametrize(("angle", "ending"), [("A135.", ""), ("A135.001", " to its least increment")])
+def test_an_angle_that_is_ignored_agrees_or_does_so_to_its_least_increment(angle, ending):
+    (answer,) = solve(f"G111 {angle} I10. K-10. B180. Z-40.", start="X40. Z0.").answers
+    (finding,) = (each for each in answer.diagnostics if angle in each.message)
+    told = f"the control ignores {angle}, because I and K are given, too; it agrees with them{ending}"
+    assert finding.message == told

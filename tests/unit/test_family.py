@@ -247,6 +247,18 @@ def test_a_value_that_is_asked_for_is_a_column():
     ("block", "options", "error", "message"),
     [
         (BLOCK, {"vary": {}}, FamilyError, "no word varies"),
+        (
+            "G00 X10.",
+            {"vary": {"X": [1]}, "control": "yasnac-lx3"},
+            FamilyError,
+            "nothing to solve: the program has no",
+        ),
+        (
+            f"{BLOCK}\n{BLOCK}",
+            {"vary": {"1:K": [-30], "2:K": [-30]}},
+            FamilyError,
+            "1:K and 2:K are in 2 contours; a family is about one",
+        ),
         (BLOCK, {"vary": {"R": [1]}}, FamilyError, "the block has no word R; its words are X, A, K, B, P, Q"),
         (BLOCK, {"vary": {"A": []}}, FamilyError, "A needs a list of one or more numbers"),
         (BLOCK, {"vary": {"A": ["x"]}}, FamilyError, "the values of A are not numbers"),

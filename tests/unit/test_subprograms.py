@@ -316,3 +316,9 @@ def test_a_jump_that_cannot_be_decided_is_not_written_out(name, keeps_going):
     advice = "delete the block, or its /" if line.startswith("/") else "state its value by --let"
     assert (inline.text, left.lines) == (None, (3,))
     assert re.fullmatch(rf"{re.escape(line)} cannot be decided: .+; {advice}, or leave out --inline", left.reason)
+
+
+def test_a_label_with_the_number_of_a_block_is_not_that_block():
+    program = "G17 G90 G0 X0 Y0\nGOTOF A10\nN10 G1 X99 F100\nA10: G1 X10 Y0 RND=1 F100\nX10 Y10\nM30\n"
+    (answer,) = solve(program, control="siemens-840d").answers
+    assert (answer.contour.start, answer.contour.end) == ((0, 0), (10, 10))
