@@ -270,6 +270,11 @@ def test_an_axis_is_never_guessed():
     )
     assert len(read_dxf(data(document), part="turned", zero=(0, 0)).sketch.elements) == 4
     assert len(read_dxf(data(document), part="turned", zero=(0, 25)).sketch.elements) == 3
+    # A ring that differs on both sides of its middle can be no whole part.
+    document, space = drawing()
+    space.add_lwpolyline([(0, 20), (-30, 20), (-30, 30), (-5, 30), (0, 25)], close=True)
+    found = read_dxf(data(document), part="turned")
+    assert ("the axis is Y0 of the drawing" in found.notes, len(found.sketch.elements)) == (True, 5)
     document, space = drawing()
     space.add_line((0, -5), (-30, 30))
     assert "lies on both sides of Y0, from Y-5 to Y30, and is not the same on both" in refused(document, part="turned")
