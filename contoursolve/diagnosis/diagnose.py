@@ -338,14 +338,17 @@ def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Dialect) -> Ite
         own = {finding.span, *(label.span for label in finding.labels)}
         able = [each for each in (*sets.found, *sets.beside) if _tells(each, finding, own)]
         best = min(able, key=lambda each: (len(blamed & _places(each)), not each.is_conflict), default=None)
-        if best is not None and best.event is not None and best.event.kind is finding.about:
+        is_so = best is not None and best.event is not None and best.event.kind is finding.about
+        if is_so and best is not None and best.event is not None:
             yield explain_result(context, best.event, best.profile)
         elif finding.is_error:
-            if best is None:
+            # What agrees with all that is not blamed follows from what is; the first one is always told.
+            if not blamed or best is None or best.is_conflict:
                 yield finding
         elif not _is_against(sets, finding.span):
             yield finding
-        blamed.add(finding.span)
+        if finding.is_error:
+            blamed.add(finding.span)
 
 
 def _is_against(sets: SmallestSets, span: Span) -> bool:

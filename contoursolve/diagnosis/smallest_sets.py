@@ -25,6 +25,7 @@ from contoursolve.solving import (
     find_ties,
     headings_of,
     is_found_at_once,
+    nearest_of_determined,
     refusals_about,
     said_twice,
 )
@@ -195,6 +196,9 @@ class _Words:
             self.is_cut = True
             return None
         events = sorted(self._events(names), key=lambda each: each.kind not in _AGAINST)
+        if not events and nearest_of_determined(profile) is None:
+            self.is_cut = True  # nothing was found that would tell
+            return None
         off = max((each.values.get("off_by_mm", 0.0) for each in events), default=0.0)
         said = (each for each in self._circuits(names) if names == {fact.statement for fact in each if fact.statement})
         facts = next(said, tuple(fact for fact in profile.facts if fact.given in names))

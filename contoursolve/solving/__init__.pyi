@@ -14,6 +14,7 @@ from .ambiguity import (
     headings_of as headings_of,
     is_found_at_once as is_found_at_once,
     is_given_up as is_given_up,
+    nearest_of_determined as nearest_of_determined,
     orders_of as orders_of,
     restrict as restrict,
     said_twice as said_twice,

@@ -208,6 +208,8 @@ def assert_conflicts(kind: Callable[..., tuple[Words, dict[str, Residual], int, 
     words, says, size, goal, full, (text, named) = drawn(kind, seed, most)
     result = contoursolve.solve(text, control="heidenhain")
     (answer,) = result.answers
+    if answer.status.value in ("conflicting", "no-solution"):
+        assert any(each.is_error for each in answer.diagnostics), text
     expected = minimal_conflicts(words, says, size, goal)
     tied = {names for names in expected if is_tied(names, full, says, goal)}
     if answer.diagnosis is None:
