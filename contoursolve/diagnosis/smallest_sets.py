@@ -133,6 +133,7 @@ class _Words:
     def __init__(self, claim: ParsedContour, whole: Profile) -> None:
         self._claim, self._whole, self.is_cut, self._searched = claim, whole, False, 0
         self._stating = frozenset(fact.given for fact in (*whole.facts, *whole.ignored) if fact.given)
+        self._touching = {fact.statement for fact in whole.facts if fact.foot and fact.statement}
         self._read: dict[frozenset[str], Profile | None] = {}
         self._said: dict[frozenset[str], tuple[Refusal | Note, ...]] = {}
         self._tied: dict[frozenset[str], bool] = {}
@@ -195,15 +196,17 @@ class _Words:
         if profile is None or not self._may_compare(names, profile):
             self.is_cut = True
             return None
-        events = sorted(self._events(names), key=lambda each: each.kind not in _AGAINST)
-        if not events and nearest_of_determined(profile) is None:
+        against = self._against(names)
+        events = sorted(self._events(names), key=lambda each: each.kind not in against)
+        is_open = any(isinstance(each, Refusal) and each.kind not in against for each in events)
+        if is_open or (not events and nearest_of_determined(profile) is None):
             self.is_cut = True  # nothing was found that would tell
             return None
         off = max((each.values.get("off_by_mm", 0.0) for each in events), default=0.0)
         said = (each for each in self._circuits(names) if names == {fact.statement for fact in each if fact.statement})
         facts = next(said, tuple(fact for fact in profile.facts if fact.given in names))
         event = events[0] if events else None
-        return TiedSet(tuple(order), facts, profile, off, event is not None and event.kind in _AGAINST, event)
+        return TiedSet(tuple(order), facts, profile, off, event is not None and event.kind in against, event)
 
     def _may_compare(self, names: frozenset[str], profile: Profile) -> bool:
         if names in self._said or is_found_at_once(profile):
@@ -226,7 +229,12 @@ class _Words:
         if profile is None or not (names in self._said or is_found_at_once(profile)):
             self.is_cut = True
             return False
-        return any(each.kind in _AGAINST for each in self._events(names))
+        return any(each.kind in self._against(names) for each in self._events(names))
+
+    def _against(self, names: frozenset[str]) -> frozenset[RefusalKind]:
+        """The refusals that speak against some words. Where elements touched that only meet without a word that is left
+        out, rounding decides whether they do."""
+        return AGAINST if self._touching - names else _AGAINST
 
     def _circuits(self, names: frozenset[str]) -> Iterable[tuple[Fact, ...]]:
         """Facts of some words that say the same."""
