@@ -41,7 +41,7 @@ from contoursolve.diagnostics import (
     Verdict,
 )
 from contoursolve.gcode import FACT, Block, FaultKind, Word
-from contoursolve.geometry import Fact, Profile, System, Unit, assemble
+from contoursolve.geometry import Fact, Given, Profile, System, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, read
 from contoursolve.solving import (
     AffineFacts,
@@ -326,29 +326,47 @@ def _tie(answer: Answer, ties: Ties | None, words: TiedSet) -> Tie:
     )
 
 
-def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Dialect) -> Iterator[Diagnostic]:
+def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Dialect) -> list[Diagnostic]:
     """The findings of an answer; those that compare a word with others compare it with the others of a smallest set,
     if one of these tells of it. What is wrong with these others is told by itself: of a word that agrees with all that
     is not blamed nothing is told."""
-    context, blamed = context_of(answer.claim, dialect.rules), set[Span]()
-    for finding in answer.diagnostics:
-        if finding.about not in SAID_AGAIN | _ABOUT_RADII or finding.span is None:
-            yield finding
-            continue
-        own = {finding.span, *(label.span for label in finding.labels)}
-        able = [each for each in (*sets.found, *sets.beside) if _tells(each, finding, own)]
+    context, blamed, used = context_of(answer.claim, dialect.rules), set[Span](), list[TiedSet]()
+    found: dict[int, Diagnostic | None] = dict(enumerate(answer.diagnostics))
+    compared = [number for number, each in enumerate(answer.diagnostics) if each.about in SAID_AGAIN | _ABOUT_RADII]
+    places = {given.word.span: place for place, given in enumerate(_by_facts(answer.profile)) if given.word}
+    spans = {number: _spans(answer.diagnostics[number]) for number in compared}
+
+    def order(number: int) -> tuple[int, list[int]]:
+        return len(spans[number]), sorted(places.get(span, 0) for span in spans[number])
+
+    # The order of the words does not tell which of them is blamed first.
+    for number in sorted(compared, key=order):
+        finding, own = answer.diagnostics[number], spans[number]
+        able = [each for each in (*sets.found, *sets.beside) if each not in used and _tells(each, finding, own)]
         best = min(able, key=lambda each: (len(blamed & _places(each)), not each.is_conflict), default=None)
         is_so = best is not None and best.event is not None and best.event.kind is finding.about
         if is_so and best is not None and best.event is not None:
-            yield explain_result(context, best.event, best.profile)
+            used.append(best)
+            found[number] = explain_result(context, best.event, best.profile)
+            blamed |= _places(best) if finding.about in _ABOUT_RADII else {finding.span}
         elif finding.is_error:
             # What agrees with all that is not blamed follows from what is; the first one is always told.
-            if not blamed or best is None or best.is_conflict:
-                yield finding
-        elif not _is_against(sets, finding.span):
-            yield finding
-        if finding.is_error:
+            if blamed and best is not None and not best.is_conflict:
+                found[number] = None
             blamed.add(finding.span)
+        elif _is_against(sets, finding.span):
+            found[number] = None
+    return [each for each in found.values() if each is not None]
+
+
+def _spans(finding: Diagnostic) -> set[Span]:
+    return {finding.span, *(label.span for label in finding.labels)}
+
+
+def _by_facts(profile: Profile) -> list[Given]:
+    """The givens in the order of the facts that they state."""
+    names = dict.fromkeys(fact.given for fact in (*profile.facts, *profile.ignored) if fact.given)
+    return [profile.givens[name] for name in names]
 
 
 def _is_against(sets: SmallestSets, span: Span) -> bool:

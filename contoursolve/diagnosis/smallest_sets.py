@@ -185,7 +185,9 @@ class _Words:
 
     def compared(self, sets: Iterable[frozenset[str]]) -> tuple[TiedSet, ...]:
         """Sets, smallest first, with what their words alone tell; without those that take one search too many."""
-        place = {name: number for number, name in enumerate(self._whole.givens)}
+        # The order of the facts, which is that of the form: that of the words is the programmer's.
+        facts = (*self._whole.facts, *self._whole.ignored)
+        place = {name: number for number, name in enumerate(dict.fromkeys(fact.given for fact in facts))}
         ordered = (sorted(names, key=place.__getitem__) for names in sets)
         by_size = sorted(ordered, key=lambda order: (len(order), [place[name] for name in order]))
         return tuple(filter(None, map(self._compared, by_size)))

@@ -211,7 +211,9 @@ def assert_conflicts(kind: Callable[..., tuple[Words, dict[str, Residual], int, 
     if answer.status.value in ("conflicting", "no-solution"):
         assert any(each.is_error for each in answer.diagnostics), text
     expected = minimal_conflicts(words, says, size, goal)
-    tied = {names for names in expected if is_tied(names, full, says, goal)}
+    # Without the word that they touch, the arc and the line that was drawn meet in one point: rank tells nothing there.
+    generic = [names for names in expected if "2:FCT" in names or "2:FCT" not in says]
+    tied = {names for names in generic if is_tied(names, full, says, goal)}
     if answer.diagnosis is None:
         assert not tied, text
         return
@@ -267,10 +269,10 @@ def test_of_an_arc_that_is_said_too_often_each_set_is_compared_alone():
     (answer,) = contoursolve.solve(text, control="heidenhain").answers
     told = {tie.addresses: (round(tie.off_by_mm, 3), tie.is_conflict) for tie in answer.diagnosis.ties}
     assert told == {
-        ("R", "CCX", "CCY"): (0.08, True),
-        ("R", "CCX", "X", "Y"): (0.0, False),
-        ("R", "CCY", "X", "Y"): (1.518, True),
-        ("CCX", "CCY", "X", "Y"): (1.649, True),
+        ("CCX", "CCY", "R"): (0.08, True),
+        ("X", "Y", "CCX", "CCY"): (1.649, True),
+        ("X", "Y", "CCX", "R"): (0.0, False),
+        ("X", "Y", "CCY", "R"): (1.518, True),
     }
     assert [each.values["off_by_mm"] for each in answer.diagnostics] == pytest.approx([0.07987, 1.64912], abs=1e-5)
 
