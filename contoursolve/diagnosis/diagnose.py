@@ -24,7 +24,7 @@ from contoursolve.diagnosis.fix_text import fixes_of, with_fixes
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.slips_around import touches
-from contoursolve.diagnosis.smallest_sets import NO_SETS, SmallestSets, TiedSet, is_exact, smallest_sets
+from contoursolve.diagnosis.smallest_sets import NO_SETS, SmallestSets, TiedSet, is_exact, smallest_sets, stating_givens
 from contoursolve.diagnosis.vocabulary import names_like
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnosis.wording import SHOWN, count, join, length_text
@@ -41,7 +41,7 @@ from contoursolve.diagnostics import (
     Verdict,
 )
 from contoursolve.gcode import FACT, Block, FaultKind, Word
-from contoursolve.geometry import Fact, Given, Profile, System, Unit, assemble
+from contoursolve.geometry import Fact, Profile, System, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, read
 from contoursolve.solving import (
     AffineFacts,
@@ -330,10 +330,13 @@ def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Dialect) -> lis
     """The findings of an answer; those that compare a word with others compare it with the others of a smallest set,
     if one of these tells of it. What is wrong with these others is told by itself: of a word that agrees with all that
     is not blamed nothing is told."""
+    compared = [number for number, each in enumerate(answer.diagnostics) if each.about in SAID_AGAIN | _ABOUT_RADII]
+    if not compared or not sets.found:
+        return [*answer.diagnostics]
     context, blamed, used = context_of(answer.claim, dialect.rules), set[Span](), list[TiedSet]()
     found: dict[int, Diagnostic | None] = dict(enumerate(answer.diagnostics))
-    compared = [number for number, each in enumerate(answer.diagnostics) if each.about in SAID_AGAIN | _ABOUT_RADII]
-    places = {given.word.span: place for place, given in enumerate(_by_facts(answer.profile)) if given.word}
+    stated = [answer.profile.givens[name].word for name in stating_givens(answer.profile)]
+    places = {word.span: place for place, word in enumerate(stated) if word is not None}
     spans = {number: _spans(answer.diagnostics[number]) for number in compared}
 
     def order(number: int) -> tuple[int, list[int]]:
@@ -344,8 +347,7 @@ def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Dialect) -> lis
         finding, own = answer.diagnostics[number], spans[number]
         able = [each for each in (*sets.found, *sets.beside) if each not in used and _tells(each, finding, own)]
         best = min(able, key=lambda each: (len(blamed & _places(each)), not each.is_conflict), default=None)
-        is_so = best is not None and best.event is not None and best.event.kind is finding.about
-        if is_so and best is not None and best.event is not None:
+        if best is not None and best.event is not None and best.event.kind is finding.about:
             used.append(best)
             found[number] = explain_result(context, best.event, best.profile)
             blamed |= _places(best) if finding.about in _ABOUT_RADII else {finding.span}
@@ -361,12 +363,6 @@ def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Dialect) -> lis
 
 def _spans(finding: Diagnostic) -> set[Span]:
     return {finding.span, *(label.span for label in finding.labels)}
-
-
-def _by_facts(profile: Profile) -> list[Given]:
-    """The givens in the order of the facts that they state."""
-    names = dict.fromkeys(fact.given for fact in (*profile.facts, *profile.ignored) if fact.given)
-    return [profile.givens[name] for name in names]
 
 
 def _is_against(sets: SmallestSets, span: Span) -> bool:
@@ -393,8 +389,8 @@ def _is_turned(answer: Answer, ties: Ties | None, facts: Sequence[Fact]) -> bool
     """Whether a line runs against the angle of one of the facts that say the same: as the contour runs, or where these
     facts alone put its ends."""
     profile, contour = answer.profile, answer.contour
-    is_here = ties is not None and ties.rows is not None and ties.rows.places.keys() >= {*facts}
-    known = ties.rows.fixed_by(facts) if is_here and ties is not None and ties.rows is not None else {}
+    rows = ties.rows if ties is not None else None
+    known = rows.fixed_by(facts) if rows is not None and rows.places.keys() >= {*facts} else {}
     return runs_against(facts, profile, lookup(profile, known | scalars_of(contour.points if contour else {})))
 
 

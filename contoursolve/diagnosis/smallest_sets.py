@@ -67,7 +67,7 @@ NO_SETS = SmallestSets((), is_complete=False)
 
 def is_exact(ties: Ties) -> bool:
     """Whether sets of facts that say the same are sets of words that do, with the amounts by which they disagree."""
-    if ties.at is not None or ties.rows is None:
+    if ties.rows is None or not ties.is_affine:
         return not ties.circuits.found
     system = assemble(ties.profile)
     return not any(_lent(each.facts, ties.profile) for each in ties.circuits.found if system.headed)
@@ -108,6 +108,12 @@ def _read_alone(claim: ParsedContour, ties: Ties, whole: Profile) -> SmallestSet
     return SmallestSets(found, not words.is_cut, beside)
 
 
+def stating_givens(profile: Profile) -> tuple[str, ...]:
+    """The givens that facts state, in the order of these, which is that of the form: that of the words is the
+    programmer's."""
+    return tuple(dict.fromkeys(fact.given for fact in (*profile.facts, *profile.ignored) if fact.given))
+
+
 def _lent(facts: Iterable[Fact], profile: Profile) -> set[str]:
     """The stated directions along which some facts are counted that do not state them."""
     system, facts = assemble(profile), tuple(facts)
@@ -132,7 +138,7 @@ class _Words:
 
     def __init__(self, claim: ParsedContour, whole: Profile) -> None:
         self._claim, self._whole, self.is_cut, self._searched = claim, whole, False, 0
-        self._stating = frozenset(fact.given for fact in (*whole.facts, *whole.ignored) if fact.given)
+        self._stating = frozenset(stating_givens(whole))
         self._touching = {fact.statement for fact in whole.facts if fact.foot and fact.statement}
         self._read: dict[frozenset[str], Profile | None] = {}
         self._said: dict[frozenset[str], tuple[Refusal | Note, ...]] = {}
@@ -185,9 +191,7 @@ class _Words:
 
     def compared(self, sets: Iterable[frozenset[str]]) -> tuple[TiedSet, ...]:
         """Sets, smallest first, with what their words alone tell; without those that take one search too many."""
-        # The order of the facts, which is that of the form: that of the words is the programmer's.
-        facts = (*self._whole.facts, *self._whole.ignored)
-        place = {name: number for number, name in enumerate(dict.fromkeys(fact.given for fact in facts))}
+        place = {name: number for number, name in enumerate(stating_givens(self._whole))}
         ordered = (sorted(names, key=place.__getitem__) for names in sets)
         by_size = sorted(ordered, key=lambda order: (len(order), [place[name] for name in order]))
         return tuple(filter(None, map(self._compared, by_size)))

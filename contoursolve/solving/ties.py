@@ -6,7 +6,7 @@ from math import cos, sin, tau
 
 from msgspec import Struct
 
-from contoursolve.geometry import Fact, Profile, System, Values, assemble
+from contoursolve.geometry import Fact, Profile, System, assemble
 from contoursolve.numeric import COSINE, FLOATS, PRIME, SINE, draw
 from contoursolve.solving.affine import (
     NO_CIRCUITS,
@@ -16,49 +16,34 @@ from contoursolve.solving.affine import (
     affine_facts,
     linearise,
     rows_at,
-    values_at,
 )
 from contoursolve.solving.ambiguity import headings_of, nearest_of_determined, restrict
-from contoursolve.solving.compare import compare_fact, is_conflict
+from contoursolve.solving.compare import is_conflict
 from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, circuits_of
-from contoursolve.solving.events import Topic
 from contoursolve.solving.inputs import input_values
-from contoursolve.solving.solution import Note, Refusal
-from contoursolve.tolerance import REGULAR, RESIDUAL
+from contoursolve.tolerance import REGULAR
 
 
 class Ties(Struct, frozen=True):
     """The smallest sets of facts of a profile that say the same at its values, as `rows` of a matrix.
 
-    Where not all are affine, the rows are those `at` the solution with which most facts agree; without any solution
-    there are none, and the circuits are those for all values.
+    Where not all are affine (`is_affine`), the rows are those at the solution with which most facts agree; without any
+    solution there are none, and the circuits are those for all values.
     """
 
     profile: Profile
     rows: AffineFacts | None
     circuits: Circuits
-    at: Values | None = None
+    is_affine: bool = True
 
     def is_conflict(self, circuit: Circuit) -> bool:
-        """Whether facts that say the same disagree, see `compare.is_conflict` and `compare_fact`."""
-        if self.at is not None:
-            return isinstance(self._compare(circuit, self.at), Refusal)
+        """Whether facts that are affine and say the same disagree, see `compare.is_conflict`."""
         return self.rows is not None and is_conflict(circuit, self.profile, self.rows)
 
     def off_by(self, circuit: Circuit) -> float:
-        """By how much facts that say the same disagree, mm: at most, and where not all are affine, the last of them."""
-        if self.at is None:
-            return max(circuit.off)
-        event, off = self._compare(circuit, self.at), circuit.off[-1]
-        told = event.values["off_by_mm"] if event is not None else 0.0
-        is_radius = event is not None and event.kind.event.topic is Topic.RADII
-        # A difference of radii is so to first order; another one has been rounded where it is a sum of several.
-        return told if is_radius or abs(told - off) <= RESIDUAL else off
-
-    def _compare(self, circuit: Circuit, at: Values) -> Refusal | Note | None:
-        """The event about the last fact of a circuit, compared with the others."""
-        return compare_fact(circuit.facts[-1], circuit.off[-1], self.profile, assemble(self.profile), at)
+        """By how much facts that are affine and say the same disagree at most, mm."""
+        return max(circuit.off)
 
     def givens(self, circuit: Circuit) -> tuple[str, ...]:
         """The givens of the facts of a circuit, see `givens_of_facts`."""
@@ -99,8 +84,7 @@ def find_ties(profile: Profile, *, is_told: bool) -> Ties:
     for last, others in circuits_of(own).items():
         if last not in known:
             kept.append(Circuit((*others, last), (*(0.0 for _ in others), float(off[rows.places[last]]))))
-    at = values_at(part, part.facts, item.scalars)
-    return Ties(part, rows, Circuits(tuple(kept), circuits.is_complete and part is profile), at)
+    return Ties(part, rows, Circuits(tuple(kept), circuits.is_complete and part is profile), is_affine=False)
 
 
 def _is_for_certain(circuit: Circuit, profile: Profile, rows: AffineFacts) -> bool:
