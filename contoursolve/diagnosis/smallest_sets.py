@@ -5,7 +5,7 @@ along the direction that another word states, a set is so only if its words alon
 direction is not the length from point to point.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from itertools import chain, combinations
 
 from msgspec import Struct
@@ -130,7 +130,7 @@ MOST_SEARCHED = 6
 """Sets of which the comparison takes a search; of more, those that take one are not listed."""
 
 MOST_LENT = 3
-"""Words that others are read by, as many as are left out together; of more, each alone and all."""
+"""Words that others are read by, as many as are left out together; of more, those that share no set, and all."""
 
 
 class _Words:
@@ -146,11 +146,11 @@ class _Words:
 
     def without_lent(self, ties: Ties) -> Iterator[Ties]:
         """The ties of the facts where words are left out by which other words are read as well."""
-        named = sorted(set[str]().union(*(ties.givens(each) for each in ties.circuits.found)) & self._stating)
-        lent = [name for name in named if self._is_lent(name)]
+        circuits = [{*ties.givens(each)} & self._stating for each in ties.circuits.found]
+        lent = [name for name in sorted(set[str]().union(*circuits)) if self._is_lent(name)]
         if len(lent) > MOST_LENT:
             self.is_cut = True
-            parts = [*((name,) for name in lent), tuple(lent)]
+            parts = [*_apart(lent, circuits), tuple(lent)]
         else:
             parts = [part for size in range(1, len(lent) + 1) for part in combinations(lent, size)]
         for part in parts:
@@ -302,6 +302,18 @@ def _is_met(profile: Profile, arc: Arc, end: str) -> bool:
         for fact in profile.facts
     )
     return (arc.center, end) in ends
+
+
+def _apart(names: Iterable[str], sets: Sequence[Set[str]]) -> list[tuple[str, ...]]:
+    """Names in groups, of which no set has two."""
+    groups = list[list[str]]()
+    for name in names:
+        near = set[str]().union(*(each for each in sets if name in each))
+        group = next((each for each in groups if near.isdisjoint(each)), None)
+        if group is None:
+            groups.append(group := [])
+        group.append(name)
+    return [tuple(group) for group in groups]
 
 
 def _smaller(names: frozenset[str]) -> list[frozenset[str]]:

@@ -179,7 +179,7 @@ def before(profile: Profile, words: Set[Word]) -> Profile | None:
     system = assemble(profile)
     groups = groups_of(system)
     for number, group in enumerate(groups):
-        stated = (profile.givens[name].word for name in _givens([group], groups, system))
+        stated = (profile.givens[name].word for name in _without_point([group], groups, system))
         if number and {word for word in stated if word is not None} == words:
             return _first(profile, groups[:number])
     return None
@@ -210,9 +210,17 @@ def _first(profile: Profile, groups: tuple[Group, ...]) -> Profile:
 def _blame(solution: Solution, blamed: list[Group], groups: tuple[Group, ...], system: System) -> Solution:
     """The solution whose refusal names the facts of some groups."""
     subject = ",".join(name for group in blamed for name in group.unknowns)
-    givens = _givens(blamed, groups, system)
+    givens = (_without_point if Status.NO_SOLUTION is solution.status else _givens)(blamed, groups, system)
     refusals = (replace(each, subject=subject, givens=givens) for each in solution.refusals)
     return replace(solution, refusals=tuple(refusals))
+
+
+def _without_point(blamed: list[Group], groups: tuple[Group, ...], system: System) -> tuple[str, ...]:
+    """The givens of the facts of some groups that have no solution, and of what these build on: with other values of
+    that, they may have one."""
+    used = {name for group in blamed for fact in group.facts for name in system.unknowns_of(fact)}
+    earlier = [group for group in groups if group not in blamed and not used.isdisjoint(group.unknowns)]
+    return tuple(dict.fromkeys((*_givens(earlier, groups, system), *_givens(blamed, groups, system))))
 
 
 def _givens(blamed: list[Group], groups: tuple[Group, ...], system: System) -> tuple[str, ...]:

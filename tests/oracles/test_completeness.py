@@ -186,5 +186,5 @@ def test_what_is_tied_with_what_takes_one_elimination_however_long_the_chain(
     assert answer.status.value == "conflicting"
     (finding,) = (each for each in answer.diagnostics if each.is_error)
     assert finding.span.line == size // 2 + 3
-    # Each tied set is looked at by itself, and is small.
-    assert 1 <= sum(len(rows) > size for rows, *_ in calls) < 40
+    # The whole chain is looked at a few times; each tied set by itself, and is small.
+    assert 1 <= sum(len(rows) > 3 * size for rows, *_ in calls) < 40
