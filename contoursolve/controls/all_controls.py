@@ -37,7 +37,7 @@ class _Controls(Mapping[str, Dialect]):
 
     def __getitem__(self, name: str) -> Dialect:
         if name not in self._read:
-            module = import_module(f"contoursolve.controls.{_CONTROLS[name][0]}")
+            module = import_module(self.home_of(name))
             self._read[name] = getattr(module, name.upper().replace("-", "_"))
         return self._read[name]
 
@@ -49,6 +49,10 @@ class _Controls(Mapping[str, Dialect]):
 
     def __or__(self, others: Mapping[str, Dialect]) -> dict[str, Dialect]:
         return {**self, **others}
+
+    def home_of(self, name: str) -> str:
+        """The module that has the record of a control."""
+        return f"contoursolve.controls.{_CONTROLS[name][0]}"
 
     def showing(self, line: str) -> list[Dialect]:
         """The controls that a line may show, in order; their `signs` say whether it does."""

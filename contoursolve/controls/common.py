@@ -1,11 +1,15 @@
 """The rows that all controls have in common: here those about contours, facts and references; those about blocks stand
-in `block_rules`."""
+in `block_rules`. Tables of every control are pickled as `pickled_tables` says."""
+
+import copyreg
+from typing import Any
 
 from contoursolve.controls.block_rules import GRAMMAR_RULES, READING_RULES
 from contoursolve.controls.control_settings import own_source
 from contoursolve.controls.rule_rows import EVENTS, row
 from contoursolve.diagnostics import Severity
-from contoursolve.reading import ReadIssue
+from contoursolve.gcode import Syntax
+from contoursolve.reading import Assumption, ContourForm, Dialect, Lexicon, Modes, ReadIssue, Rule, Setting
 
 _GEOMETRY, _READING = own_source("the original equations"), own_source("modal state of a program")
 
@@ -93,3 +97,13 @@ SYSTEM_RULES = (
 
 COMMON_RULES = GRAMMAR_RULES + READING_RULES + SYSTEM_RULES
 """Their examples are made in the words of each control (see `own_words`)."""
+
+
+def _reduced(table: Any) -> Any:
+    from contoursolve.controls.pickled_tables import reduced  # noqa: PLC0415 - few programs are sent elsewhere
+
+    return reduced(table)
+
+
+for _kind in (Dialect, Modes, Lexicon, Syntax, ContourForm, Assumption, Setting, Rule):
+    copyreg.pickle(_kind, _reduced)

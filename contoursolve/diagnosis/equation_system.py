@@ -141,6 +141,18 @@ class EquationSystem(Shown):
         self.claim, self.profile, self._read_by, self._left_out = claim, profile, read_by, without
         self._system: System = assemble(profile)
 
+    def _made_of(self) -> tuple[ParsedContour, Profile, Rereading, frozenset[str]]:
+        return self.claim, self.profile, self._read_by, self._left_out
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, EquationSystem) and self._made_of() == other._made_of()
+
+    def __hash__(self) -> int:
+        return hash((self.claim.form.name, self.profile.layout, self._left_out))
+
+    def __reduce__(self) -> Any:
+        return EquationSystem, self._made_of()
+
     # What it consists of -----------------------------------------------------------------------------------------
 
     @cached_property

@@ -3,7 +3,7 @@ needed only here.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -19,7 +19,7 @@ from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import kind_of
 from contoursolve.families.results import find_result, lengths_of, names_of_results
 from contoursolve.families.versions import versions
-from contoursolve.families.word_values import TOOL, Ranges
+from contoursolve.families.word_values import TOOL, Ranges, are_same
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.reading import Premises
@@ -109,6 +109,13 @@ class Family(Shown):
     solutions: tuple[str, ...] = ()
     """The names of the solutions along the last axis, as `list_solutions` tells them apart; none without that axis. A
     row that lacks one has no points there, and the status `no-solution`."""
+
+    def __eq__(self, other: object) -> bool:
+        names = (each.name for each in fields(self))
+        return isinstance(other, Family) and all(are_same(getattr(self, name), getattr(other, name)) for name in names)
+
+    def __hash__(self) -> int:
+        return hash((self.names, self.shape))
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -7,7 +7,7 @@ from typing import Any, TypeVar, Unpack
 
 import numpy
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from contoursolve.diagnosis import inward, short_name
 from contoursolve.diagnostics import Shown, plot_on
@@ -27,7 +27,7 @@ from contoursolve.families.sampled_lines import (
     is_contour,
     outcomes_of,
 )
-from contoursolve.families.word_values import Ranges
+from contoursolve.families.word_values import Ranges, are_same
 from contoursolve.geometry import Unit
 from contoursolve.numeric import Array
 from contoursolve.reading import Premises
@@ -73,6 +73,12 @@ class Region(Shown, Struct, frozen=True, eq=False):
     spec: SweepSpec
     premises: Premises = Premises()
     """Premises of its contours beside the words."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Region) and are_same(asdict(self), asdict(other))
+
+    def __hash__(self) -> int:
+        return hash((self.words, self.within, self.stated))
 
     @property
     def fineness(self) -> str:

@@ -2,9 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 from math import isfinite
+from typing import Any
 
 import numpy
 from msgspec import Struct
+from msgspec.structs import asdict
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.families.errors import FamilyError
@@ -21,12 +23,29 @@ _FEW = 64
 """Rows whose places are computed one by one where they lie far apart."""
 
 
+def are_same(one: Any, other: Any) -> bool:
+    """Whether two values, or what is in two mappings, are the same: arrays by their elements, NaN being like itself."""
+    if isinstance(one, Mapping):
+        is_alike = isinstance(other, Mapping) and [*one] == [*other]
+        return is_alike and all(are_same(value, other[name]) for name, value in one.items())
+    if isinstance(one, numpy.ndarray):
+        is_alike = isinstance(other, numpy.ndarray) and one.dtype == other.dtype
+        return is_alike and numpy.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+    return bool(one == other)
+
+
 class Ranges(Struct, frozen=True, eq=False):
     """The values of each free word, by its name: as columns side by side (`is_paired`), or as the axes of a grid whose
     last word varies fastest."""
 
     values: Mapping[str, Array]
     is_paired: bool
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Ranges) and are_same(asdict(self), asdict(other))
+
+    def __hash__(self) -> int:
+        return hash((tuple(self.values), self.shape))
 
     @property
     def shape(self) -> tuple[int, ...]:

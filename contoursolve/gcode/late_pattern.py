@@ -8,6 +8,15 @@ class _LatePattern:
     def __init__(self, pattern: str, flags: int) -> None:
         self.pattern, self.flags = pattern, flags
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _LatePattern) and (self.pattern, self.flags) == (other.pattern, other.flags)
+
+    def __hash__(self) -> int:
+        return hash((self.pattern, self.flags))
+
+    def __reduce__(self) -> Any:
+        return _LatePattern, (self.pattern, self.flags)
+
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)

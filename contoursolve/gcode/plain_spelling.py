@@ -26,7 +26,7 @@ _COMMENTS = {
 _FLAGS = re.IGNORECASE | re.ASCII
 
 
-class PlainSpelling(Struct, frozen=True, eq=False):
+class PlainSpelling(Struct, frozen=True):
     """One way to spell plain lines. They make no contour, and one may begin or end with them only beside others."""
 
     one: re.Pattern[str]

@@ -30,7 +30,7 @@ def long_parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
 _LAST_NUMBER = re.compile(r"[+-]?+[\d.,]++(?=\s*+$)|\?(?=\s*+$)")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class WordSpelling:
     """One way to spell words. `before` is the text before the numbers of words that have no equals sign there, by their
     addresses; those of `signs` have a sign and no number. `names` are the addresses whose values words of other names
@@ -40,6 +40,9 @@ class WordSpelling:
     signs: frozenset[str] = frozenset()
     names: Mapping[str, str] = field(default_factory=dict)
     spare: re.Pattern[str] | None = None
+
+    def __hash__(self) -> int:
+        return hash((frozenset(self.before), self.signs, frozenset(self.names)))
 
     @cached_property
     def addresses(self) -> Mapping[str, str]:
@@ -71,7 +74,7 @@ PLAIN = WordSpelling()
 _SKIP = re.compile(r"[ \t]*+/[1-9]?+(?!\d)")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class Syntax:
     """One way to spell blocks.
 
@@ -100,6 +103,9 @@ class Syntax:
     """The lines that do nothing but move."""
     words: WordSpelling = PLAIN
     """The spelling of its words."""
+
+    def __hash__(self) -> int:
+        return hash(self.name)
 
 
 # Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.

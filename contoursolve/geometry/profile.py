@@ -146,14 +146,21 @@ class Pick(Struct, frozen=True):
     most: int = 0
 
 
-class Layout(Struct, frozen=True, eq=False):
+class Layout(Struct, frozen=True, dict=True):
     """A figure with the facts that some combination of words states about it.
 
-    Every block with these words shares one object, which is its own identity: caches go by it.
+    Every block with these words shares one object: caches go by it.
     """
 
     figure: Figure
     facts: tuple[Fact, ...]
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.figure, self.facts))
+
+    def __hash__(self) -> int:
+        return self._hash
 
 
 class Profile(Struct, frozen=True, dict=True):

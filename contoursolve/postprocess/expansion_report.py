@@ -110,6 +110,8 @@ class Expansion(Struct, frozen=True):
     control: str | None
     summary: Summary
 
+    __hash__ = hash_of
+
 
 class ConversionError(ProgramError, ValueError):
     """A program cannot be written for a control at all."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity
+from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, hash_of
 from contoursolve.gcode import split_lines
 from contoursolve.program.open_program import OpenProgram
 from contoursolve.program.pipeline import Result
@@ -140,6 +140,8 @@ class Mended(Struct, frozen=True):
     applied: tuple[Mend, ...]
     left: tuple[Mend, ...]
     after: Examined
+
+    __hash__ = hash_of
 
 
 DECLINED = "declined"

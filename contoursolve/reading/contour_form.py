@@ -12,7 +12,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics import Evidence, Source
+from contoursolve.diagnostics import Evidence, Source, hash_of
 from contoursolve.geometry import (
     Arc,
     BlockRole,
@@ -109,7 +109,7 @@ AT_ITS_LIMIT = "@at its limit"
 """The circumstance that a 45 degree bevel begins or ends at its virtual intersection."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class Assumption:
     """A thing that a control is taken to accept, or to mean, although no page that we have says so.
 
@@ -123,6 +123,9 @@ class Assumption:
     roles: tuple[str, ...]
     when: Condition
 
+    def __hash__(self) -> int:
+        return hash(self.name)
+
     def carries(self, roles: Iterable[BlockRole], stated: Stated) -> bool:
         """Whether a contour of these roles, which states this, rests on it."""
         own = [role for role in roles if role.name in self.roles]
@@ -132,13 +135,15 @@ class Assumption:
         )
 
 
-class Premises(Struct, frozen=True, eq=False):
+class Premises(Struct, frozen=True):
     """The ground on which contours rest beside their words: settings with the values that were used, and what the
     control is taken to accept. `control` is the one whose settings these are, empty where it is told elsewhere."""
 
     conventions: tuple[Convention, ...] = ()
     assumptions: tuple[Assumption, ...] = ()
     control: str = ""
+
+    __hash__ = hash_of
 
 
 def join_premises(several: Iterable[Premises], control: str) -> Premises:
@@ -270,9 +275,6 @@ class ContourForm:
 
     def __hash__(self) -> int:
         return hash(self.name)
-
-    def __eq__(self, other: object) -> bool:
-        return self is other
 
 
 def stated_sets(form: ContourForm) -> Iterator[frozenset[str]]:

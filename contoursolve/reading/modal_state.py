@@ -10,6 +10,7 @@ from enum import Enum
 from functools import cache, partial
 from itertools import groupby
 from math import radians
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -93,6 +94,15 @@ class Awaited(Position):
     def __init__(self, find: Callable[[], Position], wave: int = 0, depth: int = 0) -> None:
         for name, value in (("_find", find), ("_found", None), ("wave", wave), ("_depth", depth)):
             object.__setattr__(self, name, value)
+
+    def __eq__(self, other: object) -> bool:
+        return self.found() == (other.found() if isinstance(other, Awaited) else other)
+
+    def __hash__(self) -> int:
+        return hash(self.found())
+
+    def __reduce__(self) -> Any:
+        return replace_fields, (self.found(),)
 
     def found(self) -> Position:
         """The position."""

@@ -19,7 +19,7 @@ from contoursolve.diagnosis import (
     place_text,
     status_text,
 )
-from contoursolve.diagnostics import Diagnostic, Severity
+from contoursolve.diagnostics import Diagnostic, Severity, hash_of
 from contoursolve.geometry import Arc
 from contoursolve.pictures import Known, Role, find_known, in_part, list_trails
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program, element_of
@@ -116,6 +116,8 @@ class SketchAnswer(Struct, frozen=True):
     solutions: tuple[SketchSolution, ...] = ()
     remarks: tuple[str, ...] = ()
     asked: Mapping[Field, Decimal | None] = {}
+
+    __hash__ = hash_of
 
     @property
     def is_finished(self) -> bool:

@@ -156,6 +156,11 @@ class Sketch(Shown):
         self._free_lines: list[Line] = []
         self._statements: list[str | Statement] = []
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sketch) and vars(self) == vars(other)
+
+    __hash__ = None  # type: ignore[assignment]  # it grows
+
     def line(self, name: str, to: str = "") -> None:
         """Add a line to the path; `to` names its end, P1, P2, ... otherwise. The name of the start closes the path:
         nothing can follow then."""

@@ -26,7 +26,7 @@ from contoursolve.diagnosis import (
     rank,
     write_word,
 )
-from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence, Fix, Label, Severity, Span
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence, Fix, Label, Severity, Span, hash_of
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
@@ -73,6 +73,8 @@ class ToolRun(Struct, frozen=True, dict=True):
     offset: OffsetPath
     rules: "ToolRules"
     stops: tuple[ToolFault, ...]
+
+    __hash__ = hash_of
     """Its faults without what would fit."""
 
     @cached_property
@@ -161,6 +163,8 @@ class ToolRules(Struct, frozen=True):
     outside: OutsideCorner | None
     facts: ToolFacts
     settings: ToolSettings
+
+    __hash__ = hash_of
 
     def at(self, own: CuttingRun) -> ToolRun:
         """A run with the path of its tool, and all faults."""
@@ -292,6 +296,8 @@ class ToolReport(Struct, frozen=True):
     findings: tuple[Diagnostic, ...]
     path: ToolPath
     """The path of the program, of which the runs are parts."""
+
+    __hash__ = hash_of
 
 
 def look_at_tool(result: Result, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()) -> ToolReport:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import pairwise
 from math import atan2, cos, degrees, dist, hypot, pi, radians, tan
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -115,6 +116,15 @@ class OffsetPath:
         self.levels = levels or [1] * len(elements)
         self.joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
         self.walls = self._walls() if walls is None else walls
+
+    def _stated(self) -> tuple[Any, ...]:
+        return tuple(self.elements), self.radius, self.side, self.settings, tuple(self.levels), dict(self.walls)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, OffsetPath) and self._stated() == other._stated()
+
+    def __hash__(self) -> int:
+        return hash((tuple(self.elements), self.radius, self.side))
 
     @cached_property
     def stops(self) -> tuple[ToolFault, ...]:
