@@ -12,7 +12,7 @@ from msgspec.structs import replace
 # What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
 from contoursolve import diagnosis, gcode, program as programs
 from contoursolve.diagnosis import Depth
-from contoursolve.diagnostics import Diagnostic, choice_of
+from contoursolve.diagnostics import Diagnostic, LateModule, choice_of
 from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
 from contoursolve.program import (
     CheckKeywords,
@@ -36,8 +36,9 @@ from contoursolve.program import (
 from contoursolve.reading import Dialect
 
 if TYPE_CHECKING:
-    from contoursolve.postprocess import Conversion, Expansion, Post
-    from contoursolve.tool_radius import ToolReport
+    from contoursolve import postprocess, tool_radius
+else:
+    postprocess, tool_radius = LateModule("contoursolve.postprocess"), LateModule("contoursolve.tool_radius")
 
 __all__ = [
     "UnreadableProgramError",
@@ -253,7 +254,7 @@ def solve_with_tool(
     outside: str | None = None,
     name: str = "<program>",
     **options: Unpack[SolveKeywords],
-) -> tuple[Result, ToolReport]:
+) -> tuple[Result, tool_radius.ToolReport]:
     """Solve every contour of a program for a tool: its radius in the unit of the program, and its tip on a lathe, such
     as `"R0.8, tip 3"`; or `program` for what the program and the project file state.
 
@@ -306,7 +307,7 @@ _MANY = 64
 def expand(
     text: str,
     *,
-    post: str | Post = "same",
+    post: str | postprocess.Post = "same",
     arcs: str = "center",
     decimals: int | None = None,
     comments: bool = True,
@@ -318,7 +319,7 @@ def expand(
     scratch: str | None = None,
     name: str = "<program>",
     **options: Unpack[ProgramKeywords],
-) -> Expansion:
+) -> postprocess.Expansion:
     """A program with every contour written as plain G00, G01, G02 and G03, and everything else as it was.
 
     A control that is not programmed in G codes gets its own lines and arcs; for another target, all of its program is
@@ -387,7 +388,7 @@ def convert(
     comments: bool = True,
     name: str = "<program>",
     **options: Unpack[ReadingKeywords],
-) -> Conversion:
+) -> postprocess.Conversion:
     """A program with every contour in another control's own words, as far as it has them.
 
     All else stays as it was.

@@ -44,7 +44,7 @@ from contoursolve.diagnosis.spelling import (
     without_point,
 )
 from contoursolve.diagnosis.wording import ContourState, join, state_of
-from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Severity, Shown, Span, hash_of
+from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, LateModule, Severity, Shown, Span, hash_of
 from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, Start, System, Unit, assemble
 from contoursolve.reading import (
     AT_ITS_LIMIT,
@@ -80,9 +80,11 @@ from contoursolve.solving import (
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
+    from contoursolve.diagnosis import equation_system
     from contoursolve.diagnosis.edits import Edit
-    from contoursolve.diagnosis.equation_system import EquationSystem
     from contoursolve.gcode import Block, Word
+else:
+    equation_system = LateModule("contoursolve.diagnosis.equation_system")
 
 
 class Policy(Enum):
@@ -224,11 +226,9 @@ class Answer(Shown, Struct, frozen=True):
         return f"{state.value} ({join(words) or 'one'} {told} too many)"
 
     @property
-    def system(self) -> EquationSystem:
+    def system(self) -> equation_system.EquationSystem:
         """Its equations, what they leave open, and on which condition they determine it; by sympy, when it is asked."""
-        from contoursolve.diagnosis.equation_system import EquationSystem  # noqa: PLC0415 - few ask for it
-
-        return EquationSystem(self.claim, self.profile, self.read_by)
+        return equation_system.EquationSystem(self.claim, self.profile, self.read_by)
 
     @property
     def led(self) -> tuple[float, float]:

@@ -16,6 +16,7 @@ from .errors import (
     UserError as UserError,
 )
 from .extras import (
+    LateModule as LateModule,
     MissingExtraError as MissingExtraError,
     importing as importing,
     need as need,

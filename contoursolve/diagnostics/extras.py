@@ -15,6 +15,16 @@ class MissingExtraError(UserError, ImportError):
     """A package of an extra is missing, or a font for it; the message says what needs it and what to install."""
 
 
+class LateModule:
+    """A module that few need, imported when one of its names is asked for, by `typing.get_type_hints`, too."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(import_module(self._name), name)
+
+
 @contextmanager
 def importing(extra: str, purpose: str) -> Iterator[None]:
     """Context for imports that need the packages of an extra. Raises MissingExtraError without one of them."""

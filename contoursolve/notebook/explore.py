@@ -3,14 +3,18 @@
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from contoursolve.diagnostics import importing
+from contoursolve.diagnostics import LateModule, importing
 from contoursolve.families import Family, Region, with_numbers
 from contoursolve.notebook.exploration import begin, rewrite_block
 from contoursolve.reading import Dialect
 
 if TYPE_CHECKING:
-    from contoursolve.notebook.explorer import Explorer
-    from contoursolve.notebook.map_explorer import MapExplorer
+    from contoursolve.notebook import explorer, map_explorer
+else:
+    explorer, map_explorer = (
+        LateModule("contoursolve.notebook.explorer"),
+        LateModule("contoursolve.notebook.map_explorer"),
+    )
 
 
 def explore(  # noqa: PLR0913 - what `solve` takes
@@ -26,7 +30,7 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     variables: Mapping[str, float] | None = None,
     tool: str | None = None,
     side: str | None = None,
-) -> "Explorer":
+) -> "explorer.Explorer":
     """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
 
     Arguments and errors as for `solve`; `block` may be several lines, with one contour. With `line`, it is a program,
@@ -53,7 +57,7 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     return Explorer(begin(block, facts, line, tool, side, **options))
 
 
-def explore_map(found: Family | Region, result: str | None = None) -> "MapExplorer":
+def explore_map(found: Family | Region, result: str | None = None) -> "map_explorer.MapExplorer":
     """The map of a family over two words, or of a region, in a notebook: point at it, or press arrow keys, and the
     contour of these values is drawn beside it. A click opens the contour below, as `explore` does.
 

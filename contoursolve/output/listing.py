@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, ContourState, count, join, labels_of, rank, states_in, statuses_text
-from contoursolve.diagnostics import Diagnostic, Fix, Severity
+from contoursolve.diagnostics import Diagnostic, Fix, LateModule, Severity
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
@@ -20,8 +20,9 @@ from contoursolve.reading import ReadIssue
 from contoursolve.solving import Contour, NoteKind, Status
 
 if TYPE_CHECKING:
-    from contoursolve.pictures import ToolDrawing
-    from contoursolve.tool_radius import ToolReport, ToolRun
+    from contoursolve import pictures, tool_radius
+else:
+    pictures, tool_radius = LateModule("contoursolve.pictures"), LateModule("contoursolve.tool_radius")
 
 MOST_ALIKE = 10
 """Findings of one code in one program that are shown where nobody asks for all."""
@@ -42,7 +43,7 @@ class Collected(Struct, frozen=True):
     is_strict: bool
     hidden: int | None = None
     """Number of its findings that a baseline hides; None without a baseline."""
-    tool: "ToolReport | None" = None
+    tool: "tool_radius.ToolReport | None" = None
     """The paths of the tool, where one is stated."""
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
@@ -315,7 +316,7 @@ def closing_lines(result: Result, tally: "Totals | None" = None) -> Iterator[str
     yield (tally or _tally(result, is_explained=True)).line(1)
 
 
-def summary_line(result: Result, *, is_explained: bool = False, tool: "ToolReport | None" = None) -> str:
+def summary_line(result: Result, *, is_explained: bool = False, tool: "tool_radius.ToolReport | None" = None) -> str:
     """The last line of a listing: the contours examined, with those of plain moves beside a tool, and the findings.
     Nothing examined is not the same as nothing found."""
     tally = _tally(result, is_explained=is_explained)
@@ -323,7 +324,7 @@ def summary_line(result: Result, *, is_explained: bool = False, tool: "ToolRepor
     return tally.line(1)
 
 
-def _plain_runs(result: Result, tool: "ToolReport | None") -> Counter[Status]:
+def _plain_runs(result: Result, tool: "tool_radius.ToolReport | None") -> Counter[Status]:
     solved = {line for answer in result.answers for line in answer.lines}
     runs = tool.runs if tool is not None else ()
     return Counter(Status.SOLVED for each in runs if solved.isdisjoint(each.run.lines))
@@ -402,7 +403,9 @@ def _is_nothing(finding: Diagnostic) -> bool:
     return finding.about is ReadIssue.NO_CONTOUR and finding.severity is Severity.INFO
 
 
-def beside_of(tool: "ToolReport | None", answer: Answer | None = None) -> "tuple[ToolDrawing, ...]":
+def beside_of(
+    tool: "tool_radius.ToolReport | None", answer: Answer | None = None
+) -> "tuple[pictures.ToolDrawing, ...]":
     """The drawings of a tool beside the contours of a program, in each plane, or beside one of them."""
     if tool is None:
         return ()
@@ -411,7 +414,7 @@ def beside_of(tool: "ToolReport | None", answer: Answer | None = None) -> "tuple
     return parts_beside(tool, answer)
 
 
-def tool_lines(report: "ToolReport", result: Result) -> Iterator[str]:
+def tool_lines(report: "tool_radius.ToolReport", result: Result) -> Iterator[str]:
     """The path of the tool beside each contour of a program."""
     from contoursolve.tool_radius import title_of  # noqa: PLC0415 - few programs state a tool
 
@@ -425,7 +428,7 @@ def tool_lines(report: "ToolReport", result: Result) -> Iterator[str]:
         yield from (*columns([("", "", *table.header[2:]), *table.rows], table.left), "")
 
 
-def _named_by_lines(each: "ToolRun", result: Result) -> Contour:
+def _named_by_lines(each: "tool_radius.ToolRun", result: Result) -> Contour:
     """The path of a tool, each element called by what it goes along."""
     answers = {line: answer for answer in result.answers for line in answer.lines}
     labels = {line: labels_of(answer.profile) for line, answer in answers.items()}

@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count
-from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
+from contoursolve.diagnostics import Diagnostic, Evidence, Label, LateModule, Severity, Span
 from contoursolve.gcode import Block
 from contoursolve.output.contours import given_table, path_of
 from contoursolve.output.html import (
@@ -37,7 +37,9 @@ from contoursolve.pictures import About, named_words
 from contoursolve.program import Result
 
 if TYPE_CHECKING:
-    from contoursolve.tool_radius import ToolReport, ToolRun
+    from contoursolve import tool_radius
+else:
+    tool_radius = LateModule("contoursolve.tool_radius")
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 """Tells the browser to load and to run nothing."""
@@ -68,7 +70,7 @@ class PageAnchors(Struct, frozen=True):
     contours: Mapping[int, int]
     findings: Mapping[int, int]
     marks: Mapping[int, Sequence[Marked]]
-    tool: "ToolReport | None" = None
+    tool: "tool_radius.ToolReport | None" = None
 
     def line(self, number: int) -> str | None:
         """The address of a line; None for what was stated apart from the program."""
@@ -79,7 +81,7 @@ class PageAnchors(Struct, frozen=True):
         return f"finding-{self.findings[id(finding)]}"
 
 
-def _find_places(result: Result, tool: "ToolReport | None") -> PageAnchors:
+def _find_places(result: Result, tool: "tool_radius.ToolReport | None") -> PageAnchors:
     """The places of everything that a result holds."""
     numbered = list(enumerate(result.answers, 1))
     marks: dict[int, list[Marked]] = {}
@@ -101,7 +103,7 @@ def report_page(
     progress: Progress = lambda: None,
     *,
     is_explained: bool = False,
-    tool: "ToolReport | None" = None,
+    tool: "tool_radius.ToolReport | None" = None,
 ) -> Iterator[str]:
     """The page in pieces, explained with equations, with the path of a tool; `progress` is called after each
     contour."""
@@ -206,7 +208,7 @@ def _contours(
     ]
 
 
-def _runs(places: PageAnchors) -> Sequence["ToolRun"]:
+def _runs(places: PageAnchors) -> Sequence["tool_radius.ToolRun"]:
     return places.tool.runs if places.tool is not None else ()
 
 
