@@ -19,8 +19,13 @@ from contoursolve.solving import Contour
 
 
 class Completion(Struct, frozen=True):
-    """A word that completes a block, and the whole block with it. `contour` is what it then has, None while the word's
-    number is open."""
+    """A word that completes a block.
+
+    Attributes:
+        word: the word; it ends with `?` where its number is still to be chosen.
+        block: the whole block with it.
+        contour: the contour that it then has; None while the number is open.
+    """
 
     word: str
     block: str

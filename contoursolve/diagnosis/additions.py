@@ -24,9 +24,13 @@ MOST_WAYS = 12
 class Addition(Struct, frozen=True):
     """A word that a block may still take.
 
-    `text` is the word. It has its value where the geometry fixes that, and `?` where it is still to be chosen. It goes
-    into the program line `line`; `replacement` has all lines of the contour with it. `contour` is the one that the
-    block has then. It is None where other words are missing, or the value is.
+    Attributes:
+        address: its address, such as `P` or `,A`.
+        meaning: what it states.
+        text: the word: with its value where the geometry fixes that, with `?` where it is still to be chosen.
+        line: the program line into which it goes.
+        replacement: all lines of the contour with it.
+        contour: the contour that the block has then; None where other words are missing, or the value is.
     """
 
     address: str
@@ -39,7 +43,14 @@ class Addition(Struct, frozen=True):
 
 class LegalBlock(Struct, frozen=True):
     """An example of a block, or of several, that a control accepts: the smallest set of words of its form, with values
-    that make a contour."""
+    that make a contour.
+
+    Attributes:
+        form: the name of the form, such as `G111`.
+        title: what the form draws.
+        addresses: the addresses of its words, in their order.
+        text: the block, one line for each.
+    """
 
     form: str
     title: str

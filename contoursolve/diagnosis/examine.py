@@ -181,8 +181,27 @@ class Filled(Struct, frozen=True):
 class Answer(Shown, Struct, frozen=True):
     """The result for one contour of a program.
 
-    `contour` is None unless the status is solved or overdetermined. `sides` are the solutions that the
-    block chose where two exist, by the point. `diagnostics` are the findings about this contour alone.
+    Attributes:
+        form: the name of its form, such as `G111`.
+        lines: the program lines of its blocks, from 1.
+        claim: its blocks as they were read: words, values, and the modes before and behind them.
+        status: what came of it.
+        plane: the axes in which its points are, first and second.
+        unit: the unit of its words; all other lengths here are mm.
+        start: where it begins, mm, X of a lathe as radius; None for a coordinate that is not known.
+        profile: the drawing, partly unknown, with the facts that its words state.
+        contour: the path; None unless the status is solved or overdetermined.
+        sides: the solutions that the block chose where two exist, by the point.
+        error_bound: by how much a coordinate may be off, mm.
+        diagnostics: the findings about this contour alone.
+        read_by: the control and the policy by which it was read.
+        diagnosis: the checks, freedoms and ties; made where there is a finding.
+        certificate: what is proven of the path; None where nothing was.
+        answers: the values that were asked for.
+        alternatives: every solution, where more than the control's own was looked for; see `list_alternatives`.
+        filled: the block with the values that were asked for filled in, where it then stands alone.
+        calls: the lines of the blocks that call it, if it belongs to a subprogram.
+        mended: the answer with slips that are certain mended in thought, where something else is wrong as well.
     """
 
     form: str
@@ -199,18 +218,12 @@ class Answer(Shown, Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...]
     read_by: ReadBy
     diagnosis: Diagnosis | None = None
-    """Made where there is a finding, see `contoursolve.diagnosis`."""
     certificate: Certificate | None = None
     answers: tuple[AskedValue, ...] = ()
-    """The values that were asked for."""
     alternatives: Alternatives | None = None
-    """Every solution, where more than the control's own was looked for; see `list_alternatives`."""
     filled: Filled | None = None
-    """The block with them filled in, where it then stands alone."""
     calls: tuple[int, ...] = ()
-    """The lines of the blocks that call it, if it belongs to a subprogram."""
     mended: Answer | None = None
-    """The answer with slips that are certain mended in thought, where something else is wrong as well."""
 
     __hash__ = hash_of
 

@@ -48,7 +48,17 @@ class Listed(Struct, frozen=True):
 
 
 class Listing(Struct, frozen=True):
-    """All solutions that were found, and whether these are proven to be all."""
+    """All solutions of a contour that were found, and whether these are proven to be all.
+
+    Attributes:
+        solutions: the solutions, each with its path and what selects it.
+        is_complete: whether these are all, with proof.
+        method: how they were found: by a closed form, or by a search.
+        doubts: what could not be decided, where they may not be all.
+        chosen_by: the words that chose the control's own; empty where there is nothing to choose.
+        within: the distance from the start point within which these are all, mm, where they were searched for; None
+            where a closed form gives them.
+    """
 
     solutions: tuple[Listed, ...]
     is_complete: bool
@@ -56,8 +66,6 @@ class Listing(Struct, frozen=True):
     doubts: tuple[str, ...]
     chosen_by: str
     within: float | None = None
-    """The distance from the start point within which these are all, mm, where they were searched for; None where a
-    closed form gives them."""
 
     @property
     def is_closed(self) -> bool:

@@ -72,21 +72,27 @@ class OpenNumber(Struct, frozen=True):
 
 class Fix(Struct, frozen=True):
     """A whole new block to write instead, or a line for each block of a contour of several; a single block may become
-    several lines."""
+    several lines.
+
+    Attributes:
+        description: what it does, as a command.
+        replacement: the new text of the block, a line for each block of the contour.
+        applicability: whether it keeps the contour, changes it, or leaves numbers open.
+        effect: its effect in words, where `applicability` alone does not say it.
+        example: the replacement with numbers that make a contour, where it leaves gaps and such numbers are known.
+        replaced: the text that it replaces, a line for each block of the contour.
+        beside: the lines outside the contour that it changes, too.
+        numbers: the numbers that it leaves open.
+    """
 
     description: str
     replacement: str
     applicability: Applicability
     effect: str = ""
-    """Effect of applying it, in words, where `applicability` alone does not say it."""
     example: str = ""
-    """The replacement with numbers that make a contour, where it leaves gaps and such numbers are known."""
     replaced: str = ""
-    """The text that it replaces, a line for each block of the contour."""
     beside: tuple[LineChange, ...] = ()
-    """The lines outside the contour that it changes, too."""
     numbers: tuple[OpenNumber, ...] = ()
-    """The numbers that it leaves open."""
 
     def by_line(self, lines: Sequence[int]) -> dict[int, str]:
         """The new text of each of the lines that it replaces, and of those beside: empty for a line that it drops,
@@ -128,9 +134,21 @@ class Alarm(Struct, frozen=True):
 class Diagnostic(Shown, Struct, frozen=True):
     """One finding.
 
-    `message` stands alone on one line; `labels` mark the words, the first one is the place of the
-    finding; `notes` say why, `help` says what to do. `values` holds `limit`, `expected`, `actual`
-    and `off_by_mm` as far as they apply (mm, X as radius; degrees for angles).
+    Attributes:
+        code: the name of its rule, such as `words-missing`; see `contoursolve rules`.
+        severity: whether it is an error, a warning or a remark.
+        basis: the kind of reasoning on which it rests.
+        span: its place in the program.
+        message: what is found; it stands alone on one line.
+        source: the page on which the rule stands, and how sure it is.
+        labels: the words that it is about; the first one is the place of the finding.
+        addresses: the addresses of these words.
+        alarm: the alarm with which the control itself would stop; None where none is known.
+        values: `limit`, `expected`, `actual` and `off_by_mm` as far as they apply: mm, X as radius; or degrees.
+        notes: why it is so.
+        help: what to do.
+        fixes: what to write instead, the best first.
+        about: the event that it is about, whatever the control calls it; None for a plain rule.
     """
 
     code: str
@@ -147,7 +165,6 @@ class Diagnostic(Shown, Struct, frozen=True):
     help: str = ""
     fixes: tuple[Fix, ...] = ()
     about: Enum | None = None
-    """The event that the finding is about, whatever the control calls it; None for a plain rule."""
 
     __hash__ = hash_of
 
@@ -203,11 +220,14 @@ class Tie(Struct, frozen=True):
 
 
 class Diagnosis(Shown, Struct, frozen=True):
-    """Findings of the equations of one contour: the checks it went through, its freedoms, and its ties, words that say
-    the same.
+    """Findings of the equations of one contour.
 
-    `ties_complete` tells that the ties are all there are, found exhaustively; `repairs_complete` that all
-    smallest sets of words to drop and to add were tried.
+    Attributes:
+        layers: the checks that it went through, in their order.
+        freedoms: the points that nothing determines, each with the direction in which it can slide.
+        ties: the smallest sets of words that say the same.
+        ties_complete: whether the ties are all there are, found exhaustively.
+        repairs_complete: whether all smallest sets of words to drop and to add were tried.
     """
 
     layers: tuple[Layer, ...]

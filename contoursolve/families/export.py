@@ -96,19 +96,23 @@ class Family(Shown):
     * `residual` (float64): by how much the solved equations are off at most, the corners' among them.
 
     With all branches, each array has a last axis for the `solutions`, and `solution(name)` is the family of one alone.
+
+    Attributes:
+        ranges: the values of the free words, as they are written.
+        columns: all other arrays by name, flat: (rows,), or (rows, solutions) with all branches.
+        spec: plain data from which its block can be read again.
+        premises: what its contours rest on beside the words.
+        remark: that rows are read one by one, and why; empty if they are not.
+        solutions: the names of the solutions along the last axis, as `list_solutions` tells them apart; none without
+            that axis. A row that lacks one has no points there, and the status `no-solution`.
     """
 
     ranges: Ranges
     columns: Mapping[str, NDArray[Any]]
     spec: SweepSpec = field(repr=False)
-    """Plain data from which its block can be read again."""
     premises: Premises = field(default=Premises(), repr=False)
-    """Premises of its contours beside the words."""
     remark: str = field(default="", repr=False)
-    """That rows are read one by one, and why; empty if they are not."""
     solutions: tuple[str, ...] = ()
-    """The names of the solutions along the last axis, as `list_solutions` tells them apart; none without that axis. A
-    row that lacks one has no points there, and the status `no-solution`."""
 
     def __eq__(self, other: object) -> bool:
         names = (each.name for each in fields(self))

@@ -115,8 +115,22 @@ class Interval(Struct, frozen=True):
 class Feasible(Shown, Struct, frozen=True):
     """All values of a word, within a range, with which its block has a contour.
 
-    `unit` is what the word is written in (mm, inch or deg), `stated` the value that the block has. Without `doubts`, it
-    is proven that nothing wider than `LEAST_GAP` is missing; else these are some of the ranges, and they say why.
+    All values are as the word is written. Without `doubts`, it is proven that nothing wider than `LEAST_GAP` is
+    missing; else these are some of the ranges.
+
+    Attributes:
+        word: the word by its name, such as `P`.
+        unit: what it is written in: mm, inch or deg.
+        stated: the value that the block has.
+        within: the range that was searched, from one value to another.
+        intervals: the ranges with a contour, in order; each end says what ends it.
+        doubts: why more values may have a contour.
+        refusal: the error of the block as it stands; empty if it has a contour.
+        is_diameter: whether the values are diameters.
+        is_open: whether it is a variable of which nobody says the value; `stated` says nothing then.
+        premises: what the contours rest on beside the words.
+        holds: the verb of a sentence about the ranges.
+        warnings: warnings that no value of the word ends.
     """
 
     word: str
@@ -126,17 +140,11 @@ class Feasible(Shown, Struct, frozen=True):
     intervals: tuple[Interval, ...]
     doubts: tuple[str, ...]
     refusal: str
-    """The error of the block as it stands; empty if it has a contour."""
     is_diameter: bool = False
-    """Whether the values are diameters."""
     is_open: bool = False
-    """Whether it is a variable of which nobody says the value; `stated` says nothing then."""
     premises: Premises = Premises()
-    """Premises of the contours beside the words."""
     holds: str = "with a contour"
-    """The verb of a sentence about the ranges."""
     warnings: tuple[str, ...] = ()
-    """Warnings that no value of the word ends."""
 
     @property
     def is_complete(self) -> bool:

@@ -67,10 +67,22 @@ class Hit(Struct, frozen=True):
 
 class Found(Shown, Struct, frozen=True):
     """All values of a word, within a range, that meet a goal, in order; for a goal of two coordinates, all that are
-    nearer to it than their neighbours, the nearest first. `doubts` say why these are not proven to be all; values are
-    told apart to nine digits.
+    nearer to it than their neighbours, the nearest first. Values are told apart to nine digits.
 
-    `unit` is what the word is written in (mm, inch or deg), `length` what the program is."""
+    Attributes:
+        word: the word by its name, such as `A`.
+        unit: what it is written in: mm, inch or deg; so are all values here.
+        stated: the value that the block has.
+        goal: the point and where it is wanted, mm, X of a lathe as radius.
+        plane: the axes of that place, first and second.
+        length: the unit of the program.
+        within: the range that was searched, from one value to another.
+        hits: the values, each with where the point then is.
+        doubts: why these are not proven to be all.
+        remark: why there is no value: the word does not move the point, with the words that do; or the block as it
+            stands has no contour. Else empty.
+        premises: what the contours rest on beside the words.
+    """
 
     word: str
     unit: str
@@ -82,10 +94,7 @@ class Found(Shown, Struct, frozen=True):
     hits: tuple[Hit, ...]
     doubts: tuple[str, ...]
     remark: str = ""
-    """Reason for no value: the word does not move the point, with the words that do; or the block as it stands has no
-    contour. Else empty."""
     premises: Premises = Premises()
-    """Premises of the contours beside the words."""
 
     @property
     def is_complete(self) -> bool:

@@ -76,8 +76,18 @@ class Limits(Struct, frozen=True):
 
 
 class Tolerances(Shown, Struct, frozen=True):
-    """Moves of a point of a contour by words: the words, the one that moves it most first; how far it may be off on
-    each axis to first order; and where it lies at the limits, None without tolerances or with too many of them."""
+    """Moves of a point of a contour by words.
+
+    Attributes:
+        point: the point by its name.
+        place: its coordinates, mm, X of a lathe as radius.
+        plane: their axes, first and second.
+        length: the unit of the program.
+        effects: what each word does to the point, the one that moves it most first.
+        spread: how far it may be off on each axis to first order, mm.
+        limits: where it lies at all combinations of the limits, mm; None without tolerances or with too many of them.
+        premises: what the contour rests on beside its words.
+    """
 
     point: str
     place: Point
@@ -87,7 +97,6 @@ class Tolerances(Shown, Struct, frozen=True):
     spread: tuple[Spread, Spread]
     limits: Limits | None
     premises: Premises = Premises()
-    """Premises of the contour beside its words."""
 
 
 def tolerances(

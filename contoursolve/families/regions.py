@@ -53,26 +53,36 @@ UNKNOWN = -1
 class Region(Shown, Struct, frozen=True, eq=False):
     """Values of two words, within a box, with which a block has a contour: the lines that bound them.
 
-    `units` are what the words are written in. Nothing here is a proof: the values were sampled. Each line is within
-    `cell` (by word) of where the contour begins to exist; what is narrower than `seen` may be missing. `outcomes` are
-    those of values evenly spaced over the box, by word. `spec` is the block.
+    Nothing here is a proof: the values were sampled. All values are as the words are written; a pair of them is a value
+    of each word.
+
+    Attributes:
+        words: the two words by their names.
+        units: what they are written in: mm, inch or deg.
+        diameters: whether the values of each are diameters.
+        stated: the values that the block has.
+        within: the box: the range of each word, lower value first.
+        boundaries: the lines between values with and without a contour.
+        cell: how close, by word, each line is to where the contour begins to exist.
+        seen: what is narrower than this, by word, may be missing.
+        exists: whether the contour exists at any value that was looked at.
+        outcomes: what came of values evenly spaced over the box: an array with one axis for each word.
+        spec: the block, and how it is read.
+        premises: what its contours rest on beside the words.
     """
 
     words: tuple[str, str]
     units: tuple[str, str]
     diameters: tuple[bool, bool]
-    """Diameters among the values."""
     stated: Point
     within: tuple[Point, Point]
     boundaries: tuple[Boundary, ...]
     cell: Point
     seen: Point
     exists: bool
-    """Whether the contour exists at any value that was looked at."""
     outcomes: Outcomes
     spec: SweepSpec
     premises: Premises = Premises()
-    """Premises of its contours beside the words."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Region) and are_same(asdict(self), asdict(other))

@@ -45,9 +45,14 @@ class Spread(Struct, frozen=True):
 
 
 class Sensitivity(Shown, Struct, frozen=True):
-    """The derivatives of a contour: `slopes[result][word]` in mm for each unit of the word as it is written, so that a
-    diameter counts as such; NaN where a word parts two places that have become one, as in a half circle. The results
-    have the names that they have in a `Family`, X of a lathe as radius."""
+    """The derivatives of a contour.
+
+    Attributes:
+        slopes: `slopes[result][word]` in mm for each unit of the word as it is written, so that a diameter counts as
+            such. The results have the names that they have in a `Family`, X of a lathe as radius. NaN where a word
+            parts two places that have become one, as in a half circle.
+        plane: the axes of the points, first and second.
+    """
 
     slopes: Mapping[str, Mapping[str, float]]
     plane: Plane

@@ -55,11 +55,23 @@ PROBE, CLOSEST = 1e-4, 1e-11
 class WordTolerance(Shown, Struct, frozen=True):
     """The values of a word around its own with which a result moves by `most` or less.
 
-    `unit` is what the word is written in (mm, inch or deg), `stated` its value. `kept` is the result, `kept_unit` what
-    it is written in. X of a lathe counts as diameter; a point without an axis moves as it does on the drawing. Each end
-    says what ends it: the result has moved so far (`Way.MOVED`), or why there is no contour beyond. `linear` is the
-    tolerance by the derivative alone; None where that is zero or does not exist. Without `doubts`, nothing wider than
-    `LEAST_GAP` was overlooked between the ends.
+    X of a lathe counts as diameter; a point without an axis moves as it does on the drawing. Without `doubts`, nothing
+    wider than `LEAST_GAP` was overlooked between the ends.
+
+    Attributes:
+        word: the word by its name, such as `A`.
+        unit: what it is written in: mm, inch or deg.
+        stated: its value.
+        kept: the result.
+        kept_unit: what the result is written in.
+        most: by how much the result may move, in its unit.
+        low: the lowest value, and what ends it: the result has moved so far (`Way.MOVED`), or why there is no contour
+            beyond.
+        high: the highest value, likewise.
+        linear: the tolerance by the derivative alone; None where that is zero or does not exist.
+        doubts: what may have been overlooked between the ends.
+        is_diameter: whether the values are diameters.
+        premises: what the contours rest on beside the words.
     """
 
     word: str
@@ -73,9 +85,7 @@ class WordTolerance(Shown, Struct, frozen=True):
     linear: float | None
     doubts: tuple[str, ...]
     is_diameter: bool = False
-    """Whether the values are diameters."""
     premises: Premises = Premises()
-    """Premises of the contours beside the words."""
 
     @property
     def minus(self) -> float:

@@ -16,8 +16,13 @@ from contoursolve.gcode.syntax import ISO, Syntax
 class Word(Struct, frozen=True):
     """An address with its value, such as `X40.` or `,A150`.
 
-    `address` is upper case with its comma; `number` is None for a variable, a macro expression, or `?`. `text` is what
-    was typed.
+    Attributes:
+        address: the address, upper case with its comma.
+        number: the number as it is typed; None for a variable, a macro expression, or `?`.
+        has_point: whether the number has a decimal point, or is read as if it had.
+        text: what was typed.
+        span: its place in the program.
+        is_asked: whether `?` stands for the number.
     """
 
     address: str
@@ -153,7 +158,24 @@ def typed_span(span: Span, substituted: Sequence[Substitution]) -> Span:
 
 
 class Block(Shown, Struct, frozen=True):
-    """One line of a program; `text` is the line without its end, with numbers in the place of known variables."""
+    """One line of a program.
+
+    Attributes:
+        line: its number, from 1.
+        text: the line without its end, with numbers in the place of known variables.
+        words: its words, in their order.
+        faults: the stretches that are no words.
+        macro: what kind of macro statement it is; None for words.
+        directives: the facts that its comments state for contoursolve.
+        unmarked: comments that look like facts, but lack the mark: what would have to be written.
+        named: the words that its comments name, as trusted or for reference.
+        is_skippable: whether it begins with `/`: a switch at the machine decides whether it runs.
+        syntax: the spelling by which it was read.
+        callers: from where it was called, the main program first.
+        file: the file of the subprogram that it belongs to, if that is another file.
+        substituted: texts that replace variables in it, in the order of the line.
+        mark: under which number is kept what is known before it; 0: it is not kept.
+    """
 
     line: int
     text: str
@@ -162,19 +184,13 @@ class Block(Shown, Struct, frozen=True):
     macro: Macro | None = None
     directives: tuple[Directive, ...] = ()
     unmarked: tuple[Directive, ...] = ()
-    """Comments that look like facts, but lack the mark: what would have to be written."""
     named: tuple[Named, ...] = ()
     is_skippable: bool = False
-    """The block begins with `/`: a switch at the machine decides whether it runs."""
     syntax: Syntax = ISO
     callers: tuple[Caller, ...] = ()
-    """From where it was called, the main program first."""
     file: str = ""
-    """The file of the subprogram that it belongs to, if that is another file."""
     substituted: tuple[Substitution, ...] = ()
-    """Texts that replace variables in it, in the order of the line."""
     mark: int = 0
-    """Under which number is kept what is known before it; 0: it is not kept."""
 
     def find(self, address: str) -> Word | None:
         """The first word with this address, or None."""
@@ -238,7 +254,14 @@ def _typed_place(word: Word, blocks: Iterable[Block]) -> TypedPlace:
 
 
 class Program(Shown, Struct, frozen=True):
-    """A program as typed: its name, text and blocks (one for each line, empty ones included)."""
+    """A program as typed.
+
+    Attributes:
+        name: what findings call it.
+        text: all of it.
+        blocks: its lines, empty ones included.
+        syntax: the spelling by which it was read.
+    """
 
     name: str
     text: str

@@ -36,10 +36,16 @@ def start_text(answer: Answer) -> str:
 
 
 class StatedWord(Struct, frozen=True):
-    """A word of a contour, with its key: `A`, or `2:,A` where two blocks have one.
+    """A word of a contour.
 
-    `meaning` says what it is. `value` and `unit` (mm, in, deg) are as written; a variable or `?` has no value. `fixes`
-    names the points and corners that it fixes.
+    Attributes:
+        key: its name: `A`, or `2:,A` where two blocks have one.
+        word: the word in the program.
+        meaning: what it states.
+        value: its value as it is written; None for a variable or `?`.
+        unit: what it is written in: mm, in or deg.
+        fixes: the points and corners that it fixes, by name.
+        is_ignored: whether the control drops it by a rule.
     """
 
     key: str

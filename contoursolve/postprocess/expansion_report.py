@@ -103,8 +103,13 @@ class Summary(Struct):
 
 
 class Expansion(Struct, frozen=True):
-    """A program in plain G-code; `text` is None where a contour fails, or where the target would run something along
-    another path."""
+    """A program in plain G-code.
+
+    Attributes:
+        text: the program; None where a contour fails, or where the target would run something along another path.
+        control: the control that it was for; None where nothing tells it.
+        summary: how many contours were replaced, and what was left and why.
+    """
 
     text: str | None
     control: str | None
@@ -118,9 +123,14 @@ class ConversionError(ProgramError, ValueError):
 
 
 class Conversion(Struct, frozen=True):
-    """A program in another control's own words; `text` is None where it cannot be, or is not the same path.
+    """A program in another control's own words.
 
-    `comparison` is that of both paths, None where there is no second one.
+    Attributes:
+        text: the program; None where it cannot be written so, or would not be the same path.
+        control: the control that it was for; None where nothing tells it.
+        to: the name of the other control.
+        summary: how many contours were replaced, and what was left and why.
+        comparison: that of both paths, with its `deviation` (mm); None where there is no second one.
     """
 
     text: str | None

@@ -31,24 +31,37 @@ class NumberGround(Enum):
 
 
 class WrittenWord(Struct, frozen=True):
-    """A word, on what it rests, and by how much rounding puts it off, in its unit."""
+    """A word of a contour that is written for a control.
+
+    Attributes:
+        text: the word as it is written.
+        ground: what its number rests on.
+        off: by how much rounding puts the number off, in `unit`.
+        unit: mm or degrees.
+        is_indirect: whether it is an increment along an axis, or an angle that is rounded.
+    """
 
     text: str
     ground: NumberGround = NumberGround.NONE
     off: float = 0.0
     unit: Unit = Unit.MM
     is_indirect: bool = False
-    """Whether it is an increment along an axis, or an angle that is rounded."""
 
 
 class WrittenBlock(Struct, frozen=True):
-    """A block: the motion that it leaves in force, None if that is not said; its code, and its words."""
+    """A block of a contour that is written for a control.
+
+    Attributes:
+        motion: the motion that it leaves in force, such as 1 for G01; None if that is not said.
+        code: the code with which it begins; empty for none.
+        words: its words, in their order.
+        place: the place of its element on the path, where other blocks may speak of it; -1 elsewhere.
+    """
 
     motion: int | None
     code: str
     words: tuple[WrittenWord, ...]
     place: int = -1
-    """The place of its element on the path, where other blocks may speak of it."""
 
 
 def said(blocks: Iterable[WrittenBlock], motion: int | None = 0) -> tuple[tuple[str, ...], int, int | None]:

@@ -58,21 +58,27 @@ class Cost(NamedTuple):
 
 
 class WrittenContour(Struct, frozen=True):
-    """One way to say the contour: its blocks, and a whole small program with them.
+    """One way to say the contour.
 
-    It was read back as the control reads it, without a finding. It is the same contour to within `deviation` mm.
+    It was read back as the control reads it, without a finding.
+
+    Attributes:
+        blocks: its blocks, word by word.
+        lines: the blocks as they stand in the program.
+        program: a whole small program with them.
+        deviation: it is the same contour to within so many mm.
+        cost: what makes it better or worse than others.
+        written_out: the corners that the control has no word for, which are blocks of their own.
+        is_plain: whether all its blocks are lines and arcs by their ends.
     """
 
     blocks: tuple[WrittenBlock, ...]
     lines: tuple[str, ...]
-    """The blocks as they stand in the program."""
     program: str
     deviation: float
     cost: Cost
     written_out: tuple[str, ...] = ()
-    """The corners that the control has no word for, which are blocks of their own."""
     is_plain: bool = False
-    """Whether all its blocks are lines and arcs by their ends."""
 
     def words(self, ground: NumberGround) -> tuple[WrittenWord, ...]:
         """The words whose numbers depend on something."""
@@ -80,8 +86,14 @@ class WrittenContour(Struct, frozen=True):
 
 
 class Written(Struct, frozen=True):
-    """A contour in the words of a control: the candidates, the best first. `reason` says what the control has no words
-    for, or why it cannot make the contour at all."""
+    """A contour in the words of a control.
+
+    Attributes:
+        control: the name of the control.
+        title: what the control is called.
+        candidates: the ways to say it, the best first.
+        reason: what the control has no words for, or why it cannot make the contour at all; else empty.
+    """
 
     control: str
     title: str

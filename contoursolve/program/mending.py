@@ -134,7 +134,14 @@ def likely_fixes(finding: Diagnostic) -> list[Fix]:
 
 
 class Mended(Struct, frozen=True):
-    """A program with its fixes applied, in their order, and those that were left, with their trouble."""
+    """A program with its fixes applied.
+
+    Attributes:
+        text: the program as it is then; line ends and all other characters stay as they are.
+        applied: the fixes that were applied, in their order.
+        left: the fixes that were left, each with its `trouble`.
+        after: the findings of the program as it is then.
+    """
 
     text: str
     applied: tuple[Mend, ...]

@@ -44,8 +44,14 @@ _MOST_MOVES = 64
 
 
 class OpenContour(Struct, frozen=True):
-    """A contour of an open program: its first and last line as they are now. The answer may be older: its own lines are
-    those at which it was found (see `OpenProgram.contour_at`)."""
+    """A contour of an open program.
+
+    Attributes:
+        first: its first line as it is now, from 1.
+        last: its last line, likewise.
+        answer: its answer. It may be older: its own lines are those at which it was found (see
+            `OpenProgram.contour_at`).
+    """
 
     first: int
     last: int

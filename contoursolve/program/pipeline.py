@@ -36,25 +36,33 @@ _OF_CONTROL = (ReadIssue.CONTROL_ALIKE, ReadIssue.CONTROL_CALLED)
 
 
 class Result(Shown, Struct, frozen=True):
-    """All contours and findings of a program; `control` is None where there was nothing to tell it by."""
+    """All contours and findings of a program.
+
+    Attributes:
+        program: the program as typed.
+        control: the name of its control; None where there was nothing to tell it by.
+        answers: one for each contour, in the order in which the control runs them.
+        diagnostics: all findings, in the order of the program.
+        start: the block that stated the start point apart from the program; its line is line 0.
+        facts: facts stated apart from the program; their lines are -1, -2, ...
+        settings: the settings of the control that are not the default ones, by name.
+        policy: what the manual's rules did.
+        profiles: the profiles of cycles.
+        around: the values of variables, and where subprograms are.
+        is_concluded: whether a finding says from what its control is concluded.
+    """
 
     program: Program
     control: str | None
     answers: tuple[Answer, ...]
     diagnostics: tuple[Diagnostic, ...]
     start: Program | None = None
-    """The block that stated the start point apart from the program; its line is line 0."""
     facts: tuple[Directive, ...] = ()
-    """Facts stated apart from the program; their lines are -1, -2, ..."""
     settings: Mapping[str, str] = field(default_factory=dict)
-    """The settings of the control that are not the default ones, by name."""
     policy: Policy = Policy.ENFORCE
     profiles: tuple[CycleProfile, ...] = ()
-    """The profiles of cycles."""
     around: Surroundings = ALONE
-    """The values of variables, and where subprograms are."""
     is_concluded: bool = False
-    """Whether a finding says from what its control is concluded."""
 
     __hash__ = hash_of
 

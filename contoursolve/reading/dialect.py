@@ -79,9 +79,12 @@ class Dialect:
     """
 
     name: str
+    """The name by which it is chosen, such as `fanuc-lathe`."""
     title: str
+    """The name of the control for a reader."""
     modes: Modes
     plane: Plane
+    """The axes of a contour where no code has selected a plane."""
     forms: tuple[ContourForm, ...]
     rules: tuple[Rule, ...]
     find: Finder

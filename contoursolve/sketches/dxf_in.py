@@ -66,7 +66,8 @@ class DxfSketch(Struct, frozen=True):
         given: each dimension on which it rests, and what it measures.
         notes: what was left out, joined or taken for granted, one line each.
         layers: how many lines and arcs each layer has.
-        measured: for each element all that the drawing tells, by fields: a user may take others as given.
+        measured: for each element all that the drawing tells, by fields, in the unit of the sketch or degrees: a user
+            may take others as given.
     """
 
     sketch: ContourSketch

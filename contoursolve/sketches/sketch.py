@@ -25,7 +25,12 @@ class SketchError(UserError, ValueError):
 
 
 class SketchCorner(Struct, frozen=True):
-    """The corner after an element: a `rounding` by its radius, or a `chamfer` by its setback."""
+    """The corner after an element.
+
+    Attributes:
+        shape: `rounding` or `chamfer`.
+        size: the radius of a rounding, or the setback of a chamfer, in the unit of the sketch; `?` asks for it.
+    """
 
     shape: Literal["rounding", "chamfer"]
     size: Value

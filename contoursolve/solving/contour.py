@@ -15,7 +15,13 @@ from contoursolve.tolerance import AGREEMENT, LENGTH
 
 
 class LineSegment(Struct, frozen=True):
-    """A straight element; points in mm in the plane's axes, X as radius on a lathe."""
+    """A straight element of a path.
+
+    Attributes:
+        name: its name on the drawing, such as `line 1` or `corner 1`.
+        start: where it begins: two coordinates in the plane's axes, mm, X of a lathe as radius.
+        end: where it ends, likewise.
+    """
 
     name: str
     start: Point
@@ -33,7 +39,16 @@ class LineSegment(Struct, frozen=True):
 
 
 class ArcSegment(Struct, frozen=True):
-    """A circular element; seen with the plane's first axis to the right and its second axis up."""
+    """A circular element of a path; seen with the plane's first axis to the right and its second axis up.
+
+    Attributes:
+        name: its name on the drawing, such as `arc 1` or `corner 1`.
+        start: where it begins: two coordinates in the plane's axes, mm, X of a lathe as radius.
+        end: where it ends, likewise.
+        center: its centre, likewise.
+        radius: its radius, mm.
+        turn: the sense in which it is travelled.
+    """
 
     name: str
     start: Point
@@ -70,7 +85,19 @@ class Crossing(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class Contour(Shown):
     """The path of one contour from `start` to `end` without gaps, and its named points. Contours with the same numbers
-    are equal, whatever their plane."""
+    are equal, whatever their plane.
+
+    A point is two coordinates in the axes of `plane`, mm, X of a lathe as radius.
+
+    Attributes:
+        start: where it begins.
+        end: where it ends.
+        points: the points that the control computes, by name.
+        elements: its lines and arcs, in the order of travel.
+        plane: the axes, first and second.
+        places: all points of its drawing, such as the centres of arcs and the virtual intersections at corners.
+        free: the axes on which its coordinates count from its start, as its place is not known.
+    """
 
     start: Point
     end: Point
@@ -78,9 +105,7 @@ class Contour(Shown):
     elements: tuple[Segment, ...]
     plane: Plane = field(compare=False)
     places: Mapping[str, Point] = field(default_factory=dict, compare=False, repr=False)
-    """All points of its drawing, such as the centres of arcs and the virtual intersections at corners."""
     free: tuple[bool, bool] = field(default=(False, False), compare=False, repr=False)
-    """The axes on which its coordinates count from its start, as its place is not known."""
 
     def __hash__(self) -> int:
         return hash((self.start, self.end, self.elements))

@@ -36,10 +36,18 @@ class Asked(Struct, frozen=True):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Drawn(Shown):
-    """One way to draw a sketch, in mm: points (the start among them if a path begins there), radii and lines.
+    """One way to draw a sketch.
 
-    A line has its direction (cosine, sine), and how far the origin lies to the right of it. `contour` is the path, if
-    there is one. `asked` are the values of the facts that ask for one, in the order of these facts."""
+    Attributes:
+        points: the coordinates (X, Y) of each point by name, mm; the start among them if a path begins there.
+        radii: the radii by name, mm.
+        lines: of each line its direction (cosine, sine), and how far the origin lies to the right of it, mm.
+        contour: the path, if there is one.
+        certificate: what is proven of it.
+        name: what tells it from the others; empty for the only one.
+        asked: the values of the facts that ask for one, in the order of these facts.
+        stated: the sketch, which its picture shows.
+    """
 
     points: dict[str, tuple[float, float]]
     radii: dict[str, float]
@@ -49,7 +57,6 @@ class Drawn(Shown):
     name: str
     asked: tuple[Asked, ...] = ()
     stated: Stated | None = field(default=None, compare=False)
-    """The sketch, which its picture shows."""
 
     def __hash__(self) -> int:
         return hash((self.name, self.contour, tuple(self.points)))
@@ -87,10 +94,15 @@ class Drawn(Shown):
 class Drawings(Shown, Sequence[Drawn]):
     """All ways to draw a sketch.
 
-    The list is complete, with proof, if `is_complete`; else `doubts` says what could not be decided. `reach` is how
-    far from the start solutions were searched for where there is no closed form, mm. `free` are the unknowns that
-    are still open; then there are no drawings, and the list is not complete. `ties` are facts that repeat others, by
-    number from 0; where they disagree, there are no drawings either.
+    Attributes:
+        status: what came of it.
+        drawings: the ways to draw it, each in mm.
+        is_complete: whether the list is complete, with proof.
+        doubts: what could not be decided, where it is not.
+        reach: how far from the start solutions were searched for, mm; None where a closed form gives them.
+        free: the unknowns that are still open; then there are no drawings, and the list is not complete.
+        ties: facts that repeat others, by number from 0; where they disagree, there are no drawings either.
+        stated: the sketch, which the picture shows.
     """
 
     status: Status
@@ -101,7 +113,6 @@ class Drawings(Shown, Sequence[Drawn]):
     free: tuple[str, ...]
     ties: tuple[int, ...]
     stated: Stated | None = field(default=None, compare=False)
-    """The sketch, which the picture shows."""
 
     def __len__(self) -> int:
         return len(self.drawings)

@@ -290,12 +290,17 @@ def with_radius(own: CuttingRun, radius: float) -> CuttingRun:
 
 
 class ToolReport(Struct, frozen=True):
-    """The runs of a program beside which a tool goes, and the findings about them."""
+    """The runs of a program beside which a tool goes, and the findings about them.
+
+    Attributes:
+        runs: the runs of cutting moves, each with the path of the tool (mm) and its faults.
+        findings: what the tool cannot cut, or leaves.
+        path: the path of the program, of which the runs are parts.
+    """
 
     runs: tuple[ToolRun, ...]
     findings: tuple[Diagnostic, ...]
     path: ToolPath
-    """The path of the program, of which the runs are parts."""
 
     __hash__ = hash_of
 

@@ -255,6 +255,37 @@ def test_help_and_the_types_of_every_public_name_can_be_asked_for():
                 assert typing.get_type_hints(function) is not None
 
 
+def attributes_of(record: type) -> set[str]:
+    """The fields that the docstring of a class tells of, or a text below them."""
+    told = inspect.getdoc(record) or ""
+    below = {
+        before.target.id
+        for node in parsed(Path(inspect.getfile(record))).body
+        if isinstance(node, ast.ClassDef) and node.name == record.__name__
+        for before, after in pairwise(node.body)
+        if isinstance(before, ast.AnnAssign) and isinstance(before.target, ast.Name) and isinstance(after, ast.Expr)
+    }
+    return below | {*re.findall(r"^ {4}(\w+): ", told, re.MULTILINE), *re.findall(r"`(\w+)\b", told)}
+
+
+LENGTHS = re.compile(r"Point|float|Decimal")
+UNITS = re.compile(r"\b(mm|deg|degrees|inch|unit|as (they are|it is|the words are) (written|typed))\b")
+
+
+def test_the_fields_of_every_public_record_are_told_of_and_numbers_with_their_units():
+    untold, without_unit = list[str](), list[str]()
+    for name in contoursolve.__all__:
+        record = getattr(contoursolve, name)
+        fields = getattr(record, "__struct_fields__", None) or tuple(getattr(record, "__dataclass_fields__", ()))
+        if not inspect.isclass(record) or not fields:
+            continue
+        told = attributes_of(record)
+        untold += [f"{name}.{field}" for field in fields if field not in told]
+        is_measured = any(LENGTHS.search(str(record.__annotations__[field])) for field in fields)
+        without_unit += [name] if is_measured and not UNITS.search(record.__doc__) else []
+    assert (untold, without_unit) == ([], [])
+
+
 def test_no_control_stands_in_where_none_is_named():
     """Who needs one says which; where nothing tells it, what holds for all of them counts."""
     by_name = re.compile(r"""DIALECTS\[["'].*""")
