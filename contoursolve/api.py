@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 from msgspec.structs import replace
 
 # What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
 from contoursolve import diagnosis, gcode, program as programs
+from contoursolve.controls import ControlName
 from contoursolve.diagnosis import Depth
 from contoursolve.diagnostics import Diagnostic, LateModule, choice_of
 from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
@@ -250,8 +251,8 @@ def solve_with_tool(
     tool: str = "program",
     *,
     tip: int | None = None,
-    side: str | None = None,
-    outside: str | None = None,
+    side: tool_radius.SideName | None = None,
+    outside: tool_radius.OutsideName | None = None,
     name: str = "<program>",
     **options: Unpack[SolveKeywords],
 ) -> tuple[Result, tool_radius.ToolReport]:
@@ -307,13 +308,13 @@ _MANY = 64
 def expand(
     text: str,
     *,
-    post: str | postprocess.Post = "same",
-    arcs: str = "center",
+    post: postprocess.PostName | postprocess.Post = "same",
+    arcs: postprocess.ArcsName = "center",
     decimals: int | None = None,
     comments: bool = True,
     keep_going: bool = False,
     keep_untranslated: bool = False,
-    block_numbers: str = "first",
+    block_numbers: postprocess.NumberingName = "first",
     inline: bool = False,
     formulas: bool = False,
     scratch: str | None = None,
@@ -383,7 +384,7 @@ def expand(
 @takes(ReadingKeywords)
 def convert(
     text: str,
-    to: str | Dialect,
+    to: ControlName | Dialect,
     *,
     comments: bool = True,
     name: str = "<program>",
@@ -435,7 +436,8 @@ def convert(
         advice = "".join(f"; for a lathe, set {name}.machine=lathe" for name in switches)
         raise ConversionError(f"a program is converted for the same kind of machine, not from {one} to {other}{advice}")
     post = post_of(target)
-    found = expand(text, post=post, comments=comments, control=dialect, units=told.units, rules=told.rules, name=name)
+    kept: dict[str, Any] = {"units": told.units, "rules": told.rules}
+    found = expand(text, post=post, comments=comments, control=dialect, name=name, **kept)
     found = replace(found, text=found.text and restate_control(found.text, target.name, target.modes.settings))
     if found.text is None or dialect is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)

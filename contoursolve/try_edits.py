@@ -10,10 +10,10 @@ from msgspec import Struct
 
 from contoursolve import gcode
 from contoursolve.api import follow_program, parse, solve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import DIALECTS, ControlName
 from contoursolve.diagnosis import Edit, EditKind, change, drop, edited, find_repairs
 from contoursolve.gcode import Program
-from contoursolve.program import Result, choose
+from contoursolve.program import Result, Rules, Units, choose
 from contoursolve.reading import THIS_CONTROL, Dialect, Rule
 from contoursolve.solving import Contour
 
@@ -38,10 +38,10 @@ def what_if(
     drop: Iterable[str] = (),
     add: Iterable[str] = (),
     change: Mapping[str, str] | None = None,
-    control: str | Dialect | None = None,
+    control: ControlName | Dialect | None = None,
     start: str | Mapping[str, float] | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
+    units: Units = "mm",
+    rules: Rules = "enforce",
     settings: Mapping[str, str] | None = None,
 ) -> Result:
     """Solve a block with words dropped (by address), added, or changed (address to the new word).
@@ -80,9 +80,9 @@ def _edit(program: Program, address: str, text: str) -> Edit:
 def completions(
     block: str,
     *,
-    control: str | Dialect | None = None,
+    control: ControlName | Dialect | None = None,
     start: str | Mapping[str, float] | None = None,
-    units: str = "mm",
+    units: Units = "mm",
 ) -> tuple[Completion, ...]:
     """Every single word that would complete a block, with its value where the geometry fixes it already.
 
@@ -118,5 +118,5 @@ def try_example(dialect: Dialect, rule: Rule, program: str, depth: str = "full")
         if name:
             (Path(folder) / name).write_text(text, encoding="utf-8")
         # A name: what is concluded of a program on a control is concluded then.
-        control = dialect.name if DIALECTS.get(dialect.name) is dialect else dialect
+        control = next((each for each in DIALECTS if each == dialect.name and DIALECTS[each] is dialect), dialect)
         return follow_program(parse(program), control=control, strict=True, folders=[folder], **options).collect()

@@ -15,10 +15,11 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import print_bytes, say, style_of_output
-from contoursolve.controls import DIALECTS, ChainFinder
+from contoursolve.controls import DIALECTS, ChainFinder, ControlName
 from contoursolve.diagnosis import count, join
 from contoursolve.gcode import open_program_file, write_whole
 from contoursolve.postprocess import Conversion, Post, post_of
+from contoursolve.program import Rules, Units
 from contoursolve.reading import Dialect
 
 _TARGETS = tuple(name for name, dialect in DIALECTS.items() if isinstance(dialect.find, ChainFinder))
@@ -39,10 +40,10 @@ def convert(
     context: click.Context,
     /,
     program: str,
-    to: str | Dialect | None,
-    control: str | Dialect | None,
-    units: str,
-    rules: str,
+    to: ControlName | Dialect | None,
+    control: ControlName | Dialect | None,
+    units: Units,
+    rules: Rules,
     assignments: tuple[str, ...],
     output: str | None,
     is_forced: bool,
@@ -119,6 +120,7 @@ def _report(found: Conversion, to: str | Dialect) -> None:
     if summary.written_out:
         lines = join([str(line) for line in summary.written_out])
         done += f", {len(summary.written_out)} written out (program line {lines})"
+    assert found.comparison is not None
     say(f"{done}; the same path, at most {found.comparison.deviation:.1g} mm off", err=True)
 
 

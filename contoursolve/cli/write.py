@@ -18,6 +18,7 @@ from contoursolve.cli.options import (
     settings_option,
 )
 from contoursolve.cli.printing import print_json, print_lines, say, style_of_output
+from contoursolve.controls import ControlName
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import members
 from contoursolve.gcode import STANDARD_INPUT, write_whole
@@ -50,7 +51,7 @@ def write(
     context: click.Context,
     /,
     sketch: str,
-    to: str | Dialect | None,
+    to: ControlName | Dialect | None,
     assignments: tuple[str, ...],
     shows_all: bool,
     output: str | None,

@@ -1,5 +1,6 @@
 from .all_controls import (
     DIALECTS as DIALECTS,
+    ControlName as ControlName,
 )
 from .chain.find import (
     ChainFinder as ChainFinder,

@@ -2,8 +2,27 @@
 
 from collections.abc import Iterator, Mapping
 from importlib import import_module
+from typing import Any, Literal, TypeVar, get_args, overload
 
 from contoursolve.reading import Dialect
+
+T = TypeVar("T")
+
+ControlName = Literal[
+    "yasnac-lx3",
+    "nct-99m",
+    "fanuc-lathe",
+    "fanuc-mill",
+    "haas-lathe",
+    "haas-mill",
+    "mitsubishi",
+    "siemens-840d",
+    "siemens-808d",
+    "isg",
+    "heidenhain",
+    "cnc-pilot",
+]
+"""The names of the controls."""
 
 _CONTROLS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "yasnac-lx3": ("yasnac_lx3", ("G 11", "G 12")),
@@ -29,7 +48,7 @@ _PARTS = [
 """The first part and the others of each of these texts, and the controls that they may show."""
 
 
-class _Controls(Mapping[str, Dialect]):
+class _Controls(Mapping[ControlName, Dialect]):
     """The controls by name. Most programs are for one of them, and show no other."""
 
     def __init__(self) -> None:
@@ -41,14 +60,24 @@ class _Controls(Mapping[str, Dialect]):
             self._read[name] = getattr(module, name.upper().replace("-", "_"))
         return self._read[name]
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(_CONTROLS)
+    @overload
+    def get(self, name: str, default: None = None, /) -> Dialect | None: ...
+
+    @overload
+    def get(self, name: str, default: Dialect | T, /) -> Dialect | T: ...
+
+    def get(self, name: str, default: Any = None, /) -> Any:
+        """A control by its name, which may be any text; else the default."""
+        return self[name] if name in _CONTROLS else default
+
+    def __iter__(self) -> Iterator[ControlName]:
+        return iter(get_args(ControlName))
 
     def __len__(self) -> int:
         return len(_CONTROLS)
 
     def __or__(self, others: Mapping[str, Dialect]) -> dict[str, Dialect]:
-        return {**self, **others}
+        return {name: self[name] for name in self} | dict(others)
 
     def home_of(self, name: str) -> str:
         """The module that has the record of a control."""

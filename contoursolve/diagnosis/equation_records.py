@@ -1,10 +1,16 @@
 """The parts of a system of equations, as records: unknowns, values, equations, conditions, steps, corners."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
+from contoursolve.diagnostics import LateModule
 from contoursolve.gcode import Word
+
+if TYPE_CHECKING:
+    from contoursolve.numeric import symbolic
+else:
+    symbolic = LateModule("contoursolve.numeric.symbolic")
 
 
 def _latex_of(expression: Any) -> str:
@@ -19,13 +25,13 @@ class SystemUnknown(Struct, frozen=True):
     `value` is what it has in the contour that was solved (mm, X of a lathe as radius); None without one.
     """
 
-    symbol: Any
+    symbol: "symbolic.Symbol"
     meaning: str
     unit: str
     value: float | None
     name: str
 
-    def _sympy_(self) -> Any:
+    def _sympy_(self) -> "symbolic.Symbol":
         return self.symbol
 
     def _repr_latex_(self) -> str:
@@ -39,14 +45,14 @@ class SystemValue(Struct, frozen=True):
     it is not known. `source` is the word; None for the start point and for what the control supplies by itself.
     """
 
-    symbol: Any
+    symbol: "symbolic.Symbol"
     meaning: str
     unit: str
-    number: Any
+    number: "symbolic.Expr | None"
     name: str
     source: Word | None = None
 
-    def _sympy_(self) -> Any:
+    def _sympy_(self) -> "symbolic.Symbol":
         return self.symbol
 
     def _repr_latex_(self) -> str:
@@ -62,11 +68,11 @@ class Equation(Struct, frozen=True):
     """One equation, of sympy, and what it says. `source` is the word that states it; None for what the form itself
     states."""
 
-    equation: Any
+    equation: "symbolic.Eq"
     meaning: str
     source: Word | None = None
 
-    def _sympy_(self) -> Any:
+    def _sympy_(self) -> "symbolic.Eq":
         return self.equation
 
     def _repr_latex_(self) -> str:
@@ -82,16 +88,16 @@ class SystemCondition(Struct, frozen=True):
     """A condition on which one step of a system is determined: an expression of sympy that must not be zero, its value
     at the contour that was solved (None without one), in words what it means, and the symbols that it determines."""
 
-    expression: Any
+    expression: "symbolic.Expr"
     value: float | None
     meaning: str
-    determines: tuple[Any, ...]
+    determines: "tuple[symbolic.Symbol, ...]"
 
 
 class SystemStep(Struct, frozen=True):
     """A step in which a system is solved: the unknowns that it finds, from which equations, and how."""
 
-    unknowns: tuple[Any, ...]
+    unknowns: "tuple[symbolic.Symbol, ...]"
     equations: tuple[Equation, ...]
     how: str
     is_closed: bool
@@ -109,4 +115,4 @@ class TiedWords(Struct, frozen=True):
     """Words that say the same, and the equation of sympy that ties them; None where it has no formula."""
 
     words: tuple[str, ...]
-    identity: Any
+    identity: "symbolic.Eq | None"

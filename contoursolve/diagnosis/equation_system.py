@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal, InvalidOperation
 from functools import cached_property
 from math import atan2, nan
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from contoursolve.diagnosis.chosen_solution import Chosen, chosen_solution
 from contoursolve.diagnosis.edits import Edit, change, typed_text, with_value
@@ -24,7 +24,7 @@ from contoursolve.diagnosis.names_in_program import called_in_program
 from contoursolve.diagnosis.smallest_sets import smallest_sets
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
-from contoursolve.diagnostics import Shown, Span
+from contoursolve.diagnostics import LateModule, Shown, Span
 from contoursolve.gcode import FACT
 from contoursolve.geometry import (
     Corner,
@@ -70,12 +70,12 @@ from contoursolve.solving import (
     values_at,
 )
 
-
-def symbolic() -> Any:
-    """The module that has sympy, imported where it is asked for: it takes longer than solving a program."""
-    from contoursolve.numeric import symbolic as module  # noqa: PLC0415
-
-    return module
+if TYPE_CHECKING:
+    from contoursolve.numeric import named_function, symbolic
+else:
+    # These have sympy and CasADi: importing them takes longer than solving a program.
+    symbolic = LateModule("contoursolve.numeric.symbolic")
+    named_function = LateModule("contoursolve.numeric.named_function")
 
 
 _MEANINGS = {"cos": "cosine of the direction of {}", "sin": "sine of the direction of {}", "off": "place of {}"}
@@ -96,10 +96,12 @@ _HOW = {
 class FreeUnknowns(tuple[Any, ...]):
     """The unknowns that no equation determines, as symbols. A call gives the system without the equations of words."""
 
-    _without: Any
+    _without: "Callable[[Iterable[str]], EquationSystem]"
 
     @classmethod
-    def of(cls, symbols: Iterable[Any], without: Any) -> "FreeUnknowns":
+    def of(
+        cls, symbols: "Iterable[symbolic.Symbol]", without: "Callable[[Iterable[str]], EquationSystem]"
+    ) -> "FreeUnknowns":
         """Symbols, and what a call does."""
         found = cls(symbols)
         found._without = without
@@ -107,8 +109,7 @@ class FreeUnknowns(tuple[Any, ...]):
 
     def __call__(self, *words: str) -> "EquationSystem":
         """The system in which the values of these words (`"K"`, or `"2:K"` with its line) are free."""
-        result: EquationSystem = self._without(words)
-        return result
+        return self._without(words)
 
 
 class Rereading(Protocol):
@@ -167,12 +168,12 @@ class EquationSystem(Shown):
         return (*self._start(), *map(self._value, self._stated()), *self._open_sides())
 
     @property
-    def values(self) -> dict[Any, Any]:
+    def values(self) -> "dict[symbolic.Symbol, symbolic.Expr]":
         """The numbers of the words and of the start point by their symbols, exact, in mm and radians."""
         return {each.symbol: each.number for each in self.words if each.number is not None}
 
     @property
-    def solution(self) -> dict[Any, float]:
+    def solution(self) -> "dict[symbolic.Symbol, float]":
         """The values of the unknowns in the contour that was solved, by their symbols; empty without one."""
         return {each.symbol: each.value for each in self.unknowns if each.value is not None}
 
@@ -182,7 +183,7 @@ class EquationSystem(Shown):
         return tuple(map(self._equation, self._system.facts))
 
     @property
-    def equations(self) -> tuple[Any, ...]:
+    def equations(self) -> "tuple[symbolic.Eq, ...]":
         """The equations, of sympy: one for each word that states one, then those of the form itself."""
         return tuple(each.equation for each in self.statements)
 
@@ -195,13 +196,13 @@ class EquationSystem(Shown):
 
     def _repr_latex_(self) -> str:
         """The equations, one below the other."""
-        latex = symbolic().latex
+        latex = symbolic.latex
         return "$\\displaystyle \\begin{aligned}" + " \\\\ ".join(map(latex, self.equations)) + "\\end{aligned}$"
 
     # What sympy says of it ---------------------------------------------------------------------------------------
 
     @cached_property
-    def jacobian(self) -> Any:
+    def jacobian(self) -> "symbolic.Matrix":
         """The derivatives of the equations by the unknowns, a Matrix of sympy: a row for each equation, a column for
         each unknown."""
         return jacobian_of(self._system, self._symbols)
@@ -245,10 +246,10 @@ class EquationSystem(Shown):
         free, nor of the steps that are `too_large`."""
         found = list[SystemCondition]()
         for each in self._step_conditions:
-            expression = symbolic().product(each.factors)
+            expression = symbolic.product(each.factors)
             if each.factors:
                 determines = tuple(map(self._symbols.scalar, each.group.unknowns))
-                value = symbolic().value_at(expression, self._numbers)
+                value = symbolic.value_at(expression, self._numbers)
                 meaning = self._called(condition_text(each.group, self._system, self.profile))
                 found.append(SystemCondition(expression, value, meaning, determines))
         return tuple(found)
@@ -261,18 +262,18 @@ class EquationSystem(Shown):
         return tuple(tuple(named[name] for name in group.unknowns) for group in large)
 
     @property
-    def condition(self) -> Any:
+    def condition(self) -> "symbolic.Expr | None":
         """The expression that must not be zero for the equations to determine the unknowns: 1 if they always do, None
         if they never do. It leaves out the steps that are `too_large`."""
         if not self.is_determined:
             return None
-        factors = (factor for each in self.conditions for factor in symbolic().factors_of(each.expression))
-        return symbolic().product(factors)
+        factors = (factor for each in self.conditions for factor in symbolic.factors_of(each.expression))
+        return symbolic.product(factors)
 
     @property
     def margin(self) -> float | None:
         """The value of the condition at the contour that was solved; None without one."""
-        return symbolic().value_at(self.condition, self._numbers) if self.is_determined else None
+        return symbolic.value_at(self.condition, self._numbers) if self.is_determined else None
 
     @cached_property
     def steps(self) -> tuple[SystemStep, ...]:
@@ -324,7 +325,7 @@ class EquationSystem(Shown):
         found = self._read_by.profile(claim, self._left_out)
         return EquationSystem(claim, found, self._read_by, self._left_out)
 
-    def function(self, name: str = "contour") -> Any:
+    def function(self, name: str = "contour") -> "named_function.Function":
         """The contour as a function of CasADi, for `map`, `jacobian`, `nlpsol` and whatever else that has.
 
         Inputs are the start point and the words with a value, a scalar each, by the names of their symbols and as they
@@ -350,7 +351,9 @@ class EquationSystem(Shown):
         if chosen is None:
             raise ValueError("there is no contour at the values of the words that a function could follow")
         inputs, typed = self._inputs()
-        return build_function(self.profile, name, inputs, typed, self._conditions_of, (self.inputs, chosen.scalars))
+        known = self.inputs, chosen.scalars
+        found: named_function.Function = build_function(self.profile, name, inputs, typed, self._conditions_of, known)
+        return found
 
     @property
     def inputs(self) -> dict[str, float]:
@@ -407,8 +410,8 @@ class EquationSystem(Shown):
         values |= {symbols.scalar(name): sign for name, sign in self._sides.items()}
         for line in system.figure.carriers:
             cosine, sine, _ = line_scalars(line)
-            values[symbolic().symbol(self._names[line])] = angle(at[sine], at[cosine])
-        return [symbolic().casadi_of(each.expression, values) for each in self.conditions]
+            values[symbolic.symbol(self._names[line])] = angle(at[sine], at[cosine])
+        return [symbolic.casadi_of(each.expression, values) for each in self.conditions]
 
     def _without(self, words: Iterable[str]) -> "EquationSystem":
         names = self._left_out.union(given.name for key in words for given in self._named(key))
@@ -425,8 +428,8 @@ class EquationSystem(Shown):
         return called_in_program(self.profile)
 
     @cached_property
-    def _symbols(self) -> Any:
-        return symbolic().Symbols(lambda name: self._names.get(name, name))
+    def _symbols(self) -> "symbolic.Symbols":
+        return symbolic.Symbols(lambda name: self._names.get(name, name))
 
     @cached_property
     def _numbers(self) -> dict[Any, Any]:
@@ -495,7 +498,7 @@ class EquationSystem(Shown):
         found = []
         for axis, value in enumerate(profile.start.values):
             name = scalar(figure.start, axis)
-            number = symbolic().exact(value) if value is not None else None
+            number = symbolic.exact(value) if value is not None else None
             meaning = f"{profile.plane.axes[axis]} of the start point"
             found.append(SystemValue(self._symbols.scalar(name), meaning, "mm", number, self._names[name]))
         return found
@@ -508,7 +511,7 @@ class EquationSystem(Shown):
                 self._symbols.scalar(side),
                 f"the side on which it touches: 1 is {first}, -1 is {second}",
                 "",
-                symbolic().exact(Decimal(self._sides[side])) if side in self._sides else None,
+                symbolic.exact(Decimal(self._sides[side])) if side in self._sides else None,
                 self._names[side],
             )
             for side, (first, second) in named.items()
@@ -517,12 +520,12 @@ class EquationSystem(Shown):
     def _value(self, given: Given) -> SystemValue:
         is_angle = given.unit is Unit.DEGREE
         symbol = self._symbols.angle(given.name) if is_angle else self._symbols.scalar(given.name)
-        number = symbolic().exact(given.value, is_angle=is_angle)
+        number = symbolic.exact(given.value, is_angle=is_angle)
         meaning = self._called(meaning_of(given.name, given.word, self.claim)) if given.word else ""
         return SystemValue(symbol, meaning, "rad" if is_angle else "mm", number, self._names[given.name], given.word)
 
     def _equation(self, fact: Fact) -> Equation:
-        numeric, symbols = symbolic(), self._symbols
+        numeric, symbols = symbolic, self._symbols
         at = symbolic_values(symbols, numeric.FUNCTIONS, self._system.headed)
         given = self.profile.givens.get(fact.given) if fact.given else None
         word = given.word if given is not None else None
@@ -541,10 +544,10 @@ class EquationSystem(Shown):
     def _places(self, corner: Corner) -> Mapping[str, tuple[Any, Any]]:
         """The symbols of the places of a corner."""
         names = corner_names(corner.name, self.profile, self._names.values())
-        return {place: (symbolic().symbol(one), symbolic().symbol(two)) for place, (one, two) in names.items()}
+        return {place: (symbolic.symbol(one), symbolic.symbol(two)) for place, (one, two) in names.items()}
 
     def _corner(self, corner: Corner) -> CornerSystem:
-        numeric, pairs = symbolic(), self._places(corner)
+        numeric, pairs = symbolic, self._places(corner)
         at = symbolic_values(self._symbols, numeric.FUNCTIONS, self._system.headed)
         size = corner.radius if corner.radius in self._system.unknowns else corner.size
         told = corner_equations(
@@ -577,8 +580,7 @@ class EquationSystem(Shown):
         scalars = self._chosen.scalars
         lines = self._system.figure.carriers
         return {
-            symbolic().symbol(self._names[line]): atan2(scalars[f"{line}.sin"], scalars[f"{line}.cos"])
-            for line in lines
+            symbolic.symbol(self._names[line]): atan2(scalars[f"{line}.sin"], scalars[f"{line}.cos"]) for line in lines
         }
 
     def _named(self, key: str) -> list[Given]:

@@ -1,6 +1,7 @@
 from .block_template import (
     BlockOptions as BlockOptions,
     Branches as Branches,
+    BranchesName as BranchesName,
     RefusedError as RefusedError,
     Template as Template,
     called as called,

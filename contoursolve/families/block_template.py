@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal, InvalidOperation
 from enum import Enum
-from typing import Any, TypedDict
+from typing import Any, Literal
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -16,7 +16,16 @@ from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
 from contoursolve.gcode import FACT, Directive, Program, Word, call
-from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run, start_text
+from contoursolve.program import (
+    Request,
+    Result,
+    SolveOptions,
+    StartKeywords,
+    UnknownControlError,
+    choose,
+    run,
+    start_text,
+)
 from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.solving import Point
 
@@ -274,6 +283,10 @@ def called(word: str) -> str:
     return f"{address} of program line {line}" if line else address
 
 
+BranchesName = Literal["chosen", "all"]
+"""The values of `Branches`, as users write them."""
+
+
 class Branches(Enum):
     """The solutions that a family has of each row."""
 
@@ -321,16 +334,10 @@ class SweepSpec(Struct, frozen=True):
         return Template(program, asked, variables=places).with_words(self.names)
 
 
-class BlockOptions(TypedDict, total=False):
+class BlockOptions(StartKeywords, total=False):
     """Options of every question about a block: how it is read (see `family`)."""
 
-    start: str | Mapping[str, float] | None
-    control: str | Dialect | None
     facts: Iterable[str]
-    units: str
-    rules: str
-    settings: Mapping[str, str] | None
-    variables: Mapping[str, float] | None
 
 
 def spec_of(  # noqa: PLR0913 - what `family` takes

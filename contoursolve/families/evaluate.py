@@ -15,10 +15,12 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
+from contoursolve.controls import ControlName
 from contoursolve.diagnostics import choice_of
 from contoursolve.families.block_template import (
     BlockOptions,
     Branches,
+    BranchesName,
     SweepSpec,
     Template,
     errors_of,
@@ -33,6 +35,7 @@ from contoursolve.families.free_words import Examples, check_block, examples_of
 from contoursolve.families.solutions_of_rows import names_of_solutions, without_defaults
 from contoursolve.families.word_values import TOOL, Ranges, ranges_of, stretches
 from contoursolve.numeric import Array
+from contoursolve.program import Rules, Units
 from contoursolve.reading import Dialect
 from contoursolve.solving import REASONS, Status, StatusCode
 
@@ -124,16 +127,16 @@ def family(
     *,
     vary: Mapping[str, ArrayLike],
     start: str | Mapping[str, float] | None = None,
-    control: str | Dialect | None = None,
+    control: ControlName | Dialect | None = None,
     facts: Iterable[str] = (),
     paired: bool = False,
-    units: str = "mm",
-    rules: str = "enforce",
+    units: Units = "mm",
+    rules: Rules = "enforce",
     settings: Mapping[str, str] | None = None,
     variables: Mapping[str, float] | None = None,
     workers: int | None = None,
     executor: Executor | None = None,
-    branches: str = "chosen",
+    branches: BranchesName = "chosen",
 ) -> Family:
     """Solve a contour for many values of some of its words.
 

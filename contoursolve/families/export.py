@@ -5,14 +5,14 @@ needed only here.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer, join
-from contoursolve.diagnostics import Shown, need, plot_on
+from contoursolve.diagnostics import LateModule, Shown, need, plot_on
 from contoursolve.families.block_template import SweepSpec, Template
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
@@ -24,6 +24,12 @@ from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.reading import Premises
 from contoursolve.solving import REASONS, Contour, Status, StatusCode
+
+if TYPE_CHECKING:
+    import pyarrow
+    import xarray
+else:
+    pyarrow, xarray = LateModule("pyarrow"), LateModule("xarray")
 
 SOLUTION = "solution"
 """The axis of the solutions of each row."""
@@ -226,7 +232,7 @@ class Family(Shown):
         `Region`. Raises ValueError where these are not two words of a grid with two or more values each."""
         return plot_on(self, ax, words=words, result=result)
 
-    def to_arrow(self) -> Any:
+    def to_arrow(self) -> "pyarrow.Table":
         """A pyarrow.Table with a column for each array: `status` and `reason` in words, as dictionaries (no reason is
         null), and with each field its `unit` as metadata, for X of a lathe with the `measure` radius or diameter; its
         own metadata are `origin`. Raises MissingExtraError without pyarrow."""
@@ -250,7 +256,7 @@ class Family(Shown):
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
         write_parquet(path, [self._table()], self.measures(), self.origin)
 
-    def to_xarray(self) -> Any:
+    def to_xarray(self) -> "xarray.Dataset":
         """An xarray.Dataset whose dimensions are the free words, or `row`; every variable has its `units` as an
         attribute, `status` and `reason` the meanings of their numbers; its own are `origin`. Raises MissingExtraError
         without xarray."""
@@ -294,7 +300,9 @@ Measures = Mapping[str, Measure]
 """Units of columns, by name."""
 
 
-def to_arrow(columns: Mapping[str, NDArray[Any]], measures: Measures, origin: Mapping[str, str] | None = None) -> Any:
+def to_arrow(
+    columns: Mapping[str, NDArray[Any]], measures: Measures, origin: Mapping[str, str] | None = None
+) -> "pyarrow.Table":
     """A pyarrow.Table: `status` and `reason` as dictionaries of words (null without a reason), and with each field its
     `unit`, and whether a radius or a diameter is meant, as metadata; `origin` is the metadata of the whole."""
     arrow = need("pyarrow", "family", "a family as an Arrow table")
@@ -323,7 +331,7 @@ def to_xarray(
     solutions: Sequence[str] = (),
     *,
     is_paired: bool,
-) -> Any:
+) -> "xarray.Dataset":
     """An xarray.Dataset: along the words of a grid, or along `row`, and along `solution` if there are several; with
     `units` and `measure` as attributes, and for `status` and `reason` what their numbers stand for, as the CF
     conventions name it."""
@@ -338,7 +346,8 @@ def to_xarray(
     if solutions:
         dims, coordinates[SOLUTION] = (*dims, SOLUTION), ((SOLUTION,), numpy.array(solutions), {})
     variables = {name: (dims, each, attributes.get(name, {})) for name, each in arrays.items()}
-    return need("xarray", "family", "a family as labelled arrays").Dataset(variables, coordinates)
+    found: xarray.Dataset = need("xarray", "family", "a family as labelled arrays").Dataset(variables, coordinates)
+    return found
 
 
 def write_parquet(

@@ -27,6 +27,7 @@ from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import RangePiece, RangeSearch
 from contoursolve.geometry import Line
 from contoursolve.numeric import Created
+from contoursolve.program import takes
 from contoursolve.reading import Premises
 from contoursolve.solving import Check, NoteKind, RefusalKind, Topic, refusals_about, typed_limit
 
@@ -161,6 +162,7 @@ class Feasible(Shown, Struct, frozen=True):
         return any(value in each for each in self.intervals)
 
 
+@takes(BlockOptions)
 def feasible(
     block: str,
     word: str,

@@ -31,6 +31,7 @@ from contoursolve.families.sensitivities import slopes_of
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Length, Plane, Unit, assemble
 from contoursolve.numeric import Intervals
+from contoursolve.program import takes
 from contoursolve.reading import Premises
 from contoursolve.solving import Certificate, Contour, Point, Status, analyse
 
@@ -102,6 +103,7 @@ class Found(Shown, Struct, frozen=True):
         return not self.doubts
 
 
+@takes(BlockOptions)
 def find_word(
     block: str,
     word: str,

@@ -23,6 +23,7 @@ from contoursolve.families.word_values import ranges_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Length, Plane, Unit
 from contoursolve.numeric import Array
+from contoursolve.program import takes
 from contoursolve.reading import Premises
 from contoursolve.solving import Point, StatusCode
 
@@ -99,6 +100,7 @@ class Tolerances(Shown, Struct, frozen=True):
     premises: Premises = Premises()
 
 
+@takes(BlockOptions)
 def tolerances(
     block: str,
     allowed: Mapping[str, float] | None = None,

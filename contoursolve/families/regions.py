@@ -30,6 +30,7 @@ from contoursolve.families.sampled_lines import (
 from contoursolve.families.word_values import Ranges, are_same
 from contoursolve.geometry import Unit
 from contoursolve.numeric import Array
+from contoursolve.program import takes
 from contoursolve.reading import Premises
 from contoursolve.solving import REASONS, Point, StatusCode
 
@@ -117,6 +118,7 @@ class Region(Shown, Struct, frozen=True, eq=False):
         return solve_sweep(compile_sweep(self.spec, Ranges(dict(zip(self.words, axes, strict=True)), is_paired=False)))
 
 
+@takes(BlockOptions)
 def region(
     block: str,
     words: tuple[str, str],

@@ -23,6 +23,7 @@ from contoursolve.families.free_words import check_block, factor_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
 from contoursolve.numeric import COSINE, SIDE, SINE, Compiled, Tape, condition, direction
+from contoursolve.program import takes
 from contoursolve.solving import NoteKind, Solution, Status, StepKind, analyse, basis_of, input_values
 from contoursolve.tolerance import RESIDUAL
 
@@ -100,6 +101,7 @@ def _named(word: str, known: Iterable[str]) -> str:
     return found
 
 
+@takes(BlockOptions)
 def sensitivity(block: str, **options: Unpack[BlockOptions]) -> Sensitivity:
     """The derivatives of a contour by all words that it follows from.
 

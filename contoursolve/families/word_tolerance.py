@@ -32,6 +32,7 @@ from contoursolve.families.range_pieces import LEAST_GAP, NARROW, REACH, RangePi
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Unit
 from contoursolve.numeric import halve
+from contoursolve.program import takes
 from contoursolve.reading import Premises
 from contoursolve.tolerance import LARGEST
 
@@ -111,6 +112,7 @@ def _difference(one: float, other: float) -> float:
     return float(Decimal(repr(one)) - Decimal(repr(other)))
 
 
+@takes(BlockOptions)
 def tolerance_for(
     block: str,
     word: str,

@@ -30,7 +30,7 @@ from contoursolve.output import stated_words
 from contoursolve.program import Changes, Result, UnknownControlError, changed, changes_of
 from contoursolve.reading import Dialect, Lexicon
 from contoursolve.solving import Status
-from contoursolve.tool_radius import Tool, ToolReport, make_tool, radius_in, read_tool, tool_in
+from contoursolve.tool_radius import SideName, Tool, ToolReport, make_tool, radius_in, read_tool, tool_in
 
 SAME = 1e-3
 """mm. Contours whose points are this close are one: a fact that selects is written with three decimals."""
@@ -66,7 +66,7 @@ class Exploration(Struct, frozen=True):
     """Text of a word before it was freed, by its key."""
     is_recognised: bool = False
     """Whether the words told the control, so that others may tell another one."""
-    side: str | None = None
+    side: SideName | None = None
     """The side of the contour on which the tool runs, where the text does not say it."""
     tool: ToolReport | None = None
     """The report about the tool that the text states, if it states one."""
@@ -109,7 +109,7 @@ def begin(
     facts: Iterable[str] = (),
     line: int | None = None,
     tool: str | None = None,
-    side: str | None = None,
+    side: SideName | None = None,
     examine: Examiner | None = None,
     **options: Any,
 ) -> Exploration:
@@ -139,7 +139,7 @@ def begin(
 
 
 def _examined(
-    text: str, side: str | None, options: Mapping[str, Any], examine: Examiner | None = None
+    text: str, side: SideName | None, options: Mapping[str, Any], examine: Examiner | None = None
 ) -> tuple[Result, ToolReport | None]:
     """The result of a text, with what is said of the tool that it states."""
     if any(tool_in(line) is not None for line in split_lines(text)):

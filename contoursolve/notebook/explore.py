@@ -3,10 +3,13 @@
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from contoursolve.controls import ControlName
 from contoursolve.diagnostics import LateModule, importing
 from contoursolve.families import Family, Region, with_numbers
 from contoursolve.notebook.exploration import begin, rewrite_block
+from contoursolve.program import Rules, Units
 from contoursolve.reading import Dialect
+from contoursolve.tool_radius import SideName
 
 if TYPE_CHECKING:
     from contoursolve.notebook import explorer, map_explorer
@@ -22,14 +25,14 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     *,
     line: int | None = None,
     start: str | None = None,
-    control: str | Dialect | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
+    control: ControlName | Dialect | None = None,
+    units: Units = "mm",
+    rules: Rules = "enforce",
     facts: Iterable[str] = (),
     settings: Mapping[str, str] | None = None,
     variables: Mapping[str, float] | None = None,
     tool: str | None = None,
-    side: str | None = None,
+    side: SideName | None = None,
 ) -> "explorer.Explorer":
     """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
 

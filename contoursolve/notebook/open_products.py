@@ -7,11 +7,12 @@ import json
 from collections.abc import Mapping
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from msgspec import Struct
 
 if TYPE_CHECKING:
+    from contoursolve.controls import ControlName
     from contoursolve.postprocess import Summary
     from contoursolve.program import OpenProgram
     from contoursolve.tool_radius import ToolReport, ToolRequest
@@ -109,7 +110,9 @@ def converted(program: "OpenProgram", control: str, settings: Mapping[str, str])
     from contoursolve.controls import DIALECTS  # noqa: PLC0415 - as above
 
     try:
-        found = convert(program.text, control, control=program.dialect, settings=settings, name=program.name)
+        found = convert(
+            program.text, cast("ControlName", control), control=program.dialect, settings=settings, name=program.name
+        )
     except ValueError as error:
         return Product(None, str(error))
     difference = found.comparison.difference if found.comparison else None

@@ -5,9 +5,10 @@ from decimal import Decimal
 from math import dist
 
 from contoursolve.api import solve
+from contoursolve.controls import ControlName
 from contoursolve.diagnosis import Answer
 from contoursolve.output import start_text
-from contoursolve.program import configure, find_dialect
+from contoursolve.program import Rules, Units, configure, find_dialect
 from contoursolve.reading import Dialect
 
 _ABSOLUTE, _ON_THE_PATH = 90, 40
@@ -21,9 +22,9 @@ _ROUNDED = 0.005
 def standing_alone(
     answer: Answer,
     *,
-    control: str | Dialect,
-    units: str = "mm",
-    rules: str = "enforce",
+    control: ControlName | Dialect,
+    units: Units = "mm",
+    rules: Rules = "enforce",
     settings: Mapping[str, str] | None = None,
     is_exact: bool = False,
 ) -> str:

@@ -1,11 +1,13 @@
 """Functions of CasADi with named inputs and matrices as outputs, for those who go on with them in CasADi."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import casadi
 
 from contoursolve.numeric.expressions import Expression, Tape
+
+Function: TypeAlias = casadi.Function
 
 Rows = Sequence[Sequence[Any]]
 """Expressions and numbers by row and column."""

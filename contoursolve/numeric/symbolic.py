@@ -6,6 +6,7 @@ from decimal import Decimal
 from typing import Any
 
 import sympy
+from sympy import Eq, Expr, Matrix, Symbol
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
 from sympy.printing.latex import LatexPrinter
@@ -15,6 +16,9 @@ from sympy.printing.str import StrPrinter
 from contoursolve.numeric import expressions
 from contoursolve.numeric.functions import Functions
 from contoursolve.numeric.modular_rank import ExactRank
+
+__all__ = ["Eq", "Expr", "Matrix", "Symbol"]
+"""Classes of sympy that others name in types."""
 
 FUNCTIONS = Functions(sympy.sqrt, sympy.cos, sympy.sin)
 

@@ -19,9 +19,12 @@ from .moved import (
 from .post_processors import (
     POSTS as POSTS,
     Arcs as Arcs,
+    ArcsName as ArcsName,
     MachineKind as MachineKind,
     Numbering as Numbering,
+    NumberingName as NumberingName,
     Post as Post,
+    PostName as PostName,
     Risk as Risk,
     find_post as find_post,
     machine_of as machine_of,

@@ -1,16 +1,21 @@
 """Options of an expansion, and its account of the contours of the program."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
 from contoursolve.diagnosis import join
-from contoursolve.diagnostics import Diagnostic, ProgramError, Severity, hash_of
+from contoursolve.diagnostics import Diagnostic, LateModule, ProgramError, Severity, hash_of
 from contoursolve.gcode import Block, FaultKind
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import SAME, Arcs, Numbering, Post, Risk
 from contoursolve.postprocess.untranslatable import Unfamiliar
+
+if TYPE_CHECKING:
+    from contoursolve import comparison as paths
+else:
+    paths = LateModule("contoursolve.comparison")
 
 _KEPT_WARNINGS = 20
 """Warnings that are kept to be shown."""
@@ -137,7 +142,7 @@ class Conversion(Struct, frozen=True):
     control: str | None
     to: str
     summary: Summary
-    comparison: Any
+    comparison: "paths.Comparison | None"
 
     __hash__ = hash_of
 

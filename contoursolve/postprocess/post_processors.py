@@ -3,10 +3,17 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Literal
 
 from contoursolve.controls import FANUC_MILL as FANUC_CONTROL, PLAIN
 from contoursolve.geometry import Length
 from contoursolve.reading import Code, Dialect, Effect, Modes, NumberFormat, WithoutPoint
+
+ArcsName = Literal["center", "radius"]
+NumberingName = Literal["first", "all"]
+PostName = Literal["same", "linuxcnc", "fanuc", "haas", "sinumerik", "klartext"]
+"""The values of `Arcs` and `Numbering`, and the names of targets, as users write them; the last three are for formulas
+alone."""
 
 
 class Arcs(Enum):

@@ -78,12 +78,16 @@ from .renumbering import (
 )
 from .request import (
     CheckKeywords as CheckKeywords,
+    Depths as Depths,
     FollowKeywords as FollowKeywords,
     ProgramKeywords as ProgramKeywords,
     ReadingKeywords as ReadingKeywords,
     Request as Request,
+    Rules as Rules,
     SolveKeywords as SolveKeywords,
     SolveOptions as SolveOptions,
+    StartKeywords as StartKeywords,
+    Units as Units,
     start_text as start_text,
     takes as takes,
 )

@@ -10,10 +10,12 @@ from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate, chain, islice, takewhile
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.controls import ControlName
 from contoursolve.diagnosis import Answer, Context, Policy, rank
 from contoursolve.diagnostics import Diagnostic, Span, choice_of
 from contoursolve.execution import ProgramKind, kind_of, needs_running, says_end, surroundings_of
@@ -26,7 +28,7 @@ from contoursolve.program.no_contour import conclusions, nothing_to_solve
 from contoursolve.program.open_lines import OpenLines, Place, Splice
 from contoursolve.program.pipeline import Result, Run, frame_of
 from contoursolve.program.renumbering import renumbered
-from contoursolve.program.request import Request
+from contoursolve.program.request import Request, Rules, Units
 from contoursolve.program.running import KeptSteps
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.told_control import ToldControl
@@ -109,9 +111,9 @@ class OpenProgram:
         self,
         text: str = "",
         *,
-        control: str | Dialect | None = None,
-        units: str = "mm",
-        rules: str = "enforce",
+        control: ControlName | Dialect | None = None,
+        units: Units = "mm",
+        rules: Rules = "enforce",
         settings: Mapping[str, str] | None = None,
         name: str = "<program>",
     ) -> None:
@@ -141,10 +143,9 @@ class OpenProgram:
 
     def copy(self) -> "OpenProgram":
         """The same text with the same options, examined by itself."""
-        units, rules, own = self._asked.unit.value, self._asked.policy.value, self._control
-        return OpenProgram(
-            self.text, control=own.named, units=units, rules=rules, settings=own.settings, name=self.name
-        )
+        own, asked = self._control, self._asked
+        told: dict[str, Any] = {"control": own.named, "units": asked.unit.value, "rules": asked.policy.value}
+        return OpenProgram(self.text, settings=own.settings, name=self.name, **told)
 
     @property
     def dialect(self) -> Dialect | None:
@@ -210,7 +211,7 @@ class OpenProgram:
         """The options of its examination, with its control."""
         return replace(self._asked, dialect=self.dialect, around=surroundings_of(self.name))
 
-    def configure(self, control: str | Dialect | None, settings: Mapping[str, str]) -> None:
+    def configure(self, control: ControlName | Dialect | None, settings: Mapping[str, str]) -> None:
         """Read the program as one for this control (None: as it shows), with these settings."""
         if (control, dict(settings)) != (self._control.named, self._control.settings):
             self._control.configure(control, settings)

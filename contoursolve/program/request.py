@@ -4,12 +4,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import wraps
 from inspect import Parameter, signature
 from pathlib import Path
-from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Literal, ParamSpec, TypedDict, TypeVar
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.controls import COMMON_RULES, DIALECTS
+from contoursolve.controls import COMMON_RULES, DIALECTS, ControlName
 from contoursolve.diagnosis import Depth, Policy
 from contoursolve.diagnostics import choice_of
 from contoursolve.execution import ALONE, Surroundings, check_names, surroundings_of
@@ -64,21 +64,32 @@ class Request(Struct, frozen=True):
         return self.dialect.rules if self.dialect is not None else COMMON_RULES
 
 
+Units = Literal["mm", "inch"]
+Rules = Literal["enforce", "warn", "off"]
+Depths = Literal["verdict", "path", "full", "findings", "trial"]
+"""The values of `Length`, `Policy` and `Depth`, as users write them."""
+
+
 class ReadingKeywords(TypedDict, total=False):
     """Keywords that say as what a program is read."""
 
-    control: "str | Dialect | None"
-    units: str
-    rules: str
+    control: "ControlName | Dialect | None"
+    units: Units
+    rules: Rules
     settings: "Mapping[str, str] | None"
 
 
-class ProgramKeywords(ReadingKeywords, total=False):
-    """These, and what is stated beside a program."""
+class StartKeywords(ReadingKeywords, total=False):
+    """These, and where it begins, with which values."""
 
     start: "str | Mapping[str, float] | None"
-    facts: "Iterable[str | Statement]"
     variables: "Mapping[str, float] | None"
+
+
+class ProgramKeywords(StartKeywords, total=False):
+    """These, and what else is stated beside a program."""
+
+    facts: "Iterable[str | Statement]"
     folders: "Iterable[str | Path]"
 
 
@@ -92,7 +103,7 @@ class FindingKeywords(ProgramKeywords, total=False):
 class SolveKeywords(FindingKeywords, total=False):
     """These, and how far findings are explained."""
 
-    depth: str
+    depth: Depths
 
 
 class CheckKeywords(FindingKeywords, total=False):
@@ -163,7 +174,7 @@ def takes(keywords: type[ReadingKeywords]) -> Callable[[Callable[P, T]], Callabl
         Parameter(
             name,
             Parameter.KEYWORD_ONLY,
-            default=getattr(SolveOptions(), name),
+            default=getattr(SolveOptions(), name, None),
             annotation=getattr(annotation, "__forward_arg__", annotation),
         )
         for name, annotation in keywords.__annotations__.items()

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import DIALECTS, ControlName
 from contoursolve.diagnosis import Answer, status_text
 from contoursolve.diagnostics import UserError
 from contoursolve.postprocess import Written, write_contour
@@ -17,7 +17,10 @@ class UnfinishedError(UserError, ValueError):
 
 
 def write(
-    contour: Answer | Result | ContourSketch, control: str | Dialect, *, settings: Mapping[str, str] | None = None
+    contour: Answer | Result | ContourSketch,
+    control: ControlName | Dialect,
+    *,
+    settings: Mapping[str, str] | None = None,
 ) -> Written:
     """A contour in the words of a control: those first that have the drawing's own numbers, and are few.
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import atan2, degrees
+from typing import overload
 
 from msgspec import Struct
 
@@ -117,7 +118,13 @@ class Drawings(Shown, Sequence[Drawn]):
     def __len__(self) -> int:
         return len(self.drawings)
 
-    def __getitem__(self, index):  # type: ignore[no-untyped-def]
+    @overload
+    def __getitem__(self, index: int) -> Drawn: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Drawn, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Drawn | tuple[Drawn, ...]:
         return self.drawings[index]
 
     def __iter__(self) -> Iterator[Drawn]:

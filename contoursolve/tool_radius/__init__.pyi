@@ -44,6 +44,8 @@ from .stated import (
 )
 from .tool import (
     OutsideCorner as OutsideCorner,
+    OutsideName as OutsideName,
+    SideName as SideName,
     Tool as Tool,
     ToolError as ToolError,
     ToolSide as ToolSide,

@@ -24,14 +24,22 @@ from contoursolve.families import (
     spec_of,
 )
 from contoursolve.geometry import Length
-from contoursolve.program import Request, Result
+from contoursolve.program import Request, Result, takes
 from contoursolve.reading import join_premises
 from contoursolve.tolerance import LARGEST
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.findings import ToolFindings, runs_beside, with_radius
 from contoursolve.tool_radius.offset import GOUGE, FittingRadii
 from contoursolve.tool_radius.runs import ToolRequest, nothing_cut
-from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, make_tool
+from contoursolve.tool_radius.tool import (
+    OutsideCorner,
+    OutsideName,
+    SideName,
+    Tool,
+    ToolError,
+    ToolSide,
+    make_tool,
+)
 
 _REACH = 1000.0
 """mm. Up to which a radius is looked for where no range is given, as for any length."""
@@ -137,11 +145,12 @@ def least_of(found: Mapping[tuple[int, ...], Feasible]) -> Feasible:
 class ToolOptions(BlockOptions, total=False):
     """Options of every question about tools beside a block (see `find_tools`)."""
 
-    side: str | None
+    side: SideName | None
     tip: int | None
-    outside: str | None
+    outside: OutsideName | None
 
 
+@takes(ToolOptions)
 def find_tools(
     text: str, *, within: tuple[float, float] | None = None, **options: Unpack[ToolOptions]
 ) -> Mapping[tuple[int, ...], Feasible]:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from decimal import Decimal
 from difflib import get_close_matches
 from enum import Enum
-from typing import Any
+from typing import Any, Literal
 
 from msgspec import Struct
 
@@ -13,6 +13,10 @@ from contoursolve.diagnostics import ProgramError
 from contoursolve.gcode import Block, late_pattern
 from contoursolve.solving import Point
 from contoursolve.tolerance import LARGEST
+
+SideName = Literal["left", "right"]
+OutsideName = Literal["roll", "intersect"]
+"""The values of `ToolSide` and `OutsideCorner`, as users write them."""
 
 TIPS: Mapping[int, Point] = {
     0: (0.0, 0.0),

@@ -21,6 +21,7 @@ from contoursolve.families import (
     solve_sweep,
     spec_of,
 )
+from contoursolve.program import takes
 from contoursolve.solving import StatusCode
 from contoursolve.tool_radius.faults import ToolFaultKind
 from contoursolve.tool_radius.largest import ToolOptions, ToolTrials, request_of
@@ -121,6 +122,7 @@ def sweep_tools(
     return ToolSweep(**own, contours=contours, scale=float(unit.in_mm))
 
 
+@takes(ToolOptions)
 def family_of_tools(
     block: str,
     *,

@@ -20,7 +20,7 @@ from msgspec import ValidationError, convert
 from msgspec.structs import replace
 
 import contoursolve
-from contoursolve.controls import DIALECTS, DRAWINGS, ChainFinder, words_of_drawing
+from contoursolve.controls import DIALECTS, DRAWINGS, ChainFinder, ControlName, words_of_drawing
 from contoursolve.diagnosis import word_keys
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import typed_places
@@ -130,7 +130,7 @@ class Desk:
             self._examined.pop(view.number, None)
             self._examined[view.number] = window, view
 
-    def add(self, window: PageWindow, file: FileText, control: str | None) -> ProgramView:
+    def add(self, window: PageWindow, file: FileText, control: ControlName | None) -> ProgramView:
         """Another program of a window."""
         path = self.folder.path / file.name if self.folder is not None else None
         # No page may take it for one that it has from a desk before.
@@ -391,12 +391,13 @@ ACTIONS: dict[str, Answering] = {
 """Functions that answer, by the name of the action."""
 
 
-def _control_of(action: Mapping[str, Any]) -> str | None:
+def _control_of(action: Mapping[str, Any]) -> ControlName | None:
     """The control that an action chooses; None where it chooses none."""
     control: str | None = read_field(action, "control", str, None)
-    if control is not None and control not in DIALECTS:
+    found = next((each for each in DIALECTS if each == control), None)
+    if control is not None and found is None:
         raise ActionError(f"{control!r} is no control here")
-    return control
+    return found
 
 
 def _bytes(action: Mapping[str, Any]) -> bytes:

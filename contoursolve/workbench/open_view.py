@@ -14,6 +14,7 @@ from time import monotonic
 from msgspec import Struct, to_builtins
 from msgspec.structs import replace
 
+from contoursolve.controls import ControlName
 from contoursolve.diagnosis import Answer, rank
 from contoursolve.diagnostics import Diagnostic, Fix, Severity, Span, UserError
 from contoursolve.notebook import project_settings
@@ -64,7 +65,7 @@ class ProgramView:
     def __init__(self, number: str, file: FileText, path: Path | None) -> None:
         self.number, self.seq, self.file, self.path = number, 0, replace(file, text=""), path
         """The path is that of its file, beside which are subprograms and the project file; None without a folder."""
-        self.control: str | None = None
+        self.control: ControlName | None = None
         self.settings: Mapping[str, str] = {}
         self._project = ""
         """The trouble with the project file, if there is any."""
@@ -103,7 +104,7 @@ class ProgramView:
         if self._program is not None:
             self._text, self._program, self.explored, self._shown = self._program.text, None, None, {}
 
-    def configure(self, control: str | None) -> None:
+    def configure(self, control: ControlName | None) -> None:
         """Read it as a program for this control, or, with None, for the one that it shows; by the settings of the
         project file as that is now."""
         found = project_settings(self.path)

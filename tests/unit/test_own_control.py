@@ -2,8 +2,9 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from inspect import signature
+from inspect import Parameter, isfunction, signature
 from pathlib import Path
+from typing import get_args
 
 import pytest
 from click.testing import CliRunner
@@ -11,10 +12,16 @@ from click.testing import CliRunner
 import contoursolve
 from contoursolve import DIALECTS
 from contoursolve.__main__ import commands
-from contoursolve.controls import GEOMETRY_RULES, NCT_99M
-from contoursolve.program import FollowKeywords, SolveOptions
+from contoursolve.controls import GEOMETRY_RULES, NCT_99M, ControlName
+from contoursolve.diagnosis import Depth, Policy
+from contoursolve.families import Branches, BranchesName
+from contoursolve.geometry import Length
+from contoursolve.postprocess import Arcs, ArcsName, Numbering, NumberingName, PostName
+from contoursolve.postprocess.formulas.formula_request import POST_NAMES
+from contoursolve.program import Depths, FollowKeywords, Rules, SolveOptions, Units
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import NoteKind, RefusalKind
+from contoursolve.tool_radius import OutsideCorner, OutsideName, SideName, ToolSide
 
 GENERAL = {rule.about for rule in GEOMETRY_RULES}
 
@@ -59,14 +66,62 @@ def test_the_rows_of_the_control_itself_come_first_and_a_missing_one_is_named():
         contoursolve.check(PARALLEL, control=replace(MINE, rules=rules))
 
 
+DOORS = [
+    getattr(contoursolve, name)
+    for name in [
+        "solve",
+        "system",
+        "check_file",
+        "expand",
+        "convert",
+        "family",
+        "region",
+        "feasible",
+        "find_word",
+        "sensitivity",
+        "tolerances",
+        "tolerance_for",
+        "family_of_tools",
+        "find_tools",
+        "explore",
+        "what_if",
+    ]
+]
+
+
+def test_what_users_write_for_a_choice_is_one_of_its_values():
+    """The texts that the types of the doors admit."""
+    of_types = {
+        ControlName: DIALECTS,
+        Units: [each.value for each in Length],
+        Rules: [each.value for each in Policy],
+        Depths: [each.value for each in Depth],
+        SideName: [each.value for each in ToolSide],
+        OutsideName: [each.value for each in OutsideCorner],
+        ArcsName: [each.value for each in Arcs],
+        NumberingName: [each.value for each in Numbering],
+        BranchesName: [each.value for each in Branches],
+        PostName: POST_NAMES,
+    }
+    for names, values in of_types.items():
+        assert get_args(names) == tuple(values)
+    assert {name: DIALECTS[name].name for name in DIALECTS} == {name: name for name in get_args(ControlName)}
+    assert DIALECTS.get("no control") is None
+
+
 def test_the_keywords_of_every_door_are_the_fields_of_one_record():
     """With its defaults; a keyword that is none of a door is refused by its name."""
     told, names = SolveOptions(), {*SolveOptions.__struct_fields__}
     assert set(FollowKeywords.__annotations__) == names
-    for door in (contoursolve.solve, contoursolve.check_file, contoursolve.expand, contoursolve.convert):
+    for door in DOORS:
         own = {each.name: each.default for each in signature(door).parameters.values() if each.name in names}
         assert own == {name: getattr(told, name) for name in own}
         assert {"control", "units", "rules", "settings"} <= own.keys()
+        assert {"start", "facts"} <= own.keys() or door in (contoursolve.convert, contoursolve.what_if)
+    for name in contoursolve.__all__:
+        if isfunction(door := getattr(contoursolve, name)):
+            kinds = {each.name: each.kind for each in signature(door).parameters.values()}
+            assert Parameter.VAR_KEYWORD not in kinds.values(), name
     with pytest.raises(TypeError, match=r"check\(\) got an unexpected keyword argument 'depth'"):
         contoursolve.check("G1 X0", depth="full")
 
