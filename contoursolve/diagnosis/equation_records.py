@@ -1,10 +1,12 @@
 """The parts of a system of equations, as records: unknowns, values, equations, conditions, steps, corners."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from msgspec import Struct
 
 from contoursolve.gcode import Word
+from contoursolve.solving import Motion, Point
 
 
 def _latex_of(expression: Any) -> str:
@@ -103,6 +105,18 @@ class CornerSystem(Struct, frozen=True):
     name: str
     unknowns: tuple[SystemUnknown, ...]
     equations: tuple[Equation, ...]
+
+
+class NullSpace(Struct, frozen=True):
+    """What can still move: in how many ways (`dimension`), each as a motion in mm for each mm of the first point that
+    moves, named by the points that slide (`texts`), at the drawing `points`; `exact` is a Matrix of sympy with a motion
+    a column, None where its rank there is another one than in general."""
+
+    dimension: int
+    motions: tuple[Motion, ...]
+    texts: tuple[str, ...]
+    points: Mapping[str, Point]
+    exact: Any
 
 
 class TiedWords(Struct, frozen=True):

@@ -11,6 +11,7 @@ from contoursolve.diagnosis.edits import Edit, change, typed_text, with_value
 from contoursolve.diagnosis.equation_records import (
     CornerSystem,
     Equation,
+    NullSpace,
     SystemCondition,
     SystemStep,
     SystemUnknown,
@@ -21,6 +22,7 @@ from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.hand_calculation import HandCalculation
 from contoursolve.diagnosis.hand_sheet import Derivation
 from contoursolve.diagnosis.names_in_program import called_in_program
+from contoursolve.diagnosis.reasons import freedom_reasons
 from contoursolve.diagnosis.smallest_sets import smallest_sets
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
@@ -55,6 +57,7 @@ from contoursolve.solving import (
     circuits_of,
     conditions_of,
     corner_equations,
+    drawings,
     ends_somewhere,
     find_alternatives,
     find_ties,
@@ -208,6 +211,19 @@ class EquationSystem(Shown):
     def free(self) -> FreeUnknowns:
         """The unknowns that nothing determines, as symbols. `free("K")` is the system without the value of a word."""
         return FreeUnknowns.of(map(self._symbols.scalar, self._verdict.free), self._without)
+
+    @cached_property
+    def null_space(self) -> NullSpace | None:
+        """What can still move at a drawing that has all that is stated, of lines and arcs; None if none is found."""
+        drawing = next(drawings(self.profile), None) if self.profile.start.is_known else None
+        if drawing is None:
+            return None
+        names, verdict = self._system.unknowns, self._verdict
+        leading, exact = [names.index(name) for name in drawing.leading], None
+        if drawing.dimension == len(names) - verdict.rank:
+            exact = symbolic().null_space(self.jacobian, verdict.basis, leading)
+        texts = tuple(freedom_reasons(self.profile, [*drawing.freedoms()]))
+        return NullSpace(drawing.dimension, drawing.motions, texts, drawing.points, exact)
 
     @cached_property
     def ties(self) -> tuple[TiedWords, ...]:

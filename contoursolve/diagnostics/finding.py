@@ -176,11 +176,14 @@ class Layer(Struct, frozen=True):
 class Freedom(Struct, frozen=True):
     """Freedom of a point: with a `direction` it slides along it, without it lies anywhere.
 
-    `direction` is a unit vector in the plane's axes.
+    `direction` is a unit vector in the plane's axes, `about` the centre of the circle along which it slides, if any.
+    Along any other curve (neither that nor `is_straight`) it is the direction where the point is drawn.
     """
 
     point: str
     direction: tuple[float, float] | None
+    about: str = ""
+    is_straight: bool = True
 
     @property
     def angle(self) -> float | None:

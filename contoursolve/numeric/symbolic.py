@@ -158,6 +158,19 @@ def casadi_of(expression: Any, values: Mapping[Any, Any]) -> Any:
     return sympy.lambdify(names, expression, modules=[own, "math"])(*(values[name] for name in names))
 
 
+def null_space(matrix: Any, rows: Sequence[int], leading: Sequence[int]) -> Any:
+    """The motions of a Matrix whose independent rows are these: a column for each leading unknown, which alone of them
+    moves, by 1."""
+    bound = [column for column in range(matrix.cols) if column not in {*leading}]
+    solved = matrix.extract([*rows], bound).LUsolve(-matrix.extract([*rows], [*leading])) if rows else None
+    result = sympy.zeros(matrix.cols, len(leading))
+    for place, column in enumerate(leading):
+        result[column, place] = 1
+        for row, other in enumerate(bound):
+            result[other, place] = sympy.simplify(solved[row, place]) if solved is not None else 0
+    return result
+
+
 def jacobian(residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:
     """Matrix of derivatives, shape (residuals, unknowns)."""
     return sympy.Matrix(len(residuals), len(unknowns), lambda row, column: sympy.diff(residuals[row], unknowns[column]))
