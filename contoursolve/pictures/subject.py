@@ -292,7 +292,10 @@ def find_known(answer: Answer) -> Known:
     if answer.claim.form.is_general:
         spans = {*_blamed(answer, is_slip=False)}
         words = (given.word for given in profile.givens.values() if given.word is not None)
-        return in_chain(profile, fitting(answer) or items, {word for word in words if word.span in spans})
+        known = in_chain(profile, fitting(answer) or items, {word for word in words if word.span in spans})
+        is_open = answer.status is Status.UNDERDETERMINED and not known.variants
+        whole = complete(profile) if is_open else known
+        return whole if whole.placed else known
     verdict = analyse(system)
     if profile.is_extended:
         # Of several solutions, among which nothing chooses, the first.

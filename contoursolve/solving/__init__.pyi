@@ -153,6 +153,7 @@ from .motions import (
     Drawing as Drawing,
     Motion as Motion,
     drawings as drawings,
+    open_at_values as open_at_values,
 )
 from .natural_layout import told_by as told_by
 from .newton import (

@@ -20,7 +20,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.numeric import Array, svd
 from contoursolve.solving.affine import nearest_sides
-from contoursolve.solving.determinacy import analyse
+from contoursolve.solving.determinacy import Determinacy, analyse
 from contoursolve.solving.natural_layout import NaturalLayout
 from contoursolve.solving.newton import RANK, Equations, null_space
 from contoursolve.solving.sides import side_values
@@ -320,6 +320,15 @@ def drawings(
         if sum(not order for order, _ in further) == MOST_SPECIAL or len(further) == MOST_FURTHER:
             break
     yield from (drawing for _, drawing in sorted(further, key=lambda each: each[0]))
+
+
+def open_at_values(profile: Profile, verdict: Determinacy) -> tuple[str, ...]:
+    """The unknowns that can still move at the values of a profile, of those that nothing determines in general; all of
+    these where no drawing tells."""
+    drawing = next(drawings(profile), None) if profile.start.is_known else None
+    if drawing is None or drawing.dimension != len(assemble(profile).unknowns) - verdict.rank:
+        return verdict.free
+    return tuple(name for name in verdict.free if name not in drawing.fixed)
 
 
 def _found(profile: Profile, unsure: frozenset[str], hints: Mapping[str, float]) -> Iterator[Drawing]:

@@ -56,10 +56,9 @@ class Equations:
         self.amounts = {name: float(given.value) for name, given in profile.givens.items()}
         angles = {name: self.amounts[name] for name, given in profile.givens.items() if given.unit is Unit.DEGREE}
         self.directions = {name: direction_of(value) for name, value in angles.items()}
-        headings = [(fact.given, fact.heading) for fact in self.system.facts if isinstance(fact, Heading)]
-        headings += [
-            (each.heading, (each.tail, each.head)) for each in self.system.figure.path if isinstance(each, Line)
-        ]
+        lines = [each for each in self.system.figure.path if isinstance(each, Line) and each.heading]
+        headings: list[tuple[str | None, tuple[str, str]]] = [(each.heading, (each.tail, each.head)) for each in lines]
+        headings += [(fact.given, fact.heading) for fact in self.system.facts if isinstance(fact, Heading)]
         self.stated = {ends: self.directions[given] for given, ends in headings if given in self.directions}
         """The stated directions of lines, by their ends."""
         self.size = size_of(profile, self.amounts, angles)
