@@ -6,7 +6,8 @@ from typing import Any
 from msgspec import Struct
 
 from contoursolve.gcode import Word
-from contoursolve.solving import Motion, Point
+from contoursolve.numeric import Array
+from contoursolve.solving import Motion
 
 
 def _latex_of(expression: Any) -> str:
@@ -108,15 +109,25 @@ class CornerSystem(Struct, frozen=True):
 
 
 class NullSpace(Struct, frozen=True):
-    """What can still move: in how many ways (`dimension`), each as a motion in mm for each mm of the first point that
-    moves, named by the points that slide (`texts`), at the drawing `points`; `exact` is a Matrix of sympy with a motion
-    a column, None where its rank there is another one than in general."""
+    """What can still move, at a drawing of which `values` has the unknowns by their symbols (mm; directions have no
+    unit).
 
-    dimension: int
+    `motions` are independent ways to move, each in mm for each mm of the first point that moves; `texts` say of each
+    point that moves how. `numbers` are the same motions in the order of the unknowns, shape (unknowns, motions), and
+    `exact` is that as a Matrix of sympy, where a motion moves one unknown, its leading one, by 1. It is None where more
+    can move in the drawing than for almost all values.
+    """
+
+    values: Mapping[Any, float]
     motions: tuple[Motion, ...]
     texts: tuple[str, ...]
-    points: Mapping[str, Point]
+    numbers: Array
     exact: Any
+
+    @property
+    def dimension(self) -> int:
+        """In how many ways it can still move."""
+        return len(self.motions)
 
 
 class TiedWords(Struct, frozen=True):

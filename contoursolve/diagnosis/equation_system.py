@@ -1,6 +1,6 @@
 """The system of equations of one contour, by sympy: what it leaves open, on which condition it is determined."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from functools import cached_property
 from math import atan2, nan
@@ -65,6 +65,7 @@ from contoursolve.solving import (
     is_known,
     is_searched,
     jacobian_of,
+    order,
     rank_of,
     rows_of,
     steps_of,
@@ -214,16 +215,29 @@ class EquationSystem(Shown):
 
     @cached_property
     def null_space(self) -> NullSpace | None:
-        """What can still move at a drawing that has all that is stated, of lines and arcs; None if none is found."""
+        """What can still move at a drawing that has all that is stated, lines and arcs; None where none is found."""
         drawing = next(drawings(self.profile), None) if self.profile.start.is_known else None
         if drawing is None:
             return None
-        names, verdict = self._system.unknowns, self._verdict
-        leading, exact = [names.index(name) for name in drawing.leading], None
+        names, verdict, exact = self._system.unknowns, self._verdict, None
         if drawing.dimension == len(names) - verdict.rank:
-            exact = symbolic().null_space(self.jacobian, verdict.basis, leading)
+            exact = self._exact_motions([*drawing.leading])
+        values = {self._symbols.scalar(name): value for name, value in drawing.scalars.items()}
+        values |= {self._symbols.scalar(side): float(sign) for side, sign in drawing.sides.items()}
         texts = tuple(freedom_reasons(self.profile, [*drawing.freedoms()]))
-        return NullSpace(drawing.dimension, drawing.motions, texts, drawing.points, exact)
+        return NullSpace(values, drawing.motions, texts, drawing.basis, exact)
+
+    def _exact_motions(self, leading: Sequence[str]) -> Any:
+        """The motions of leading unknowns as formulas; None where these are too long."""
+        system, facts = self._system, self._system.facts
+        bound = [name for name in system.unknowns if name not in leading]
+        try:
+            groups = order(system, [facts[row] for row in self._verdict.basis], bound)
+        except ValueError:
+            return None  # in general, others lead
+        rows, columns = ({each: place for place, each in enumerate(some)} for some in (map(id, facts), system.unknowns))
+        places = [([rows[id(fact)] for fact in each.facts], [columns[n] for n in each.unknowns]) for each in groups]
+        return symbolic().null_space(self.jacobian, places, [columns[name] for name in leading])
 
     @cached_property
     def ties(self) -> tuple[TiedWords, ...]:

@@ -190,6 +190,16 @@ class Freedom(Struct, frozen=True):
         """The direction in degrees, 0 to less than 180; None where the point lies anywhere."""
         return None if self.direction is None else degrees(atan2(self.direction[1], self.direction[0])) % 180
 
+    @property
+    def how(self) -> str:
+        """How the point can move, such as `slides along 90.0000 deg`."""
+        if self.angle is None:
+            return "lies anywhere"
+        if self.about:
+            return f"slides along the circle about {self.about}"
+        angle = f"{self.angle:.4f} deg"
+        return f"slides along {angle}" if self.is_straight else f"slides along a curve, here at {angle}"
+
 
 class Tie(Struct, frozen=True):
     """A smallest set of words that say the same, each following from the others.

@@ -158,16 +158,30 @@ def casadi_of(expression: Any, values: Mapping[Any, Any]) -> Any:
     return sympy.lambdify(names, expression, modules=[own, "math"])(*(values[name] for name in names))
 
 
-def null_space(matrix: Any, rows: Sequence[int], leading: Sequence[int]) -> Any:
-    """The motions of a Matrix whose independent rows are these: a column for each leading unknown, which alone of them
-    moves, by 1."""
-    bound = [column for column in range(matrix.cols) if column not in {*leading}]
-    solved = matrix.extract([*rows], bound).LUsolve(-matrix.extract([*rows], [*leading])) if rows else None
+MOST_TOGETHER, MOST_SIMPLIFIED, MOST_WRITTEN = 3, 60, 2_000
+"""Unknowns of a group whose motion is written down, operations of one that is simplified, and of the largest one."""
+
+
+def null_space(matrix: Any, groups: Iterable[tuple[Sequence[int], Sequence[int]]], leading: Sequence[int]) -> Any:
+    """The motions that a Matrix of derivatives leaves: a column for each leading unknown, which alone of them moves, by
+    1. Groups of rows with as many columns determine the others, one after the other. None where a formula would be too
+    long to be read."""
     result = sympy.zeros(matrix.cols, len(leading))
     for place, column in enumerate(leading):
         result[column, place] = 1
-        for row, other in enumerate(bound):
-            result[other, place] = sympy.simplify(solved[row, place]) if solved is not None else 0
+    for rows, columns in groups:
+        if len(columns) > MOST_TOGETHER:
+            return None
+        own = matrix.extract([*rows], [*columns])
+        moved = own.adjugate() * -(matrix.extract([*rows], [*range(matrix.cols)]) * result) / own.det()
+        for row, column in enumerate(columns):
+            for place in range(len(leading)):
+                size = sympy.count_ops(moved[row, place])
+                if size > MOST_WRITTEN:
+                    return None
+                result[column, place] = (
+                    sympy.simplify(moved[row, place]) if size <= MOST_SIMPLIFIED else moved[row, place]
+                )
     return result
 
 

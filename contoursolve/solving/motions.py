@@ -84,6 +84,12 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
         """The unknown radii, mm."""
         return {name: self.scalars[name] for name in self.equations.system.figure.radii}
 
+    @property
+    def sides(self) -> dict[str, int]:
+        """The sides on which elements lie beside others, where nothing says it: 1 or -1."""
+        signs = self.equations.signs
+        return {side: signs[side] for fact in self.equations.system.facts for side in fact.sides()}
+
     @cached_property
     def moves(self) -> Array:
         """What can still move: an orthonormal basis in the scale of the equations, one motion a row."""
@@ -163,27 +169,33 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
         chosen: dict[str, Array] = {}
         for _, lead, motion in sorted(found, key=lambda each: each[:2]):
             rows = numpy.array([*chosen.values(), motion])
-            if names[lead] not in chosen and numpy.linalg.matrix_rank(rows, tol=RANK) == len(rows):
+            if names[lead] not in chosen and int((svd(rows)[1] > RANK).sum()) == len(rows):
                 chosen[names[lead]] = motion
         return chosen
 
+    @property
+    def basis(self) -> Array:
+        """The motions of `leading`, in mm a mm of that unknown, shape (unknowns, motions)."""
+        scales = self.equations.scales
+        found = [way * scales / scales[self.equations.number[name]] for name, way in self.leading.items()]
+        basis = numpy.array(found).reshape(len(found), len(scales)).T
+        return numpy.where(abs(basis) > _NOTHING, basis, 0.0)
+
     @cached_property
     def motions(self) -> tuple[Motion, ...]:
-        """The motions of `leading`, in mm for each mm of the first point that moves."""
+        """The same by points and radii, in mm for each mm of the first point that moves."""
         figure, found = self.equations.system.figure, []
-        for motion in self.leading.values():
-            moved = dict(zip(self.equations.number, (motion * self.equations.scales).tolist(), strict=True))
+        for motion in self.basis.T:
+            moved = dict(zip(self.equations.number, motion.tolist(), strict=True))
             points = {name: (moved[scalar(name, 0)], moved[scalar(name, 1)]) for name in figure.points}
             sizes = [*(hypot(*way) for way in points.values()), *(abs(moved[name]) for name in figure.radii)]
-            unit = next((size for size in sizes if size > RANK * self.equations.size), 1.0)
+            unit = next((size for size in sizes if size > RANK * max(sizes)), 1.0)
+            ways = {name: (_tidy(a / unit), _tidy(b / unit)) for name, (a, b) in points.items()}
+            radii = {name: _tidy(moved[name] / unit) for name in figure.radii}
             found.append(
                 Motion(
-                    {
-                        n: (_tidy(a / unit), _tidy(b / unit))
-                        for n, (a, b) in points.items()
-                        if hypot(a, b) > RANK * unit
-                    },
-                    {n: moved[n] / unit for n in figure.radii if abs(moved[n]) > RANK * unit},
+                    {name: way for name, way in ways.items() if hypot(*way) > RANK},
+                    {name: way for name, way in radii.items() if abs(way) > RANK},
                 )
             )
         return tuple(found)
