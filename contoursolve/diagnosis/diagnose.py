@@ -54,7 +54,6 @@ from contoursolve.solving import (
     analyse,
     compare_affine,
     decompose,
-    drawings,
     events_about,
     find_ties,
     lookup,
@@ -428,7 +427,9 @@ def _reasons(
 
 
 def _freedoms(profile: Profile, affine: AffineFacts | None) -> Iterator[Freedom]:
-    """What can still move: of lines alone, whatever they say; else in a drawing, where one is found."""
+    """The points that can still move: of lines alone, whatever these say; else in a drawing, where one is found."""
+    from contoursolve.solving import drawings  # noqa: PLC0415 - few blocks lack words
+
     if affine is not None:
         yield from affine.freedoms()
     elif profile.start.is_known and not analyse(assemble(profile)).is_determined:

@@ -7,7 +7,7 @@ from msgspec import Struct
 
 from contoursolve.gcode import Word
 from contoursolve.numeric import Array
-from contoursolve.solving import Motion
+from contoursolve.solving import NullMotion
 
 
 def _latex_of(expression: Any) -> str:
@@ -109,7 +109,7 @@ class CornerSystem(Struct, frozen=True):
 
 
 class NullSpace(Struct, frozen=True):
-    """What can still move, at a drawing of which `values` has the unknowns by their symbols (mm; directions have no
+    """The motions that are left, at a drawing of which `values` has the unknowns by their symbols (mm; directions have no
     unit).
 
     `motions` are independent ways to move, each in mm for each mm of the first point that moves; `texts` say of each
@@ -119,7 +119,7 @@ class NullSpace(Struct, frozen=True):
     """
 
     values: Mapping[Any, float]
-    motions: tuple[Motion, ...]
+    motions: tuple[NullMotion, ...]
     texts: tuple[str, ...]
     numbers: Array
     exact: Any

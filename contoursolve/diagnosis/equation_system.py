@@ -41,7 +41,7 @@ from contoursolve.geometry import (
     line_scalars,
     scalar,
 )
-from contoursolve.numeric import COSINE, SINE, Expression, angle, symbol
+from contoursolve.numeric import COSINE, SINE, Array, Expression, angle, symbol
 from contoursolve.reading import Dialect, ParsedContour
 from contoursolve.solving import (
     Alternatives,
@@ -95,6 +95,10 @@ _HOW = {
     StepKind.TWO_CIRCLES: "two circles meet, in two places",
     StepKind.GENERAL: "a closed form with several solutions",
 }
+
+
+_SAME = 1e-6
+"""mm a mm. By so much a formula of a motion may differ from its number."""
 
 
 class FreeUnknowns(tuple[Any, ...]):
@@ -215,20 +219,21 @@ class EquationSystem(Shown):
 
     @cached_property
     def null_space(self) -> NullSpace | None:
-        """What can still move at a drawing that has all that is stated, lines and arcs; None where none is found."""
+        """The motions that are left at a drawing that has all that is stated, lines and arcs; None where none is found."""
         drawing = next(drawings(self.profile), None) if self.profile.start.is_known else None
         if drawing is None:
             return None
         names, verdict, exact = self._system.unknowns, self._verdict, None
-        if drawing.dimension == len(names) - verdict.rank:
-            exact = self._exact_motions([*drawing.leading])
         values = {self._symbols.scalar(name): value for name, value in drawing.scalars.items()}
         values |= {self._symbols.scalar(side): float(sign) for side, sign in drawing.sides.items()}
+        if drawing.dimension == len(names) - verdict.rank:
+            exact = self._exact_motions([*drawing.leading], values | self.values, drawing.basis)
         texts = tuple(freedom_reasons(self.profile, [*drawing.freedoms()]))
         return NullSpace(values, drawing.motions, texts, drawing.basis, exact)
 
-    def _exact_motions(self, leading: Sequence[str]) -> Any:
-        """The motions of leading unknowns as formulas; None where these are too long."""
+    def _exact_motions(self, leading: Sequence[str], values: Mapping[Any, Any], numbers: Array) -> Any:
+        """The motions of leading unknowns as formulas; None where these are too long, or do not give the numbers at the
+        values of a drawing, where they divide by nothing."""
         system, facts = self._system, self._system.facts
         bound = [name for name in system.unknowns if name not in leading]
         try:
@@ -237,7 +242,9 @@ class EquationSystem(Shown):
             return None  # in general, others lead
         rows, columns = ({each: place for place, each in enumerate(some)} for some in (map(id, facts), system.unknowns))
         places = [([rows[id(fact)] for fact in each.facts], [columns[n] for n in each.unknowns]) for each in groups]
-        return symbolic().null_space(self.jacobian, places, [columns[name] for name in leading])
+        exact = symbolic().null_space(self.jacobian, places, [columns[name] for name in leading])
+        is_right = exact is not None and symbolic().is_near(exact, values, numbers, _SAME)
+        return exact if is_right else None
 
     @cached_property
     def ties(self) -> tuple[TiedWords, ...]:

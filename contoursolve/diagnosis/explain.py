@@ -51,7 +51,6 @@ from contoursolve.solving import (
     events_about,
     increments_of,
     lookup,
-    open_at_values,
     opposes,
     refusals_about,
     scalars_of,
@@ -300,6 +299,8 @@ def explain_missing(
 ) -> Diagnostic:
     """Unknowns that no word determines, and the words that do, without those that are known to help nothing (`unable`);
     a brief one does not name them."""
+    from contoursolve.solving import open_at_values  # noqa: PLC0415 - few blocks lack words
+
     names = verdict.free if is_brief or claim.form.is_general else open_at_values(profile, verdict)
     free = set(names)
     absent = absent_words(claim, profile, free)

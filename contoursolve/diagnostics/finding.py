@@ -192,7 +192,7 @@ class Freedom(Struct, frozen=True):
 
     @property
     def how(self) -> str:
-        """How the point can move, such as `slides along 90.0000 deg`."""
+        """The way in which the point can move, such as `slides along 90.0000 deg`."""
         if self.angle is None:
             return "lies anywhere"
         if self.about:

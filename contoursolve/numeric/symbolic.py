@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from typing import Any
 
+import numpy
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
@@ -14,6 +15,7 @@ from sympy.printing.str import StrPrinter
 
 from contoursolve.numeric import expressions
 from contoursolve.numeric.functions import Functions
+from contoursolve.numeric.linear_algebra import Array
 from contoursolve.numeric.modular_rank import ExactRank
 
 FUNCTIONS = Functions(sympy.sqrt, sympy.cos, sympy.sin)
@@ -158,7 +160,7 @@ def casadi_of(expression: Any, values: Mapping[Any, Any]) -> Any:
     return sympy.lambdify(names, expression, modules=[own, "math"])(*(values[name] for name in names))
 
 
-MOST_TOGETHER, MOST_SIMPLIFIED, MOST_WRITTEN = 3, 60, 2_000
+MOST_TOGETHER, MOST_SIMPLIFIED, MOST_WRITTEN = 3, 30, 1_000
 """Unknowns of a group whose motion is written down, operations of one that is simplified, and of the largest one."""
 
 
@@ -183,6 +185,16 @@ def null_space(matrix: Any, groups: Iterable[tuple[Sequence[int], Sequence[int]]
                     sympy.simplify(moved[row, place]) if size <= MOST_SIMPLIFIED else moved[row, place]
                 )
     return result
+
+
+def is_near(matrix: Any, values: Mapping[Any, Any], numbers: Array, most: float) -> bool:
+    """Whether a Matrix has these numbers at values of its symbols, each to so much or so large a part."""
+    known = {symbol: sympy.sympify(value) for symbol, value in values.items()}
+    for place, number in numpy.ndenumerate(numbers):
+        found = matrix[place].xreplace(known)
+        if not found.is_number or not abs(complex(found.evalf()) - number) <= most * max(1.0, abs(number)):
+            return False
+    return True
 
 
 def jacobian(residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:

@@ -142,7 +142,7 @@ def _here(each: SystemCondition) -> str:
 
 
 def motion_table(system: EquationSystem) -> Table:
-    """What can still move: each motion by the points, and radii, that move with it."""
+    """The motions that are left, each by the points, and radii, that move with it."""
     space, axes = system.null_space, system.profile.plane.axes
     rows = list[tuple[str, str, str, str]]()
     for number, motion in enumerate(space.motions if space is not None else (), 1):

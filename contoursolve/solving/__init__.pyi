@@ -151,7 +151,7 @@ from .inputs import (
 )
 from .motions import (
     Drawing as Drawing,
-    Motion as Motion,
+    NullMotion as NullMotion,
     drawings as drawings,
     open_at_values as open_at_values,
 )

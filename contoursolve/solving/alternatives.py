@@ -143,8 +143,9 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: ExactS
     residuals = [fact.residual(at) for fact in system.facts]
     refusals, remarks = _compare(profile, system, residuals, at, scalars)
     if not refusals:
-        refusals += path.refusals()
-        if not any(each.kind is RefusalKind.OUT_OF_RANGE for each in refusals):
+        refusals += judge_range(path.measured)
+        if not refusals:
+            refusals += judge_path(path.measured)
             remarks += vanishing_lines(system.figure, path.measures)
     sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
@@ -189,16 +190,16 @@ class _Path(Struct, frozen=True):
         out = machine.function(values)
         return cls(profile, system, numbers, sizes, values, out, machine.path.read(out.__getitem__))
 
-    def refusals(self) -> list[Refusal]:
-        """What speaks against making it."""
+    @property
+    def measured(self) -> MeasuredPath:
+        """The same, to be judged."""
         machine, profile = compile_path(self.system), self.profile
         figure = MeasuredFigure(self.system.figure, Values(self.values, {}, {}), self.measures, increments_of(profile))
 
         def resized(sizes: Mapping[str, float]) -> PathOutputs:
             return machine.path.read(machine.function({**self.values, **sizes}).__getitem__)
 
-        path = MeasuredPath(profile, figure, self.sizes, resized)
-        return judge_range(path) or judge_path(path)
+        return MeasuredPath(profile, figure, self.sizes, resized)
 
     def solution(self, scalars: Mapping[str, float], refusals: list[Refusal], remarks: list[Note]) -> Solution:
         """The contour, or what speaks against it."""
@@ -221,7 +222,7 @@ class _Path(Struct, frozen=True):
 def drawn_at(profile: Profile, scalars: Mapping[str, float]) -> Solution:
     """The path at a place of all unknowns (mm) at which facts hold, with its corners, or what speaks against it."""
     path = _Path.at(profile, assemble(profile), {name: ball.exact(value) for name, value in scalars.items()})
-    return path.solution(scalars, path.refusals(), [])
+    return path.solution(scalars, judge_range(path.measured) or judge_path(path.measured), [])
 
 
 def _doubtful(found: ExactSolution, places: Sequence[tuple[Number, float]], gap: float | None) -> Certificate:

@@ -52,7 +52,7 @@ _STRAIGHT = 1e-7
 """Sine of the change of direction up to which a way is straight."""
 
 
-class Motion(Struct, frozen=True):
+class NullMotion(Struct, frozen=True):
     """One way in which a drawing can still move: how far each point (mm along each axis) and each radius moves with
     1 mm of the first point, or radius, that moves."""
 
@@ -92,7 +92,7 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def moves(self) -> Array:
-        """What can still move: an orthonormal basis in the scale of the equations, one motion a row."""
+        """The motions that are left: an orthonormal basis in the scale of the equations, one motion a row."""
         return null_space(self.equations.slopes(self.facts, self.place))
 
     @property
@@ -146,7 +146,7 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
 
     @property
     def off_mm(self) -> dict[str, float]:
-        """By how much each doubted fact is off, by its given, mm."""
+        """The amount by which each doubted fact is off, by its given, mm."""
         off: dict[str, float] = {}
         found = self.equations.residuals(self.doubted, self.place).tolist()
         for fact, miss in zip(self.doubted, found, strict=True):
@@ -182,7 +182,7 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
         return numpy.where(abs(basis) > _NOTHING, basis, 0.0)
 
     @cached_property
-    def motions(self) -> tuple[Motion, ...]:
+    def motions(self) -> tuple[NullMotion, ...]:
         """The same by points and radii, in mm for each mm of the first point that moves."""
         figure, found = self.equations.system.figure, []
         for motion in self.basis.T:
@@ -193,7 +193,7 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
             ways = {name: (_tidy(a / unit), _tidy(b / unit)) for name, (a, b) in points.items()}
             radii = {name: _tidy(moved[name] / unit) for name in figure.radii}
             found.append(
-                Motion(
+                NullMotion(
                     {name: way for name, way in ways.items() if hypot(*way) > RANK},
                     {name: way for name, way in radii.items() if abs(way) > RANK},
                 )

@@ -41,7 +41,7 @@ MOST_STEPS = 40
 """Steps of the Gauss-Newton method."""
 
 ROUNDING, POLISHED = 1e-15, 1e-10
-"""What is off by rounding alone, and the step below which a place is taken, both in sizes of the drawing: where two
+"""The amount that rounding alone makes, and the step below which a place is taken, both in sizes of the drawing: where two
 solutions are one, facts are true too early."""
 
 
