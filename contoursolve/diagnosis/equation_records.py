@@ -109,8 +109,8 @@ class CornerSystem(Struct, frozen=True):
 
 
 class NullSpace(Struct, frozen=True):
-    """The motions that are left, at a drawing of which `values` has the unknowns by their symbols (mm; directions have no
-    unit).
+    """The motions that are left, at a drawing of which `values` has the unknowns by their symbols (mm; directions
+    have no unit).
 
     `motions` are independent ways to move, each in mm for each mm of the first point that moves; `texts` say of each
     point that moves how. `numbers` are the same motions in the order of the unknowns, shape (unknowns, motions), and

@@ -219,7 +219,7 @@ class EquationSystem(Shown):
 
     @cached_property
     def null_space(self) -> NullSpace | None:
-        """The motions that are left at a drawing that has all that is stated, lines and arcs; None where none is found."""
+        """The motions that are left at a drawing that has all that is stated; None where none is found."""
         drawing = next(drawings(self.profile), None) if self.profile.start.is_known else None
         if drawing is None:
             return None

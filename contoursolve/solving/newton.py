@@ -41,8 +41,8 @@ MOST_STEPS = 40
 """Steps of the Gauss-Newton method."""
 
 ROUNDING, POLISHED = 1e-15, 1e-10
-"""The amount that rounding alone makes, and the step below which a place is taken, both in sizes of the drawing: where two
-solutions are one, facts are true too early."""
+"""The amount that rounding alone makes, and the step below which a place is taken, both in sizes of the drawing: where
+two solutions are one, facts are true too early."""
 
 
 class Equations:
