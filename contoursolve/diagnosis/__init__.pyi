@@ -87,7 +87,6 @@ from .repairs import (
     find_repairs as find_repairs,
 )
 from .sample_drawing import (
-    Equations as Equations,
     helping_words as helping_words,
 )
 from .slip_kinds import mistyped_codes as mistyped_codes

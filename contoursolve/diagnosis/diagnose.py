@@ -33,6 +33,7 @@ from contoursolve.diagnostics import (
     Basis,
     Diagnosis,
     Diagnostic,
+    Freedom,
     Label,
     Layer,
     Severity,
@@ -160,7 +161,7 @@ class _Diagnosed(Struct, frozen=True):
             found = find_ties(profile, is_told=is_told)
         sets = smallest_sets(answer.claim, found, profile) if found is not None else NO_SETS
         answer = replace(answer, diagnostics=tuple(_compared_alone(answer, sets, dialect)))
-        freedoms = affine.freedoms() if affine and is_readable else ()
+        freedoms = tuple(_freedoms(profile, affine)) if is_readable else ()
         # What a contour needs and nobody reads here is no slip.
         repairs = Repairs((), is_complete=False)
         is_slip = all(_is_like_own(word, dialect) for word in answer.claim.unread)
@@ -423,6 +424,17 @@ def _reasons(
     if finding.about in _ABOUT_RADII:
         identities = (tie.identity for tie in diagnosis.ties)
         yield from (each for each in identities if 0 < len(each) <= SHOWN)
+
+
+def _freedoms(profile: Profile, affine: AffineFacts | None) -> Iterator[Freedom]:
+    """The points that can still move: of lines alone, whatever these say; else in a drawing, where one is found."""
+    from contoursolve.solving import drawings  # noqa: PLC0415 - few blocks lack words
+
+    if affine is not None:
+        yield from affine.freedoms()
+    elif profile.start.is_known and not analyse(assemble(profile)).is_determined:
+        drawing = next(drawings(profile), None)
+        yield from drawing.freedoms() if drawing is not None else ()
 
 
 def _points_lost(profile: Profile, affine: AffineFacts) -> set[str]:

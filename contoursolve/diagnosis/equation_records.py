@@ -1,11 +1,14 @@
 """The parts of a system of equations, as records: unknowns, values, equations, conditions, steps, corners."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
 from contoursolve.diagnostics import LateModule
 from contoursolve.gcode import Word
+from contoursolve.numeric import Array
+from contoursolve.solving import NullMotion
 
 if TYPE_CHECKING:
     from contoursolve.numeric import symbolic
@@ -109,6 +112,28 @@ class CornerSystem(Struct, frozen=True):
     name: str
     unknowns: tuple[SystemUnknown, ...]
     equations: tuple[Equation, ...]
+
+
+class NullSpace(Struct, frozen=True):
+    """The motions that are left, at a drawing of which `values` has the unknowns by their symbols (mm; directions
+    have no unit).
+
+    `motions` are independent ways to move, each in mm for each mm of the first point that moves; `texts` say of each
+    point that moves how. `numbers` are the same motions in the order of the unknowns, shape (unknowns, motions), and
+    `exact` is that as a Matrix of sympy, where a motion moves one unknown, its leading one, by 1. It is None where more
+    can move in the drawing than for almost all values.
+    """
+
+    values: Mapping["symbolic.Symbol", float]
+    motions: tuple[NullMotion, ...]
+    texts: tuple[str, ...]
+    numbers: Array
+    exact: "symbolic.Matrix | None"
+
+    @property
+    def dimension(self) -> int:
+        """In how many ways it can still move."""
+        return len(self.motions)
 
 
 class TiedWords(Struct, frozen=True):

@@ -1,6 +1,6 @@
 """The system of equations of one contour, by sympy: what it leaves open, on which condition it is determined."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from functools import cached_property
 from math import atan2, nan
@@ -11,6 +11,7 @@ from contoursolve.diagnosis.edits import Edit, change, typed_text, with_value
 from contoursolve.diagnosis.equation_records import (
     CornerSystem,
     Equation,
+    NullSpace,
     SystemCondition,
     SystemStep,
     SystemUnknown,
@@ -21,6 +22,7 @@ from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.hand_calculation import HandCalculation
 from contoursolve.diagnosis.hand_sheet import Derivation
 from contoursolve.diagnosis.names_in_program import called_in_program
+from contoursolve.diagnosis.reasons import freedom_reasons
 from contoursolve.diagnosis.smallest_sets import smallest_sets
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
@@ -39,7 +41,7 @@ from contoursolve.geometry import (
     line_scalars,
     scalar,
 )
-from contoursolve.numeric import COSINE, SINE, Expression, angle, symbol
+from contoursolve.numeric import COSINE, SINE, Array, Expression, angle, symbol
 from contoursolve.reading import Dialect, ParsedContour
 from contoursolve.solving import (
     Alternatives,
@@ -55,6 +57,7 @@ from contoursolve.solving import (
     circuits_of,
     conditions_of,
     corner_equations,
+    drawings,
     ends_somewhere,
     find_alternatives,
     find_ties,
@@ -62,6 +65,7 @@ from contoursolve.solving import (
     is_known,
     is_searched,
     jacobian_of,
+    order,
     rank_of,
     rows_of,
     steps_of,
@@ -91,6 +95,10 @@ _HOW = {
     StepKind.TWO_CIRCLES: "two circles meet, in two places",
     StepKind.GENERAL: "a closed form with several solutions",
 }
+
+
+_SAME = 1e-6
+"""mm a mm. By so much a formula of a motion may differ from its number."""
 
 
 class FreeUnknowns(tuple[Any, ...]):
@@ -221,6 +229,35 @@ class EquationSystem(Shown):
     def free(self) -> FreeUnknowns:
         """The unknowns that nothing determines, as symbols. `free("K")` is the system without the value of a word."""
         return FreeUnknowns.of(map(self._symbols.scalar, self._verdict.free), self._without)
+
+    @cached_property
+    def null_space(self) -> NullSpace | None:
+        """The motions that are left at a drawing that has all that is stated; None where none is found."""
+        drawing = next(drawings(self.profile), None) if self.profile.start.is_known else None
+        if drawing is None:
+            return None
+        names, verdict, exact = self._system.unknowns, self._verdict, None
+        values = {self._symbols.scalar(name): value for name, value in drawing.scalars.items()}
+        values |= {self._symbols.scalar(side): float(sign) for side, sign in drawing.sides.items()}
+        if drawing.dimension == len(names) - verdict.rank:
+            exact = self._exact_motions([*drawing.leading], values | self.values, drawing.basis)
+        texts = tuple(freedom_reasons(self.profile, [*drawing.freedoms()]))
+        return NullSpace(values, drawing.motions, texts, drawing.basis, exact)
+
+    def _exact_motions(self, leading: Sequence[str], values: Mapping[Any, Any], numbers: Array) -> Any:
+        """The motions of leading unknowns as formulas; None where these are too long, or do not give the numbers at the
+        values of a drawing, where they divide by nothing."""
+        system, facts = self._system, self._system.facts
+        bound = [name for name in system.unknowns if name not in leading]
+        try:
+            groups = order(system, [facts[row] for row in self._verdict.basis], bound)
+        except ValueError:
+            return None  # in general, others lead
+        rows, columns = ({each: place for place, each in enumerate(some)} for some in (map(id, facts), system.unknowns))
+        places = [([rows[id(fact)] for fact in each.facts], [columns[n] for n in each.unknowns]) for each in groups]
+        exact = symbolic.null_space(self.jacobian, places, [columns[name] for name in leading])
+        is_right = exact is not None and symbolic.is_near(exact, values, numbers, _SAME)
+        return exact if is_right else None
 
     @cached_property
     def ties(self) -> tuple[TiedWords, ...]:

@@ -299,11 +299,14 @@ def explain_missing(
 ) -> Diagnostic:
     """Unknowns that no word determines, and the words that do, without those that are known to help nothing (`unable`);
     a brief one does not name them."""
-    free = set(verdict.free)
+    from contoursolve.solving import open_at_values  # noqa: PLC0415 - few blocks lack words
+
+    names = verdict.free if is_brief or claim.form.is_general else open_at_values(profile, verdict)
+    free = set(names)
     absent = absent_words(claim, profile, free)
     # Of a corner whose size is not determined, nothing is.
     corners = tuple(f"{corner.name}." for corner in profile.figure.corners if corner.radius in free)
-    shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
+    shown = [name for name in names if not name.startswith(corners) or name.endswith(".radius")]
     open_count = len(assemble(profile).unknowns) - verdict.rank
     ways = [] if is_brief else list(_adding(absent, claim, profile, unable))
     open_sizes = [question.word.text for question in profile.questions if question.fact.sizes in free]

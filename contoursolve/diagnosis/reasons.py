@@ -133,6 +133,11 @@ def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[s
             continue
         axis = next((axis for axis in (FIRST, SECOND) if abs(freedom.direction[1 - axis]) < REGULAR), None)
         way = f"along {profile.plane.axes[axis]}" if axis is not None else f"along {angle_text(freedom.angle or 0)}"
+        if freedom.about:
+            arcs = (each for each in profile.figure.path if isinstance(each, Arc) and each.center == freedom.about)
+            way = f"along {next((each.name for each in arcs), f'the circle about {freedom.about}')}"
+        elif not freedom.is_straight:
+            way = f"along a curve (here {way})"
         yield f"{freedom.point} can still slide {way}"
 
 

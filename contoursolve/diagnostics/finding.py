@@ -193,16 +193,29 @@ class Layer(Struct, frozen=True):
 class Freedom(Struct, frozen=True):
     """Freedom of a point: with a `direction` it slides along it, without it lies anywhere.
 
-    `direction` is a unit vector in the plane's axes.
+    `direction` is a unit vector in the plane's axes, `about` the centre of the circle along which it slides, if any.
+    Along any other curve (neither that nor `is_straight`) it is the direction where the point is drawn.
     """
 
     point: str
     direction: tuple[float, float] | None
+    about: str = ""
+    is_straight: bool = True
 
     @property
     def angle(self) -> float | None:
         """The direction in degrees, 0 to less than 180; None where the point lies anywhere."""
         return None if self.direction is None else degrees(atan2(self.direction[1], self.direction[0])) % 180
+
+    @property
+    def how(self) -> str:
+        """The way in which the point can move, such as `slides along 90.0000 deg`."""
+        if self.angle is None:
+            return "lies anywhere"
+        if self.about:
+            return f"slides along the circle about {self.about}"
+        angle = f"{self.angle:.4f} deg"
+        return f"slides along {angle}" if self.is_straight else f"slides along a curve, here at {angle}"
 
 
 class Tie(Struct, frozen=True):

@@ -95,10 +95,7 @@ def _diagnosis(diagnosis: Diagnosis) -> Iterator[str]:
 def diagnosis_tables(diagnosis: Diagnosis) -> Iterator[Table]:
     """Each point that is not fixed, and how it can move; each set of words that say the same, the formula that ties
     them, and by how much they disagree."""
-    freedoms = [
-        (each.point, "lies anywhere" if each.angle is None else f"slides along {each.angle:.4f} deg")
-        for each in diagnosis.freedoms
-    ]
+    freedoms = [(each.point, each.how) for each in diagnosis.freedoms]
     ties = [(" ".join(tie.addresses), tie.identity, _disagreement(tie)) for tie in diagnosis.ties]
     if freedoms:
         yield Table("What can still move", ("point", "how"), freedoms, left=(0, 1, 2))

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from typing import Any
 
+import numpy
 import sympy
 from sympy import Eq, Expr, Matrix, Symbol
 from sympy.polys.domains import QQ
@@ -15,6 +16,7 @@ from sympy.printing.str import StrPrinter
 
 from contoursolve.numeric import expressions
 from contoursolve.numeric.functions import Functions
+from contoursolve.numeric.linear_algebra import Array
 from contoursolve.numeric.modular_rank import ExactRank
 
 __all__ = ["Eq", "Expr", "Matrix", "Symbol"]
@@ -160,6 +162,43 @@ def casadi_of(expression: Any, values: Mapping[Any, Any]) -> Any:
     names = sorted(sympy.sympify(expression).free_symbols, key=str)
     own = {"sin": expressions.sine, "cos": expressions.cosine, "sqrt": expressions.sqrt}
     return sympy.lambdify(names, expression, modules=[own, "math"])(*(values[name] for name in names))
+
+
+MOST_TOGETHER, MOST_SIMPLIFIED, MOST_WRITTEN = 3, 30, 1_000
+"""Unknowns of a group whose motion is written down, operations of one that is simplified, and of the largest one."""
+
+
+def null_space(matrix: Any, groups: Iterable[tuple[Sequence[int], Sequence[int]]], leading: Sequence[int]) -> Any:
+    """The motions that a Matrix of derivatives leaves: a column for each leading unknown, which alone of them moves, by
+    1. Groups of rows with as many columns determine the others, one after the other. None where a formula would be too
+    long to be read."""
+    result = sympy.zeros(matrix.cols, len(leading))
+    for place, column in enumerate(leading):
+        result[column, place] = 1
+    for rows, columns in groups:
+        if len(columns) > MOST_TOGETHER:
+            return None
+        own = matrix.extract([*rows], [*columns])
+        moved = own.adjugate() * -(matrix.extract([*rows], [*range(matrix.cols)]) * result) / own.det()
+        for row, column in enumerate(columns):
+            for place in range(len(leading)):
+                size = sympy.count_ops(moved[row, place])
+                if size > MOST_WRITTEN:
+                    return None
+                result[column, place] = (
+                    sympy.simplify(moved[row, place]) if size <= MOST_SIMPLIFIED else moved[row, place]
+                )
+    return result
+
+
+def is_near(matrix: Any, values: Mapping[Any, Any], numbers: Array, most: float) -> bool:
+    """Whether a Matrix has these numbers at values of its symbols, each to so much or so large a part."""
+    known = {symbol: sympy.sympify(value) for symbol, value in values.items()}
+    for place, number in numpy.ndenumerate(numbers):
+        found = matrix[place].xreplace(known)
+        if not found.is_number or not abs(complex(found.evalf()) - number) <= most * max(1.0, abs(number)):
+            return False
+    return True
 
 
 def jacobian(residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:

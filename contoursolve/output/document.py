@@ -306,7 +306,7 @@ def _solutions(answer: Answer) -> dict[str, Any]:
 
 
 def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
-    freedoms = [members(each, "point direction angle") for each in diagnosis.freedoms]
+    freedoms = [members(each, "point direction angle about is_straight") for each in diagnosis.freedoms]
     return {
         **members(diagnosis, "layers"),
         "freedoms": freedoms,

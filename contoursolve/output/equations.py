@@ -32,7 +32,12 @@ def equation_lines(system: EquationSystem) -> list[str]:
     """The equations, what they leave open, on which condition they determine the rest, what says the same, and the
     corners."""
     lines = [f"  {size_text(system)}:", *equation_table(system).lines("    ", is_headed=False)]
-    lines += ["", f"  {open_line(system)}"] if system.free else []
+    if system.free:
+        moves = [motion_table(system)] if system.null_space else []
+        lines += ["", f"  {open_line(system)}"]
+        lines += [
+            line for each in moves for line in ("  what can still move at these values, mm a mm:", *each.lines("    "))
+        ]
     if system.conditions:
         lines += ["", "  these conditions must hold:"]
         lines += condition_table(system).lines("    ", is_headed=False)
@@ -134,6 +139,16 @@ def condition_table(system: EquationSystem) -> Table:
 
 def _here(each: SystemCondition) -> str:
     return "must not be 0" if each.value is None else f"is {each.value:.4g}, must not be 0"
+
+
+def motion_table(system: EquationSystem) -> Table:
+    """The motions that are left, each by the points, and radii, that move with it."""
+    space, axes = system.null_space, system.profile.plane.axes
+    rows = list[tuple[str, str, str, str]]()
+    for number, motion in enumerate(space.motions if space is not None else (), 1):
+        rows += [(str(number), name, f"{a:z.4f}", f"{b:z.4f}") for name, (a, b) in motion.points.items()]
+        rows += [(str(number), name, f"{way:z.4f}", "") for name, way in motion.radii.items()]
+    return Table("What can still move at these values, mm a mm", ("way", "moves", *axes), rows, left=(0, 1))
 
 
 def tie_table(system: EquationSystem) -> Table:

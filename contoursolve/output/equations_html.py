@@ -9,7 +9,15 @@ from markupsafe import Markup
 from contoursolve.diagnosis import EquationSystem, SystemCondition, called_in_program, word_keys
 from contoursolve.gcode import FACT
 from contoursolve.numeric import symbolic
-from contoursolve.output.equations import large_lines, open_line, size_text, stated_pair, unknown_table, value_table
+from contoursolve.output.equations import (
+    large_lines,
+    motion_table,
+    open_line,
+    size_text,
+    stated_pair,
+    unknown_table,
+    value_table,
+)
 from contoursolve.output.html import table, table_of
 from contoursolve.output.plain_text import NAMELESS, printable
 
@@ -26,6 +34,7 @@ def system_element(system: EquationSystem) -> Iterator[h.Node]:
     yield table("Equations", ("word", "what it says", "equation"), equations, names=names)
     if system.free:
         yield h.p[f"{open_line(system).capitalize()}."]
+        yield from [table_of(motion_table(system))] if system.null_space else []
     if system.conditions:
         rows = [(printable(each.meaning), maths(each.expression), _value(each)) for each in system.conditions]
         yield table("Conditions", ("what must hold", "must not be 0", "value here"), rows, numbers=(2,))

@@ -22,7 +22,6 @@ from contoursolve.solving import (
     Refusal,
     RefusalKind,
     Status,
-    affine_facts,
     along,
     direction,
     distance,
@@ -160,10 +159,8 @@ def _slides(subject: Subject) -> Iterator[Slide]:
     profile, known = subject.profile, subject.known
     if subject.answer.contour is not None or not known.placed:
         return
-    affine = affine_facts(profile, profile.facts)
-    ways = {freedom.point: freedom.direction for freedom in (affine.freedoms() if affine is not None else ())}
     shown = {*profile.intersections, *(point for each in profile.figure.path for point in (each.tail, each.head))}
-    yield from (Slide(at, ways.get(name)) for name, at in known.points.items() if name in known.placed & shown)
+    yield from (Slide(at, known.ways.get(name)) for name, at in known.points.items() if name in known.placed & shown)
 
 
 def _places(subject: Subject) -> Iterator[Part]:

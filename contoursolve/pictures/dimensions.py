@@ -373,7 +373,8 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
         if is_center:
             yield Mark(at, MarkKind.CENTER, about=About(point=" ".join(spot)))
         return
-    is_end_free = rank == "end" and subject.trails[-1].role is Role.FREE
+    # A corner at the end moves with its size.
+    is_end_free = rank == "end" and subject.trails[-1].role is Role.FREE and profile.figure.path[-1].head not in spot
     is_free = not known.placed.isdisjoint(spot) or is_end_free
     # Where the path ends at a virtual intersection, it is the end that counts.
     names = [*([rank] if rank else []), *(name for name in shown if not rank or not name.startswith("V"))]

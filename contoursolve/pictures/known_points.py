@@ -3,10 +3,8 @@
 A contour whose words leave something free is completed: that is put somewhere, and the rest solved as any other block.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
-from decimal import Decimal
-from itertools import product
-from math import hypot, isfinite
+from collections.abc import Iterable, Mapping, Sequence, Set
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
@@ -16,13 +14,9 @@ from contoursolve.gcode import Word
 from contoursolve.geometry import (
     FIRST,
     SECOND,
-    Coordinate,
     Fact,
-    Given,
     Layout,
     Profile,
-    Radius,
-    Unit,
     assemble,
     line_scalars,
     scalar,
@@ -33,35 +27,23 @@ from contoursolve.solving import (
     Point,
     Refusal,
     Solution,
-    Status,
     affine_facts,
     analyse,
     basis_of,
     distance,
+    drawings,
+    drawn_at,
     is_affine,
-    is_closed,
     points_with_two_solutions,
-    solve,
+    told_by,
 )
 from contoursolve.tolerance import LARGEST
 
 if TYPE_CHECKING:
     from contoursolve.solving import Alternative
 
-MOST_FREE = 6
-"""Free coordinates that are put somewhere; of a contour with more, only what is known is drawn."""
-
-MOST_TRIED = 24
-"""Places that are tried for what is free, each a solve of well under a millisecond."""
-
 MOST_GHOSTS = 3
 """Completions that are shown."""
-
-_STEPS = (0.6, 1.0, 0.35, 1.5, -0.6, -1.0, -0.35, -1.5)
-"""Trial positions of a free coordinate, from the beginning of its line, in lengths of the drawing."""
-
-_TURNED = (0.6, -0.6, 1.0, -1.0)
-"""The same, with backwards as likely as onwards: a line at 180 deg leads to lower Z."""
 
 
 class Known(Struct, frozen=True):
@@ -74,6 +56,8 @@ class Known(Struct, frozen=True):
     refusals: tuple[Refusal, ...] = ()
     placed: frozenset[str] = frozenset()
     others: tuple[Solution, ...] = ()
+    ways: Mapping[str, Point | None] = field(default_factory=dict)
+    """The directions in which points can still slide; None for one that lies anywhere."""
     scalars: Mapping[str, float] = field(default_factory=dict)
     """Coordinates of which the other one is not known."""
 
@@ -184,36 +168,10 @@ def in_part(profile: Profile) -> Known:
     start = {scalar(figure.start, axis): value for axis, value in enumerate(start_of(profile))}
     places = [scalar(name, axis) for name in figure.places for axis in (FIRST, SECOND)]
     stated = {**{name: float(profile.givens[name].value) for name in places if name in profile.givens}, **start}
-    for _ in basis:
-        before = len(values)
-        for fact in basis:
-            _derive(fact, profile, stated, values)
-        if len(values) == before:
-            break
+    amounts = {name: float(given.value) for name, given in profile.givens.items()}
+    values = told_by(basis, amounts, stated, values)
     points, rest = by_point((figure.start, *figure.points, *figure.places), {**values, **start})
     return Known(points, {name: values[name] for name in figure.radii if name in values}, scalars=rest)
-
-
-def _derive(fact: Fact, profile: Profile, stated: Mapping[str, float], values: dict[str, float]) -> None:
-    """Add to `values` those that one fact gives; the start and the places have theirs in `stated`."""
-
-    def get(point: str, axis: int) -> float | None:
-        name = scalar(point, axis)
-        return stated.get(name, values.get(name))
-
-    placed, circle = fact.placed, fact.circle
-    if fact.sizes:
-        values.setdefault(fact.sizes, abs(float(profile.givens[fact.given].value)))
-    elif placed is not None:
-        origin = get(placed.origin, placed.axis) if placed.origin else 0.0
-        if origin is not None:
-            step = float(profile.givens[fact.given].value) if placed.is_stepped else 0.0
-            values.setdefault(scalar(placed.point, placed.axis), origin + step)
-    elif circle is not None and circle.radius not in values:
-        pairs = [(get(circle.point, axis), get(circle.center, axis)) for axis in (FIRST, SECOND)]
-        steps = [at - center for at, center in pairs if at is not None and center is not None]
-        if len(steps) == len(pairs) and hypot(*steps) > 0:
-            values[circle.radius] = hypot(*steps)
 
 
 def in_chain(profile: Profile, items: Sequence["Alternative"] = (), blamed: Set[Word] = frozenset()) -> Known:
@@ -254,112 +212,27 @@ def _known_at(profile: Profile, item: "Alternative", fixed: frozenset[str]) -> K
 # Completions -------------------------------------------------------------------------------------------------
 
 
-def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
-    """A contour with what its words leave free put somewhere, so that the control would make it if that can be;
-    `singular` is what they leave free at their values only."""
-    known = in_part(profile)
-    free = analyse(assemble(profile)).free
-    if len(free) > MOST_FREE:
-        return known
-    size = _drawing_size(profile)
-    found: list[Solution] = []
-    placed: frozenset[str] = frozenset()
-    # All onwards first; the ways in which some turn back only where that gives no contour.
-    for full, names in (
-        each for steps in (_STEPS, _TURNED) if not found for each in _completions(profile, known, size, singular, steps)
-    ):
-        if len(found) > MOST_GHOSTS:
+def complete(profile: Profile) -> Known:
+    """A contour with what its words leave free where it lies in a natural drawing, such that the control would make it
+    if that can be."""
+    lines = {each.name for each in (*profile.figure.path, *profile.figure.lines)}
+    if not lines.issuperset(each.lands_on for each in profile.figure.corners if each.lands_on):
+        return in_part(profile)
+    for drawing in drawings(profile):
+        solution = drawn_at(profile, drawing.scalars)
+        if not solution.refusals:
             break
-        placed = names
-        if is_closed(assemble(full)) and is_chosen(full):
-            solution = solve(full, is_proven=False)
-            if solution.status in (Status.SOLVED, Status.OVERDETERMINED) and solution.points:
-                found.append(solution)
-    if not found:
-        return known
-    first, *others = found
-    open_ = {point for point, _, axis in (name.rpartition(".") for name in free) if axis.isdigit()}
-    apart = size / 1_000_000
-    moved = {n for n, at in first.points.items() for other in others if distance(at, other.points[n]) > apart}
-    return replace(known_of(first), placed=placed | open_ | moved, others=tuple(others))
-
-
-def _completions(
-    profile: Profile, known: Known, size: float, singular: Sequence[str], steps: Sequence[float]
-) -> Iterator[tuple[Profile, frozenset[str]]]:
-    """The profile with further facts that determine it, and the points that these are about."""
-    names = [name for name in singular if _is_placeable(name, profile)]
-    extended, moves = _with(profile, dict.fromkeys(names, 0.0)), _moves(profile)
-    while free := analyse(assemble(extended)).free:
-        open_ = [
-            name for name in free if name not in names and name not in known.scalars and _is_placeable(name, profile)
-        ]
-        if not open_ or len(names) >= MOST_FREE:
-            return
-        names.append(max(open_, key=lambda name: round(moves.get(name, 1.0), 6)))
-        extended = _with(profile, dict.fromkeys(names, 0.0))
-    points = frozenset(name.rpartition(".")[0] for name in names if name not in profile.figure.radii)
-    tried = sorted(product(steps, repeat=len(names)), key=lambda each: sum(map(steps.index, each)))[:MOST_TRIED]
-    for lengths in tried:
-        values: dict[str, float] = {}
-        for name, step in zip(names, lengths, strict=True):
-            if name in profile.figure.radii:
-                values[name] = abs(step) * size
-                continue
-            point, _, axis = name.rpartition(".")
-            base, lead = _lead(profile, known, values, point, int(axis))
-            values[name] = base + lead * step * size
-        yield _with(profile, values), points
-
-
-def _is_placeable(name: str, profile: Profile) -> bool:
-    return name in profile.figure.radii or name.rpartition(".")[2] in (str(FIRST), str(SECOND))
-
-
-def _moves(profile: Profile) -> dict[str, float]:
-    """Change of each coordinate of a freedom that moves by 1 in its direction, by name, without sign."""
-    affine = affine_facts(profile, profile.facts)
-    freedoms = affine.freedoms() if affine is not None else ()
-    return {
-        scalar(freedom.point, axis): abs(freedom.direction[axis])
-        for freedom in freedoms
-        if freedom.direction is not None
-        for axis in (FIRST, SECOND)
+    else:
+        return in_part(profile)
+    others = list[Solution]()
+    for each in (each for each in drawing.beside() if drawing.goes_back or not each.goes_back):
+        other = drawn_at(profile, each.scalars)
+        if not other.refusals:
+            others.append(other)
+        if len(others) == MOST_GHOSTS:
+            break
+    ways = {each.point: each.direction for each in drawing.freedoms()}
+    sized = {
+        each.name for each in profile.figure.corners if f"{each.name}.radius" in {*drawing.scalars} - drawing.fixed
     }
-
-
-def _lead(profile: Profile, known: Known, values: Mapping[str, float], point: str, axis: int) -> tuple[float, float]:
-    """The coordinate, on an axis, from which the element to a point comes, and the sign with which the path leads
-    on."""
-
-    def get(name: str) -> float | None:
-        return values.get(scalar(name, axis), known.coordinate(name, axis))
-
-    comes = {element.head: element.tail for element in profile.figure.path}
-    before = comes.get(point, profile.figure.start)
-    base = get(before)
-    earlier = get(comes[before]) if before in comes else None
-    if base is None:
-        return start_of(profile)[axis], 1.0
-    return base, -1.0 if earlier is not None and base < earlier else 1.0
-
-
-def _with(profile: Profile, values: Mapping[str, float]) -> Profile:
-    """The profile with unknowns at values."""
-    givens, facts = dict(profile.givens), list(profile.facts)
-    for name, value in values.items():
-        given = f"put {name}"
-        point, _, axis = name.rpartition(".")
-        givens[given] = Given(given, Decimal(repr(round(value, 6))), Unit.MM, None)
-        facts.append(Coordinate(given, point, int(axis)) if axis.isdigit() else Radius(given, name))
-    return replace(with_facts(profile, facts), givens=givens)
-
-
-def _drawing_size(profile: Profile) -> float:
-    """Size of a drawing, by its words alone, mm."""
-    start, sizes = start_of(profile), []
-    for fact in profile.facts:
-        if fact.sizes or (fact.placed and fact.placed.is_stepped):
-            origin = start[fact.placed.axis] if fact.placed and not fact.placed.origin else 0.0
-            sizes.append(abs(float(profile.givens[fact.given].value) - origin))
-    return max((size for size in sizes if size > 0), default=10.0)
+    return replace(known_of(solution), placed=frozenset(ways) | sized, others=tuple(others), ways=ways)

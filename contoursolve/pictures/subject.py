@@ -292,7 +292,10 @@ def find_known(answer: Answer) -> Known:
     if answer.claim.form.is_general:
         spans = {*_blamed(answer, is_slip=False)}
         words = (given.word for given in profile.givens.values() if given.word is not None)
-        return in_chain(profile, fitting(answer) or items, {word for word in words if word.span in spans})
+        known = in_chain(profile, fitting(answer) or items, {word for word in words if word.span in spans})
+        is_open = answer.status is Status.UNDERDETERMINED and not known.variants
+        whole = complete(profile) if is_open else known
+        return whole if whole.placed else known
     verdict = analyse(system)
     if profile.is_extended:
         # Of several solutions, among which nothing chooses, the first.
@@ -345,7 +348,7 @@ def _worked_out(profile: Profile) -> Known:
     refusals = solve(profile, is_proven=False).refusals if is_solvable else ()
     singular = next((refusal.subject for refusal in refusals if refusal.kind.status is Status.UNDERDETERMINED), "")
     if singular:
-        found = complete(profile, singular.split(","))
+        found = complete(profile)
         if found.placed:
             return found
     if len(points) < len(figure.points) + 1:
@@ -423,7 +426,7 @@ def trace_known(profile: Profile, known: Known) -> Iterator[tuple[Segment, Role]
         if corner is not None and built is not None:
             cut = corner_segment(corner, built)
             if is_cut:
-                yield cut, Role.FREE if element.head in known.placed else Role.INK
+                yield cut, Role.FREE if known.placed & {element.head, corner.name} else Role.INK
                 here = built.end
             elif is_uncut and (corner.name in refused or element.name in refused or corner.after in refused):
                 yield cut, Role.CONFLICTING

@@ -15,8 +15,7 @@ from contoursolve.geometry import Arc, Unit, assemble
 from contoursolve.program import Run, SolveOptions
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program
 from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchElement, Value
-from contoursolve.sketches.sliding import Loose
-from contoursolve.solving import Point, Status, analyse
+from contoursolve.solving import Drawing, Point, Status, analyse
 
 
 class SketchEntry(Struct, frozen=True):
@@ -66,7 +65,7 @@ def asked_values(program: SketchProgram, answer: Answer) -> dict[Field, Decimal 
     return found
 
 
-def sketch_exactly(answer: Answer, sketch: ContourSketch, loose: Loose) -> ContourSketch:
+def sketch_exactly(answer: Answer, sketch: ContourSketch, loose: Drawing) -> ContourSketch:
     """A sketch with each end, and each centre, where it is in a loose drawing, and nothing else but its corners."""
     elements = list[SketchElement]()
     for given, element in zip(sketch.elements, answer.profile.figure.path, strict=False):
@@ -83,14 +82,14 @@ _EXACT = 10
 """Decimals of a number that stands for one of a drawing."""
 
 
-def missing_fields(answer: Answer, loose: Loose | None) -> tuple[int, Sequence[Field]]:
+def missing_fields(answer: Answer, loose: Drawing | None) -> tuple[int, Sequence[Field]]:
     """The number of entries that are missing, and the fields that help."""
     claim, profile = answer.claim, answer.profile
     system = assemble(profile)
     verdict = analyse(system)
     names = helping_words(claim, profile, absent_words(claim, profile, verdict.free))
     fields = [(int(number), field) for number, _, field in (name.partition(":") for name in names)]
-    count = loose.missing if loose is not None and loose.missing else len(system.unknowns) - verdict.rank
+    count = loose.dimension if loose is not None and loose.dimension else len(system.unknowns) - verdict.rank
     return count, fields
 
 
@@ -135,7 +134,7 @@ def _entry(sketch: ContourSketch, number: int, field: str, numbers: Sequence[Ope
 
 
 def with_examples(
-    sketch: ContourSketch, answer: Answer, loose: Loose, entries: Iterable[SketchEntry]
+    sketch: ContourSketch, answer: Answer, loose: Drawing, entries: Iterable[SketchEntry]
 ) -> tuple[SketchEntry, ...]:
     """The same with a number near the loose drawing for each field that has none yet, where it makes a contour."""
     whole = sketch_exactly(answer, sketch, loose)

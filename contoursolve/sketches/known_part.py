@@ -20,7 +20,7 @@ from contoursolve.diagnosis import (
     status_text,
 )
 from contoursolve.diagnostics import Diagnostic, Severity, hash_of
-from contoursolve.geometry import Arc
+from contoursolve.geometry import Arc, scalar
 from contoursolve.pictures import Known, Role, find_known, in_part, list_trails
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program, element_of
 from contoursolve.sketches.finishing import (
@@ -35,10 +35,22 @@ from contoursolve.sketches.finishing import (
     written_place,
 )
 from contoursolve.sketches.sketch import ContourSketch, SketchElement
-from contoursolve.sketches.sliding import Loose, loosely_drawn
 from contoursolve.sketches.terms import on_drawing
-from contoursolve.solving import ArcSegment, Contour, Point, RefusalKind, Segment, Status, scalars_of
+from contoursolve.solving import (
+    ArcSegment,
+    Contour,
+    Drawing,
+    Point,
+    RefusalKind,
+    Segment,
+    Status,
+    drawings,
+    scalars_of,
+)
 from contoursolve.tolerance import AGREEMENT, LENGTH
+
+NOTHING = 1e-5
+"""mm. What is less is nothing."""
 
 
 class PartState(Enum):
@@ -213,7 +225,7 @@ class _Reading:
         # What a guess may be about: ends, then centres.
         self.points = {(number, ""): head for number, head in self.heads.items()}
         self.points |= {(number, "CC"): each.center for number, each in enumerate(path, 1) if isinstance(each, Arc)}
-        self.loose: Loose | None = None
+        self.loose: Drawing | None = None
         self.gap: SketchFinding | None = None
 
     def result(self, *, with_ranges: bool) -> SketchAnswer:
@@ -263,15 +275,18 @@ class _Reading:
 
     def _distance(self, contour: Contour) -> float:
         """The distance of the guesses from the points of a solution, mm; infinite without a guess."""
-        squares = []
+        places = scalars_of({point: contour.places[point] for point in self.points.values()})
+        squares = [(places[name] - guessed) ** 2 for name, guessed in self._guessed()]
+        return sum(squares) ** 0.5 if squares else inf
+
+    def _guessed(self) -> Iterator[tuple[str, float]]:
+        """The coordinates that guesses tell, mm."""
         for (number, prefix), point in self.points.items():
             guess = self.sketch.elements[number - 1].guess
             for axis, letter in enumerate(self.sketch.axes):
                 if prefix + letter in guess:
-                    guessed = guess[prefix + letter] * self.answer.unit.in_mm
                     times = 2 if self.answer.plane.diameters[axis] else 1
-                    squares.append((contour.places[point][axis] - float(guessed) / times) ** 2)
-        return sum(squares) ** 0.5 if squares else inf
+                    yield scalar(point, axis), float(guess[prefix + letter] * self.answer.unit.in_mm) / times
 
     def _solutions(self, several: Sequence[Contour], chosen: Contour | None) -> Iterator[SketchSolution]:
         for number, each in enumerate(several, 1):
@@ -293,11 +308,11 @@ class _Reading:
                 if isinstance(finding.about, RefusalKind):
                     yield f"corner {number}" if name == "corner" else self.sketch.name_of(number), _amount(finding)
 
-    def _loosely(self) -> Loose | None:
+    def _loosely(self) -> Drawing | None:
         spans = {label.span for finding in self.errors for label in finding.labels} if self.blamed else set()
         givens = self.answer.profile.givens.items()
         doubted = [name for name, given in givens if given.word is not None and given.word.span in spans]
-        return loosely_drawn(self.sketch, self.answer.profile, doubted)
+        return next(drawings(self.answer.profile, doubted, dict(self._guessed())), None)
 
     def _parts(self, answer: Answer, *, is_open: bool, is_chosen: bool) -> Iterator[SketchPart]:
         """Every element and corner with its state."""
@@ -316,7 +331,7 @@ class _Reading:
             if part in self.blamed:
                 state = PartState.CONTRADICTING
                 off = gap.off_mm if gap is not None and number == len(self.sketch.elements) else off
-                off = off if off is not None or loose is None else loose.off_of(number)
+                off = off if off is not None or loose is None else _off_of(number, loose)
             elif loose is not None and is_open:
                 state = self._state(part, number, loose, drawn)
             elif part in shared:
@@ -327,11 +342,11 @@ class _Reading:
             ways = self._ways(part, number, loose) if loose and state is PartState.SLIDING else ()
             yield SketchPart(part, number, state, segment if is_placed else None, off, ways)
 
-    def _ways(self, part: str, number: int, loose: Loose) -> tuple[tuple[Point, ...], ...]:
+    def _ways(self, part: str, number: int, loose: Drawing) -> tuple[tuple[Point, ...], ...]:
         way = loose.ways.get(self.heads.get(number, ""))
         return (way,) if way and not part.startswith("corner") else ()
 
-    def _state(self, part: str, number: int, loose: Loose, drawn: Mapping[str, Segment]) -> PartState:
+    def _state(self, part: str, number: int, loose: Drawing, drawn: Mapping[str, Segment]) -> PartState:
         """The state of an element, or of the corner after it, of a sketch that has no contour."""
         path = self.answer.profile.figure.path
         is_corner = part.startswith("corner")
@@ -346,7 +361,7 @@ class _Reading:
         freedom = freedom or (0 if self.sure.issuperset(ends) else 2)
         return (PartState.KNOWN, PartState.SLIDING, PartState.UNKNOWN)[min(freedom, 2)]
 
-    def _completed(self, loose: Loose, drawn: Mapping[str, Segment]) -> dict[str, Segment]:
+    def _completed(self, loose: Drawing, drawn: Mapping[str, Segment]) -> dict[str, Segment]:
         """The lines and arcs of a loose drawing, with its corners where they fit."""
         trails = list_trails(self.answer, Known(loose.points, loose.radii))
         plain = {each.name: each for trail in trails for each in trail.segments}
@@ -460,6 +475,12 @@ class _Reading:
         change, _, outcome = title.partition(" -> ")
         moved = ", ".join(each for each in outcome.split(", ") if each not in same)
         return f"{change} -> {moved}" if moved else change
+
+
+def _off_of(number: int, loose: Drawing) -> float | None:
+    """The largest amount, mm, by which a fact of an element is off; None where all are true."""
+    most = max((off for given, off in loose.off_mm.items() if given.startswith(f"{number}:")), default=0.0)
+    return most if most > NOTHING else None
 
 
 _OPEN = (Status.UNDERDETERMINED, Status.AMBIGUOUS)

@@ -7,6 +7,7 @@ from .affine import (
 )
 from .alternatives import (
     choose as choose,
+    drawn_at as drawn_at,
     find_alternatives as find_alternatives,
 )
 from .ambiguity import (
@@ -147,6 +148,17 @@ from .identities import (
 from .inputs import (
     input_values as input_values,
     symbolic_values as symbolic_values,
+)
+from .motions import (
+    Drawing as Drawing,
+    NullMotion as NullMotion,
+    drawings as drawings,
+    open_at_values as open_at_values,
+)
+from .natural_layout import told_by as told_by
+from .newton import (
+    Equations as Equations,
+    null_space as null_space,
 )
 from .numbers import (
     axes_of as axes_of,

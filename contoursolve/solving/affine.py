@@ -243,7 +243,7 @@ def values_at(profile: Profile, facts: Sequence[Fact], scalars: Mapping[str, flo
     facts are nearest to being true."""
     system = assemble(profile)
     at = replace(lookup(profile, {name: scalars[name] for name in system.unknowns}), headed=system.headed)
-    return replace(at, signs=_nearest_sides(facts, at))
+    return replace(at, signs=nearest_sides(facts, at))
 
 
 def rows_at(system: System, facts: Sequence[Fact], at: Values) -> AffineFacts:
@@ -275,7 +275,7 @@ power of two, to the last bit."""
 _COMPLEX = Functions(cmath.sqrt, cmath.cos, cmath.sin, lambda value: complex(value).real == 0)
 
 
-def _nearest_sides(facts: Iterable[Fact], at: Values) -> dict[str, int]:
+def nearest_sides(facts: Iterable[Fact], at: Values) -> dict[str, int]:
     """The sign of each open side with which the facts that it is a side of miss least."""
     of_side: dict[str, list[Fact]] = {}
     for fact in facts:

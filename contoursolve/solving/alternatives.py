@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from math import inf
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import (
@@ -136,26 +137,16 @@ def _agrees(item: Alternative, choices: Sequence[Choice]) -> bool:
 def _alternative(profile: Profile, system: System, prover: Prover, found: ExactSolution) -> Alternative:
     proven = prover.prove(found.scalars, found.signs)
     boxes = found.scalars if proven is None else proven
-    starts = [float(value) for value in profile.start.values if value is not None]
     scalars = {name: ball.middle(value) for name, value in boxes.items()}
-    machine = compile_path(system)
-    numbers = _path_numbers(profile, system, boxes)
-    values = {name: ball.middle(value) for name, value in numbers.items()}
+    path = _Path.at(profile, system, boxes)
     at = prover.ground.values(boxes, found.signs, system)
-    out = machine.function(values)
-    measures = machine.path.read(out.__getitem__)
     residuals = [fact.residual(at) for fact in system.facts]
     refusals, remarks = _compare(profile, system, residuals, at, scalars)
     if not refusals:
-        sizes = {name: ball.middle(value) for name, value in _sizes(profile, boxes).items()}
-        measured = MeasuredFigure(system.figure, Values(values, {}, {}), measures, increments_of(profile))
-        path = MeasuredPath(
-            profile, measured, sizes, lambda sizes: machine.path.read(machine.function({**values, **sizes}).__getitem__)
-        )
-        refusals += judge_range(path)
+        refusals += judge_range(path.measured)
         if not refusals:
-            refusals += judge_path(path)
-            remarks += vanishing_lines(system.figure, measures)
+            refusals += judge_path(path.measured)
+            remarks += vanishing_lines(system.figure, path.measures)
     sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
     centers = {element.center for element in system.figure.path if isinstance(element, Arc)}
@@ -168,25 +159,70 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: ExactS
     if proven is None:
         certificate = _doubtful(found, places, gap)
     else:
-        corners = None if refusals else _corner_places(profile, numbers, out)
+        corners = None if refusals else _corner_places(profile, path.numbers, path.out)
         certificate = certificate_of([*places, *(corners or ())], residuals, gap)
         if corners is None and not refusals:
             reason = "interval arithmetic cannot decide a corner"
             certificate = Certificate(Proof.VERIFIED, certificate.radius, reason, gap)
-    absolute = {name: (scalars[scalar(name, FIRST)], scalars[scalar(name, SECOND)]) for name in system.figure.points}
-    absolute[system.figure.start] = starts[FIRST], starts[SECOND]
-    solution = Solution(
-        _status(refusals, remarks),
-        points=absolute if not refusals else {},
-        radii={name: scalars[name] for name in system.figure.radii} if not refusals else {},
-        corners=_corners(system, values, measures, starts) if not refusals else {},
-        refusals=tuple(refusals),
-        remarks=tuple(remarks),
-        error_bound=certificate.radius,
-        certificate=certificate,
-        scalars=scalars if not refusals else {},
-    )
+    solution = path.solution(scalars, refusals, remarks)
+    solution = replace(solution, error_bound=certificate.radius, certificate=certificate)
     return Alternative(solution, scalars, sides, certificate)
+
+
+class _Path(Struct, frozen=True):
+    """A path at places of all unknowns, as balls: the inputs of its function, the outputs, and its measures."""
+
+    profile: Profile
+    system: System
+    numbers: Mapping[str, Number]
+    sizes: Mapping[str, float]
+    values: Mapping[str, float]
+    out: Mapping[str, float]
+    measures: PathOutputs
+
+    @classmethod
+    def at(cls, profile: Profile, system: System, boxes: Mapping[str, Number]) -> "_Path":
+        """The path at these values of the unknowns, mm."""
+        machine = compile_path(system)
+        numbers = _path_numbers(profile, system, boxes)
+        values = {name: ball.middle(value) for name, value in numbers.items()}
+        sizes = {name: ball.middle(value) for name, value in _sizes(profile, boxes).items()}
+        out = machine.function(values)
+        return cls(profile, system, numbers, sizes, values, out, machine.path.read(out.__getitem__))
+
+    @property
+    def measured(self) -> MeasuredPath:
+        """The same, to be judged."""
+        machine, profile = compile_path(self.system), self.profile
+        figure = MeasuredFigure(self.system.figure, Values(self.values, {}, {}), self.measures, increments_of(profile))
+
+        def resized(sizes: Mapping[str, float]) -> PathOutputs:
+            return machine.path.read(machine.function({**self.values, **sizes}).__getitem__)
+
+        return MeasuredPath(profile, figure, self.sizes, resized)
+
+    def solution(self, scalars: Mapping[str, float], refusals: list[Refusal], remarks: list[Note]) -> Solution:
+        """The contour, or what speaks against it."""
+        figure, starts = self.system.figure, [float(value or 0) for value in self.profile.start.values]
+        status = _status(refusals, remarks)
+        if refusals:
+            return Solution(status, refusals=tuple(refusals), remarks=tuple(remarks))
+        points = {name: (scalars[scalar(name, FIRST)], scalars[scalar(name, SECOND)]) for name in figure.points}
+        points[figure.start] = starts[FIRST], starts[SECOND]
+        return Solution(
+            status,
+            points=points,
+            radii={name: scalars[name] for name in figure.radii},
+            corners=_corners(self.system, self.values, self.measures, starts),
+            remarks=tuple(remarks),
+            scalars=scalars,
+        )
+
+
+def drawn_at(profile: Profile, scalars: Mapping[str, float]) -> Solution:
+    """The path at a place of all unknowns (mm) at which facts hold, with its corners, or what speaks against it."""
+    path = _Path.at(profile, assemble(profile), {name: ball.exact(value) for name, value in scalars.items()})
+    return path.solution(scalars, judge_range(path.measured) or judge_path(path.measured), [])
 
 
 def _doubtful(found: ExactSolution, places: Sequence[tuple[Number, float]], gap: float | None) -> Certificate:

@@ -413,3 +413,54 @@ def test_a_start_is_words_or_numbers_by_letters():
             contoursolve.solve(SHAFT, start=start)
     with pytest.raises(TypeError, match="facts are texts such as"):
         contoursolve.solve(SHAFT, start=START, facts=3)
+
+
+def at_drawing(expression, values):
+    """A matrix of sympy as numbers."""
+    return np.array(sympy.Matrix(expression).xreplace(values).tolist(), dtype=complex).reshape(expression.shape)
+
+
+@pytest.mark.parametrize(
+    "programs", [pytest.param(RIGHT[::60], id="some"), pytest.param(RIGHT[::8], id="more", marks=pytest.mark.slow)]
+)
+def test_what_can_still_move_keeps_every_equation_and_is_all_that_does(programs):
+    random = Random(5)
+    for name, answer in contours(programs):
+        sources = [each.source for each in answer.system.words if each.source and each.number is not None]
+        words = sorted({f"{each.span.line}:{each.address}" for each in sources})
+        system = answer.system.free(*random.sample(words, min(len(words), random.randint(1, 3))))
+        space = system.null_space
+        if space is None:
+            continue
+        values = {key: sympy.sympify(value) for key, value in (system.values | space.values).items()}
+        assert all(off(each, values) < 1e-6 for each in system.equations), name
+        slopes = at_drawing(system.jacobian, values).real
+        sizes = np.maximum(np.linalg.norm(slopes, axis=1, keepdims=True), 1e-300)
+        rank = np.linalg.matrix_rank(slopes / sizes, tol=1e-7) if slopes.size else 0
+        assert space.dimension == len(system.unknowns) - rank >= len(system.unknowns) - system.rank, name
+        assert abs(slopes @ space.numbers / sizes).max(initial=0.0) < 1e-6, name
+        if space.exact is not None:
+            assert abs(at_drawing(space.exact, values) - space.numbers).max(initial=0.0) < 1e-5, name
+        for motion in space.motions:
+            first, *_ = [*(np.hypot(*way) for way in motion.points.values()), *map(abs, motion.radii.values()), 1.0]
+            assert first == pytest.approx(1), name
+
+
+def test_what_these_values_fix_is_not_called_open():
+    # The second straight is level, so that its end gives the height of the first one's.
+    answer = contoursolve.solve("G111 A150. X70. B180. P4.", start="X40. Z0.").answers[0]
+    space = answer.system.null_space
+    assert [*space.motions[0].points] == ["V2"]
+    assert space.texts == ("V2 can still slide along Z",)
+    told = next(each for each in answer.diagnostics if each.code == "words-missing")
+    assert told.message == "the end of the second straight is still open in Z: add one of Z, W"
+
+
+def test_a_point_slides_along_the_arc_that_it_is_on():
+    program = "0 BEGIN PGM T MM\n1 L X+0 Y+0 F9\n2 FC DR- CCX+20 CCY+0\n3 FL X+60 Y+10\n99 END PGM T MM\n"
+    (answer,) = contoursolve.solve(program).answers
+    (motion,) = answer.system.null_space.motions
+    assert [*motion.points] == ["P2"]
+    assert "the end of block 2 can still slide along the arc" in answer.diagnostics[0].notes
+    (freedom,) = answer.diagnosis.freedoms
+    assert (freedom.point, freedom.about, freedom.how) == ("P2", "C2", "slides along the circle about C2")
