@@ -218,6 +218,7 @@ from .vectors import (
     direction as direction,
     distance as distance,
     foot as foot,
+    foot_on as foot_on,
     middle as middle,
     minus as minus,
     on_arc as on_arc,
