@@ -8,6 +8,7 @@ import sys
 from html import unescape
 from html.parser import HTMLParser
 from math import hypot
+from pathlib import Path
 
 import numpy
 import pytest
@@ -17,6 +18,7 @@ from test_pictures import check, labels, strokes
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis import statuses_text
+from contoursolve.output.map_frames import MOST_BYTES, MOST_FRAMES
 from contoursolve.pictures import (
     LEVELS,
     Role,
@@ -411,6 +413,11 @@ def test_a_page_asks_no_other_host_and_lets_nothing_out_of_its_texts():
         assert "stolen" not in "".join(told for _, told in found.scripts)
         assert set(re.findall(r"https?://[^\"' )]+", text)) <= {"http://www.w3.org/2000/svg"}
     assert "default-src 'none'" in unescape(page)
+
+
+def test_the_page_about_maps_tells_how_many_contours_one_holds():
+    page = (Path(__file__).parents[2] / "docs" / "python.md").read_text(encoding="utf-8")
+    assert f"at most {MOST_FRAMES} contours and {MOST_BYTES // 1000} kB" in page
 
 
 @pytest.mark.parametrize("name", PAGES)
