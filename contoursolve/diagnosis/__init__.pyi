@@ -23,8 +23,10 @@ from .edits import (
     write_word as write_word,
 )
 from .equation_records import (
+    BlockState as BlockState,
     CornerSystem as CornerSystem,
     Equation as Equation,
+    SystemBlock as SystemBlock,
     SystemCondition as SystemCondition,
     SystemStep as SystemStep,
     SystemUnknown as SystemUnknown,

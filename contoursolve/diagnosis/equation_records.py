@@ -1,5 +1,6 @@
 """The parts of a system of equations, as records: unknowns, values, equations, conditions, steps, corners."""
 
+from enum import Enum
 from typing import Any
 
 from msgspec import Struct
@@ -95,6 +96,23 @@ class SystemStep(Struct, frozen=True):
     equations: tuple[Equation, ...]
     how: str
     is_closed: bool
+
+
+class BlockState(Enum):
+    """What becomes of a block of a system: its unknowns are found, or stay open, or its equations repeat others."""
+
+    SOLVED = "solved"
+    OPEN = "open"
+    REPEATED = "repeated"
+
+
+class SystemBlock(Struct, frozen=True):
+    """A block of a system: its equations and its unknowns, by their numbers in `statements` and `unknowns`, which are
+    the rows and columns of `jacobian`. No unknowns where it repeats what others say."""
+
+    state: BlockState
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
 
 
 class CornerSystem(Struct, frozen=True):

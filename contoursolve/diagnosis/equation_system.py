@@ -9,8 +9,10 @@ from typing import Any, Protocol
 from contoursolve.diagnosis.chosen_solution import Chosen, chosen_solution
 from contoursolve.diagnosis.edits import Edit, change, typed_text, with_value
 from contoursolve.diagnosis.equation_records import (
+    BlockState,
     CornerSystem,
     Equation,
+    SystemBlock,
     SystemCondition,
     SystemStep,
     SystemUnknown,
@@ -51,6 +53,7 @@ from contoursolve.solving import (
     TypedValues,
     analyse,
     axes_of,
+    blocks_of,
     build_function,
     circuits_of,
     conditions_of,
@@ -266,6 +269,21 @@ class EquationSystem(Shown):
     def steps(self) -> tuple[SystemStep, ...]:
         """The steps in which the unknowns are found, one after the other; none where something is free."""
         return tuple(map(self._step, steps_of(self._system))) if self.is_determined else ()
+
+    @cached_property
+    def blocks(self) -> tuple[SystemBlock, ...]:
+        """The equations and unknowns in blocks, in the order in which they are solved: the Jacobian is triangular in
+        it. What stays open comes then, and last the equations that repeat others."""
+        groups, left, repeated = blocks_of(self._system, self._verdict)
+        rows = {id(fact): row for row, fact in enumerate(self._system.facts)}
+        columns = {name: column for column, name in enumerate(self._system.unknowns)}
+        told = [*((BlockState.SOLVED, group) for group in groups), (BlockState.OPEN, left)]
+        told.append((BlockState.REPEATED, Group(repeated, ())))
+        return tuple(
+            SystemBlock(state, tuple(rows[id(fact)] for fact in facts), tuple(columns[name] for name in unknowns))
+            for state, (facts, unknowns) in told
+            if facts or unknowns
+        )
 
     @cached_property
     def derivation(self) -> Derivation:

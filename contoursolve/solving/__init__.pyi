@@ -94,6 +94,7 @@ from .determinacy import (
     StepCondition as StepCondition,
     analyse as analyse,
     basis_of as basis_of,
+    blocks_of as blocks_of,
     circuits_of as circuits_of,
     conditions_of as conditions_of,
     derive as derive,
