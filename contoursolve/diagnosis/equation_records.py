@@ -99,7 +99,7 @@ class SystemStep(Struct, frozen=True):
 
 
 class BlockState(Enum):
-    """What becomes of a block of a system: its unknowns are found, or stay open, or its equations repeat others."""
+    """Fate of a block of a system: its unknowns are found, or stay open, or its equations repeat others."""
 
     SOLVED = "solved"
     OPEN = "open"

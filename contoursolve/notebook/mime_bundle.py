@@ -68,10 +68,10 @@ def _latex(record: EquationSystem) -> str:
 
 
 def with_widget(bundled: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-    """What a widget shows itself as, data and metadata: nothing where a program executes the notebook, such as
+    """Data and metadata by which a widget is shown: nothing where a program executes the notebook, such as
     `nbconvert --execute`. The page that it makes would show the widget, which is dead there, in place of a picture."""
     data, metadata = bundled if isinstance(bundled, tuple) else (bundled or {}, {})
-    kernel = getattr(_shell(), "kernel", None)
+    kernel: Any = getattr(_shell(), "kernel", None)
     request = kernel.get_parent("shell") if hasattr(kernel, "get_parent") else {}
     # Who executes notebooks lets no cell ask for input; where somebody reads along, it may.
     is_read = request.get("content", {}).get("allow_stdin", True)

@@ -357,7 +357,7 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
         raise ValueError(f"a fan of {len(answers)} contours cannot be read; draw at most {MOST_VALUES}")
     every = max(1, -(-len(answers) // _LABELED))
     parts: list[Part] = []
-    named: list[tuple[tuple[TextRun, ...], list[Segment]]] = []
+    labelled: list[tuple[tuple[TextRun, ...], list[Segment]]] = []
     for number, (value, answer) in enumerate(zip(values, answers, strict=True)):
         own, role, is_solved = _trails(answer), _role(answer, Role.GIVEN), answer.contour is not None
         is_edge = number and (answers[number - 1].contour is None) == is_solved
@@ -365,10 +365,10 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
         weight = Weight.GHOST if not is_solved else Weight.MAIN if is_named else Weight.BESIDE
         parts += [replace(trail, role=role, weight=weight) for trail in own]
         if is_named:
-            named.append(((TextRun(f"{word}{value:g}", role),), [each for trail in own for each in trail.segments]))
+            labelled.append(((TextRun(f"{word}{value:g}", role),), [each for trail in own for each in trail.segments]))
             parts.append(Mark(own[-1].segments[-1].end, MarkKind.END))
-    places = _told_apart([path for _, path in named])
-    parts += [Mark(at, MarkKind.PLACE, text, text) for (text, _), at in zip(named, places, strict=True)]
+    places = _told_apart([path for _, path in labelled])
+    parts += [Mark(at, MarkKind.PLACE, text, text) for (text, _), at in zip(labelled, places, strict=True)]
     start = next((part.segments[0].start for part in parts if isinstance(part, Trail)), None)
     parts += [Mark(start, MarkKind.START, (TextRun("start", Role.INK),))] if start is not None else []
     told = statuses_text(Counter(answer.status for answer in answers))

@@ -128,7 +128,7 @@ def check(picture):
 
 
 def check_matrix(system):
-    """The order of the blocks makes the matrix triangular, what is solved is square, and the picture holds all of it."""
+    """The order of the blocks makes the matrix triangular, what is solved is square, and the picture can be read."""
     rows = [row for block in system.blocks for row in block.rows]
     columns = [column for block in system.blocks for column in block.columns]
     assert sorted(rows) == [*range(len(system.equations))]
