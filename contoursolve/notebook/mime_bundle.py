@@ -5,7 +5,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from contoursolve.diagnosis import Answer, EquationSystem
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem
 from contoursolve.diagnostics import Shown
 from contoursolve.families import Family, Feasible, Region
 from contoursolve.notebook.records import bounded, text_of
@@ -30,6 +30,8 @@ def bundle(record: Shown) -> dict[str, str]:
         shown["image/svg+xml"] = _made(_svg, record)
     if isinstance(record, EquationSystem):
         shown["text/latex"] = _made(_latex, record)
+    if isinstance(record, Derivation):
+        shown["text/latex"] = record.latex
     shown["text/html"] = _made(_html, record)
     return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}
 
