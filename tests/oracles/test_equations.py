@@ -403,7 +403,7 @@ def test_a_calculation_by_hand_is_latex():
     assert written.count("\\item ") == len(derivation.steps) == written.count("\\begin{align*}")
     assert written.count("{") == written.count("}")
     values = [f"{line.value:z.4f}" for step in derivation.steps for line in step.lines]
-    assert re.findall(r"= (-?[\d.]+)(?:\\,\\mathrm|\^)", written) == values
+    assert re.findall(r"= (-?[\d.]+)(?:\\,\\mathrm{mm}|\^{\\circ})(?: \\\\)?$", written, re.MULTILINE) == values
 
 
 def test_a_corner_that_has_nothing_to_end_on_has_no_equations():
