@@ -144,6 +144,11 @@ class EquationSystem(Shown):
         self.claim, self.profile, self._read_by, self._left_out = claim, profile, read_by, without
         self._system: System = assemble(profile)
 
+    @property
+    def dialect(self) -> Dialect:
+        """The control that reads it, as tables."""
+        return self._read_by.dialect
+
     # What it consists of -----------------------------------------------------------------------------------------
 
     @cached_property
@@ -176,6 +181,12 @@ class EquationSystem(Shown):
     def equations(self) -> tuple[Any, ...]:
         """The equations, of sympy: one for each word that states one, then those of the form itself."""
         return tuple(each.equation for each in self.statements)
+
+    @cached_property
+    def senses(self) -> tuple[Any, ...]:
+        """The expressions that must be positive besides, because the equations alone allow the opposite."""
+        at = symbolic_values(self._symbols, symbolic().FUNCTIONS, self._system.headed)
+        return tuple(each for fact in self._system.facts for each in fact.senses(at) if not each.is_number)
 
     @cached_property
     def corners(self) -> tuple[CornerSystem, ...]:
