@@ -63,6 +63,8 @@ from .gcode import (
     Word as Word,
 )
 from .notebook import (
+    Exercise as Exercise,
+    exercise as exercise,
     explore as explore,
     explore_map as explore_map,
     standing_alone as standing_alone,

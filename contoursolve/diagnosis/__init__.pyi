@@ -92,7 +92,10 @@ from .sample_drawing import (
     Equations as Equations,
     helping_words as helping_words,
 )
-from .slip_kinds import mistyped_codes as mistyped_codes
+from .slip_kinds import (
+    misreadings as misreadings,
+    mistyped_codes as mistyped_codes,
+)
 from .solutions import (
     Listed as Listed,
     Listing as Listing,
