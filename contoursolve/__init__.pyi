@@ -63,6 +63,8 @@ from .gcode import (
     Word as Word,
 )
 from .notebook import (
+    Exercise as Exercise,
+    exercise as exercise,
     explore as explore,
     explore_map as explore_map,
     standing_alone as standing_alone,
@@ -81,7 +83,9 @@ from .output import (
     rule_page as rule_page,
     start_text as start_text,
     stated_words as stated_words,
+    systems_to_json as systems_to_json,
     to_dxf as to_dxf,
+    to_smt as to_smt,
     tool_text as tool_text,
 )
 from .postprocess import (

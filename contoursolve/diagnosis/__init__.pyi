@@ -23,8 +23,10 @@ from .edits import (
     write_word as write_word,
 )
 from .equation_records import (
+    BlockState as BlockState,
     CornerSystem as CornerSystem,
     Equation as Equation,
+    SystemBlock as SystemBlock,
     SystemCondition as SystemCondition,
     SystemStep as SystemStep,
     SystemUnknown as SystemUnknown,
@@ -89,7 +91,10 @@ from .repairs import (
 from .sample_drawing import (
     helping_words as helping_words,
 )
-from .slip_kinds import mistyped_codes as mistyped_codes
+from .slip_kinds import (
+    misreadings as misreadings,
+    mistyped_codes as mistyped_codes,
+)
 from .solutions import (
     Listed as Listed,
     Listing as Listing,

@@ -1,6 +1,7 @@
 """The parts of a system of equations, as records: unknowns, values, equations, conditions, steps, corners."""
 
 from collections.abc import Mapping
+from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
@@ -104,6 +105,23 @@ class SystemStep(Struct, frozen=True):
     equations: tuple[Equation, ...]
     how: str
     is_closed: bool
+
+
+class BlockState(Enum):
+    """Fate of a block of a system: its unknowns are found, or stay open, or its equations repeat others."""
+
+    SOLVED = "solved"
+    OPEN = "open"
+    REPEATED = "repeated"
+
+
+class SystemBlock(Struct, frozen=True):
+    """A block of a system: its equations and its unknowns, by their numbers in `statements` and `unknowns`, which are
+    the rows and columns of `jacobian`. No unknowns where it repeats what others say."""
+
+    state: BlockState
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
 
 
 class CornerSystem(Struct, frozen=True):

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 from contoursolve.diagnosis.chosen_solution import Chosen, chosen_solution
 from contoursolve.diagnosis.edits import Edit, change, typed_text, with_value
 from contoursolve.diagnosis.equation_records import (
+    BlockState,
     CornerSystem,
     Equation,
     NullSpace,
+    SystemBlock,
     SystemCondition,
     SystemStep,
     SystemUnknown,
@@ -53,6 +55,7 @@ from contoursolve.solving import (
     TypedValues,
     analyse,
     axes_of,
+    blocks_of,
     build_function,
     circuits_of,
     conditions_of,
@@ -162,6 +165,11 @@ class EquationSystem(Shown):
     def __reduce__(self) -> Any:
         return EquationSystem, self._made_of()
 
+    @property
+    def dialect(self) -> Dialect:
+        """The control that reads it, as tables."""
+        return self._read_by.dialect
+
     # What it consists of -----------------------------------------------------------------------------------------
 
     @cached_property
@@ -194,6 +202,12 @@ class EquationSystem(Shown):
     def equations(self) -> "tuple[symbolic.Eq, ...]":
         """The equations, of sympy: one for each word that states one, then those of the form itself."""
         return tuple(each.equation for each in self.statements)
+
+    @cached_property
+    def senses(self) -> tuple[Any, ...]:
+        """The expressions that must be positive besides, because the equations alone allow the opposite."""
+        at = symbolic_values(self._symbols, symbolic.FUNCTIONS, self._system.headed)
+        return tuple(each for fact in self._system.facts for each in fact.senses(at) if not each.is_number)
 
     @cached_property
     def corners(self) -> tuple[CornerSystem, ...]:
@@ -316,6 +330,21 @@ class EquationSystem(Shown):
     def steps(self) -> tuple[SystemStep, ...]:
         """The steps in which the unknowns are found, one after the other; none where something is free."""
         return tuple(map(self._step, steps_of(self._system))) if self.is_determined else ()
+
+    @cached_property
+    def blocks(self) -> tuple[SystemBlock, ...]:
+        """The equations and unknowns in blocks, in the order in which they are solved: the Jacobian is triangular in
+        it. What stays open comes then, and last the equations that repeat others."""
+        groups, left, repeated = blocks_of(self._system, self._verdict)
+        rows = {id(fact): row for row, fact in enumerate(self._system.facts)}
+        columns = {name: column for column, name in enumerate(self._system.unknowns)}
+        told = [*((BlockState.SOLVED, group) for group in groups), (BlockState.OPEN, left)]
+        told.append((BlockState.REPEATED, Group(repeated, ())))
+        return tuple(
+            SystemBlock(state, tuple(rows[id(fact)] for fact in facts), tuple(columns[name] for name in unknowns))
+            for state, (facts, unknowns) in told
+            if facts or unknowns
+        )
 
     @cached_property
     def derivation(self) -> Derivation:

@@ -1,5 +1,6 @@
 """The sheet of a calculation by hand: its lines, with the triangles of which several steps are made."""
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from math import degrees, hypot
 from typing import Any
@@ -35,6 +36,8 @@ class CalculationLine(Struct, frozen=True):
     value: float
     unit: str
     meaning: str = ""
+    latex: str = ""
+    """The formula with numbers, for LaTeX."""
 
 
 class Calculation(Struct, frozen=True):
@@ -51,6 +54,33 @@ class Derivation(Shown, Struct, frozen=True):
     """The calculation of a contour by hand: `steps` find its points one after the other, then its corners."""
 
     steps: tuple[Calculation, ...]
+
+    @property
+    def latex(self) -> str:
+        """The calculation for LaTeX with amsmath: a numbered list of its steps, with their lines in `align*`."""
+        from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import
+
+        lines = ["\\begin{enumerate}"]
+        for step in self.steps:
+            rows = " \\\\\n".join(_latex_of(line, symbolic.latex, is_taken=step.is_searched) for line in step.lines)
+            lines += [f"\\item {_plain(step.title)}", "\\begin{align*}", rows, "\\end{align*}"]
+        return "\n".join([*lines, "\\end{enumerate}"])
+
+
+def _latex_of(line: CalculationLine, latex: Callable[[Any], str], *, is_taken: bool) -> str:
+    """A line with its formula, and below it the same with numbers."""
+    unit = {"deg": "^{\\circ}", "mm": "\\,\\mathrm{mm}"}.get(line.unit, "")
+    value = f"{line.value:z.4f}{unit}"
+    if is_taken:
+        return f"{latex(line.symbol)} &= {value}"
+    meaning = f" && \\text{{{_plain(line.meaning)}}}" if line.meaning else ""
+    numbers = "" if line.formula.is_Symbol else f"{line.latex} = "
+    return f"{latex(line.symbol)} &= {latex(line.formula)}{meaning} \\\\\n&= {numbers}{value}"
+
+
+def _plain(text: str) -> str:
+    """A text in which no character is a command of LaTeX."""
+    return re.sub(r"[&%$#_{}]", r"\\\g<0>", re.sub(r"[\\~^]", "", text))
 
 
 class HandSheet:
@@ -89,10 +119,10 @@ class HandSheet:
         """A line of the calculation; its symbol."""
         is_angle = unit == "deg"
         own = f"{name}_{self._number}" if isinstance(name, str) else name
-        numbers = self._sheet.numbers(formula)
+        numbers, latex = self._sheet.numbers(formula), self._sheet.latex(formula)
         symbol, value = self._sheet.put(own, formula, is_angle=is_angle)
         shown = degrees(value) if is_angle else value
-        self._lines.append(CalculationLine(symbol, formula, numbers, shown, unit, self._called(meaning)))
+        self._lines.append(CalculationLine(symbol, formula, numbers, shown, unit, self._called(meaning), latex))
         return symbol
 
     def _put_pair(self, symbols: Pair, formulas: Pair) -> None:

@@ -427,6 +427,9 @@ OPPOSITE = SlipKind(
     *("opposite", "the other way along the line", ",A-30. for ,A150.", 2.3, MEANING, _D),
     _angles(lambda angle: [angle - _HALF if angle >= _HALF else angle + _HALF]),
 )
+_DIAMETER = SlipKind(
+    *("diameter", "a diameter for a radius, or the reverse", "X25. for X50.", 2.6, MEANING, _D, _twice_or_half)
+)
 OTHER_AXIS = SlipKind(
     *("other-axis", "the angle from the other axis", ",A30. for ,A120.", 2.9, MEANING, _D),
     _angles(lambda angle: (angle + _QUARTER, _QUARTER - angle, angle - _QUARTER)),
@@ -472,7 +475,7 @@ FEW = (
     SlipKind("swapped", "two digits swapped", "Z-26. for Z-62.", 2.4, TYPING, _D, _swapped),
     OPPOSITE,
     SlipKind("across", "a diameter for a radius", "I8. for I4.", 1.8, MEANING, _D, _half_across),
-    SlipKind("diameter", "a diameter for a radius, or the reverse", "X25. for X50.", 2.6, MEANING, _D, _twice_or_half),
+    _DIAMETER,
     OTHER_AXIS,
 )
 """Kinds that leave few texts of each word."""
@@ -511,6 +514,18 @@ def texts_of(slip: SlipKind, typed: Typed | None) -> Iterator[str]:
         is_nothing = not match["number"].strip("0.") and speech.address(match) in speech.shapes
         if not (is_same or is_idle or is_nothing) and len(match["number"].partition(".")[2]) <= decimals:
             yield text
+
+
+def misreadings(word: Word, claim: ParsedContour) -> Iterator[tuple[str, str]]:
+    """Each word that somebody who misreads a drawing may take for this one, with what is mistaken, the likeliest
+    first."""
+    typed = Typed.of(word, Speech.of(claim))
+    kinds = [kind for kind in FEW if kind.sentence and (kind.why == MEANING or kind in (SIGN_LOST, SIGN_ADDED))]
+    if typed is not None and typed.speech.turned and not typed.is_diameter:
+        # A letter of radii on other forms may be a length along the part here.
+        kinds.remove(_DIAMETER)
+    for kind in sorted(kinds, key=lambda each: each.cost):
+        yield from ((text, kind.sentence) for text in texts_of(kind, typed))
 
 
 def _is_idle_turn(match: re.Match[str], typed: Typed) -> bool:

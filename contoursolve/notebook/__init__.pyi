@@ -1,5 +1,10 @@
 from . import mime_bundle as mime_bundle
 from .conversation import Conversation as Conversation
+from .exercises import (
+    Choice as Choice,
+    Exercise as Exercise,
+    exercise as exercise,
+)
 from .exploration import begin as begin
 from .explore import explore as explore, explore_map as explore_map
 from .open_products import (

@@ -65,7 +65,7 @@ def explore_map(found: Family | Region, result: str | None = None) -> "map_explo
     contour of these values is drawn beside it. A click opens the contour below, as `explore` does.
 
     `result` colours the map, as for `draw_family_map`. Without a kernel, as in exported HTML, the map still answers: it
-    holds at most 800 contours, and tells where they are. The traits are those of `explore`.
+    holds some of the contours, and tells where they are. The traits are those of `explore`.
 
     Raises ValueError for a family that is no grid of two words, and FamilyError for a result that is none. Raises
     MissingExtraError without the packages of `contoursolve[notebook]`.

@@ -10,7 +10,7 @@ import traitlets
 from contoursolve.diagnosis import Answer
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import Exploration, values_of
-from contoursolve.notebook.mime_bundle import bundle
+from contoursolve.notebook.mime_bundle import bundle, with_widget
 from contoursolve.output import notebook_style
 from contoursolve.program import Result
 
@@ -87,7 +87,6 @@ class Explorer(anywidget.AnyWidget):
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:
         """The widget, and beside it for whoever has no kernel the picture of the contour and its text."""
-        shown = super()._repr_mimebundle_(**options)
-        data, metadata = shown if isinstance(shown, tuple) else (shown or {}, {})
+        data, metadata = with_widget(super()._repr_mimebundle_(**options))
         now = self._conversation.exploration
         return {**data, **bundle(now.answer or now.result)}, metadata

@@ -10,7 +10,7 @@ from contoursolve.families import Family, Region
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import Exploration, begin
 from contoursolve.notebook.explorer import Explorer
-from contoursolve.notebook.mime_bundle import text_of
+from contoursolve.notebook.mime_bundle import text_of, with_widget
 from contoursolve.notebook.records import bounded
 from contoursolve.output import LiveMap, html_text, map_element, map_path, map_script, map_style
 
@@ -93,7 +93,7 @@ class MapExplorer(Explorer):
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:
         """The widget, and beside it for whoever has no kernel the map with the contours that it holds."""
-        data, metadata = super()._repr_mimebundle_(**options)
+        data, metadata = with_widget(super()._repr_mimebundle_(**options))
         shown = {
             "text/plain": bounded(text_of(self._record)),
             "text/html": html_text(map_element(self._live)),

@@ -5,14 +5,14 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from contoursolve.diagnosis import Answer, EquationSystem
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem
 from contoursolve.diagnostics import Shown
 from contoursolve.families import Family, Feasible, Region
 from contoursolve.notebook.records import bounded, text_of
 from contoursolve.program import Result
 from contoursolve.solving import Drawings, Drawn, Sketch
 
-__all__ = ["bundle", "plot", "text_of"]
+__all__ = ["bundle", "plot", "text_of", "with_widget"]
 
 _DRAWN = (Answer, Result, Family, Feasible, Region, Sketch, Drawings, Drawn)
 """Records with a picture."""
@@ -30,6 +30,8 @@ def bundle(record: Shown) -> dict[str, str]:
         shown["image/svg+xml"] = _made(_svg, record)
     if isinstance(record, EquationSystem):
         shown["text/latex"] = _made(_latex, record)
+    if isinstance(record, Derivation):
+        shown["text/latex"] = record.latex
     shown["text/html"] = _made(_html, record)
     return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}
 
@@ -67,9 +69,23 @@ def _latex(record: EquationSystem) -> str:
     return f"$\\displaystyle {system_latex(record)}$"
 
 
+def with_widget(bundled: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Data and metadata by which a widget is shown: nothing where a program executes the notebook, such as
+    `nbconvert --execute`. The page that it makes would show the widget, which is dead there, in place of a picture."""
+    data, metadata = bundled if isinstance(bundled, tuple) else (bundled or {}, {})
+    kernel: Any = getattr(_shell(), "kernel", None)
+    request = kernel.get_parent("shell") if hasattr(kernel, "get_parent") else {}
+    # Who executes notebooks lets no cell ask for input; where somebody reads along, it may.
+    is_read = request.get("content", {}).get("allow_stdin", True)
+    return (data if is_read else {}), metadata
+
+
 def _is_terminal() -> bool:
     """Whether IPython runs in a terminal, which shows text only."""
-    if "IPython" not in sys.modules:
-        return False
-    shell = import_module("IPython").get_ipython()
+    shell = _shell()
     return shell is not None and shell.display_formatter.active_types == ["text/plain"]
+
+
+def _shell() -> Any:
+    """The shell of IPython that runs this; None without one."""
+    return import_module("IPython").get_ipython() if "IPython" in sys.modules else None

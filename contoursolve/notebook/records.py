@@ -10,6 +10,7 @@ from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labe
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block, Program, Word
+from contoursolve.notebook.exercises import Exercise, exercise_lines
 from contoursolve.output import (
     Table,
     check_table,
@@ -233,4 +234,5 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Sketch: _sketch,
     EquationSystem: _system,
     Derivation: _derivation,
+    Exercise: exercise_lines,
 }

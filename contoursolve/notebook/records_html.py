@@ -11,6 +11,7 @@ from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, jo
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block
+from contoursolve.notebook.exercises import Exercise
 from contoursolve.notebook.records import (
     bounded,
     controls_of,
@@ -224,6 +225,16 @@ def _derivation(derivation: Derivation) -> Iterator[h.Node]:
     yield from derivation_element(derivation)
 
 
+def _exercise(made: Exercise) -> Iterator[h.Node]:
+    yield h.p[f"The tool stands at {made.start}"]
+    yield h.pre[made.block]
+    yield h.p[made.question]
+    yield h.ul[(h.li[f"{letter}: {choice.value:.3f}"] for letter, choice in made.letters)]
+    wrong = [(letter, f"{choice.value:.3f}", choice.why) for letter, choice in made.letters if choice.why]
+    told = table("Why the others come out", ("answer", "value", "because"), wrong, numbers=(1,))
+    yield h.details[h.summary["Solution"], h.p[f"{made.right} is right."], _derivation(made.solution), told]
+
+
 _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Result: _result,
     Answer: _answer,
@@ -244,4 +255,5 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Drawn: _sketch,
     EquationSystem: _system,
     Derivation: _derivation,
+    Exercise: _exercise,
 }

@@ -5,6 +5,7 @@ from math import degrees
 from typing import Any
 
 import sympy
+from sympy.printing.latex import LatexPrinter
 from sympy.printing.str import StrPrinter
 
 from contoursolve.numeric.symbolic import PositiveFirst, symbol
@@ -37,6 +38,18 @@ class Calculator:
         """A formula with the numbers in place of its symbols, angles in degrees."""
         return str(_Numbers(self).doprint(sympy.sympify(formula))).replace("**", "^")
 
+    def latex(self, formula: Any) -> str:
+        """The same for LaTeX."""
+        return str(_LatexNumbers(self).doprint(sympy.sympify(formula)))
+
+    def number(self, own: Any, degree: str) -> str:
+        """The value of a symbol as it stands in a formula, an angle with the sign for degrees."""
+        value = float(self.values[own])
+        if own in self.angles:
+            return f"{short(degrees(value))}{degree}"
+        text = short(value)
+        return f"({text})" if text.startswith("-") else text
+
 
 class _Numbers(PositiveFirst, StrPrinter):  # type: ignore[misc]
     """Text of a formula with numbers for symbols."""
@@ -46,11 +59,18 @@ class _Numbers(PositiveFirst, StrPrinter):  # type: ignore[misc]
         self._sheet = sheet
 
     def _print_Symbol(self, own: Any) -> str:  # noqa: N802 - the name that sympy looks for
-        value = float(self._sheet.values[own])
-        if own in self._sheet.angles:
-            return f"{short(degrees(value))} deg"
-        text = short(value)
-        return f"({text})" if text.startswith("-") else text
+        return self._sheet.number(own, " deg")
+
+
+class _LatexNumbers(PositiveFirst, LatexPrinter):  # type: ignore[misc]
+    """LaTeX of a formula with numbers for symbols."""
+
+    def __init__(self, sheet: Calculator) -> None:
+        super().__init__({"mul_symbol": "dot"})
+        self._sheet = sheet
+
+    def _print_Symbol(self, own: Any, style: str = "plain") -> str:  # noqa: ARG002, N802 - as sympy calls it
+        return self._sheet.number(own, "^{\\circ}")
 
 
 def short(value: float) -> str:

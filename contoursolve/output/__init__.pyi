@@ -38,6 +38,10 @@ from .equations import (
     equations_of as equations_of,
     system_lines as system_lines,
 )
+from .equations_exchange import (
+    systems_to_json as systems_to_json,
+    to_smt as to_smt,
+)
 from .equations_html import (
     system_element as system_element,
     system_latex as system_latex,

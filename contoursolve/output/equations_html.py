@@ -36,8 +36,8 @@ def system_element(system: EquationSystem) -> Iterator[h.Node]:
         yield h.p[f"{open_line(system).capitalize()}."]
         yield from [table_of(motion_table(system))] if system.null_space else []
     if system.conditions:
-        rows = [(printable(each.meaning), maths(each.expression), _value(each)) for each in system.conditions]
-        yield table("Conditions", ("what must hold", "must not be 0", "value here"), rows, numbers=(2,))
+        rows = [(maths(each.expression), printable(each.meaning), _value(each)) for each in system.conditions]
+        yield table("Conditions", ("must not be 0", "what must hold", "value here"), rows, numbers=(2,))
     yield from (h.p[f"{line.capitalize()}."] for line in large_lines(system))
     if system.ties:
         ties = [(" ".join(each.words), "" if each.identity is None else maths(each.identity)) for each in system.ties]
@@ -51,10 +51,19 @@ def system_element(system: EquationSystem) -> Iterator[h.Node]:
 
 
 def maths(expression: Any) -> h.Node:
-    """An expression, or an equation, as MathML with its text as the alternative."""
+    """An expression as MathML with its text as the alternative; an equation as two, so that a narrow page breaks it."""
+    if hasattr(expression, "rhs"):
+        return h.fragment[maths(expression.lhs), " ", _formula(expression.rhs, "=")]
+    return _formula(expression)
+
+
+def _formula(expression: Any, before: str = "") -> h.Element:
+    """One formula, which no page breaks, with a sign before it."""
+    alternative = " ".join(filter(None, (before, symbolic.text(expression))))
+    sign = f"<mo>{before}</mo>" if before else ""
     # Made by sympy of our own symbols: no text of a program.
-    alternative = symbolic.text(expression)
-    return h.math(xmlns="http://www.w3.org/1998/Math/MathML", alttext=alternative)[Markup(symbolic.mathml(expression))]
+    formula = Markup(sign + symbolic.mathml(expression))
+    return h.math(xmlns="http://www.w3.org/1998/Math/MathML", alttext=alternative)[formula]
 
 
 def _value(each: SystemCondition) -> str:

@@ -68,9 +68,9 @@ def map_page(record: Family | Region, result: str | None = None, *, version: str
     """A page of HTML with the map of a family over two words, or of a region. Pointer and arrow keys choose values, and
     the page draws their contour. `result` colours the map, as for `draw_family_map`.
 
-    The page asks no other host for anything. It holds at most 800 contours, and 400 kB of them; it says where they
-    are. Raises ValueError for a family that is no grid of two words, and FamilyError for a result that is none. Raises
-    MissingExtraError without the package of `contoursolve[report]`.
+    The page asks no other host for anything. It holds some of the contours, and says where they are. Raises ValueError
+    for a family that is no grid of two words, and FamilyError for a result that is none. Raises MissingExtraError
+    without the package of `contoursolve[report]`.
     """
     live = LiveMap(record, result)
     title, by = live.picture.title, f"contoursolve {version}".strip()

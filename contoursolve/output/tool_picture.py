@@ -23,7 +23,18 @@ from contoursolve.pictures import (
     number,
     remarks_of,
 )
-from contoursolve.solving import LEAST, ArcSegment, LineSegment, Point, Segment, along, direction, middle, on_arc
+from contoursolve.solving import (
+    LEAST,
+    ArcSegment,
+    LineSegment,
+    Point,
+    Segment,
+    along,
+    direction,
+    foot_on,
+    middle,
+    on_arc,
+)
 from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius import (
     NOTICED,
@@ -34,7 +45,6 @@ from contoursolve.tool_radius import (
     ToolReport,
     ToolRun,
     UncutRest,
-    foot_on,
     nearest,
     title_of,
     uncompensated,

@@ -10,6 +10,7 @@ from .drawing import (
     draw_drawings as draw_drawings,
     draw_family_fan as draw_family_fan,
     draw_family_map as draw_family_map,
+    draw_matrix as draw_matrix,
     draw_range as draw_range,
     draw_region as draw_region,
     draw_result as draw_result,

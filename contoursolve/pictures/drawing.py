@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, EquationSystem
 from contoursolve.pictures.compose import compose, describe, told_of
 from contoursolve.pictures.layout import lay_out
 from contoursolve.pictures.scene import Dimension, Part, ToolDrawing, Trail, Weight
@@ -23,16 +23,16 @@ if TYPE_CHECKING:
     from contoursolve.families import CompiledSweep, Family, Feasible, Region
     from contoursolve.solving import Drawings, Drawn, Sketch
 
-Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region | Sketch | Drawings | Drawn"
+Drawable: TypeAlias = "Answer | EquationSystem | Result | Family | Feasible | Region | Sketch | Drawings | Drawn"
 """Types that `draw` accepts."""
 
 
 def draw(
     record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None, beside: Sequence[ToolDrawing] = ()
 ) -> Picture:
-    """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, or
-    of every way to draw a sketch. `is_whole` is for a program: see `draw_result`. `beside` is what else is drawn
-    with contours.
+    """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, of
+    every way to draw a sketch, or of the matrix of a system. `is_whole` is for a program: see `draw_result`. `beside`
+    is what else is drawn with contours.
 
     Raises ValueError for a family that is no grid of two words, and for a sketch whose facts make no sense.
     """
@@ -49,6 +49,8 @@ def draw(
         return draw_drawings(record.solve() if isinstance(record, Sketch) else record, theme=theme)
     if isinstance(record, Region):
         return draw_region(record, theme=theme)
+    if isinstance(record, EquationSystem):
+        return draw_matrix(record, theme=theme)
     return draw_answer(record, theme=theme, beside=beside)
 
 
@@ -178,6 +180,14 @@ def draw_region(
     from contoursolve.pictures.maps import lay_out_region  # noqa: PLC0415 - as above
 
     return finish(lay_out_region(region, title, result), theme)
+
+
+def draw_matrix(system: EquationSystem, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of the Jacobian of a system: a row for each word, a column for each unknown, in the order of its
+    `blocks`. Raises ValueError for a system that is too large to be read."""
+    from contoursolve.pictures.matrix import describe_matrix, lay_out_matrix  # noqa: PLC0415 - as above
+
+    return finish(lay_out_matrix(system, title), theme, describe_matrix(system))
 
 
 def draw_drawings(drawings: Drawings | Drawn, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import PurePath
 
 from msgspec import Struct
@@ -18,7 +19,18 @@ from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.turned_part import crosses_axis, cylinders_of, turn_part
 from contoursolve.program import CycleProfile, Result
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, distance, shifted
+from contoursolve.solving import (
+    ArcSegment,
+    LineSegment,
+    Point,
+    Segment,
+    along,
+    distance,
+    foot_on,
+    minus,
+    on_arc,
+    shifted,
+)
 from contoursolve.tolerance import LENGTH
 
 MOST_CONTOURS = 400
@@ -40,6 +52,12 @@ MOST_VALUES = 48
 
 _LABELED = 7
 """Contours of a fan that are labelled, besides those beside which the outcome changes."""
+
+_SHARES = tuple(number / 16 for number in range(16, 3, -1))
+"""Shares of a path, from its end on, after which the contours of a fan may be labelled."""
+
+_WIDE = 2.5
+"""Heights of a label that it is wide."""
 
 
 class DrawnContour(Struct, frozen=True):
@@ -339,6 +357,7 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
         raise ValueError(f"a fan of {len(answers)} contours cannot be read; draw at most {MOST_VALUES}")
     every = max(1, -(-len(answers) // _LABELED))
     parts: list[Part] = []
+    labelled: list[tuple[tuple[TextRun, ...], list[Segment]]] = []
     for number, (value, answer) in enumerate(zip(values, answers, strict=True)):
         own, role, is_solved = _trails(answer), _role(answer, Role.GIVEN), answer.contour is not None
         is_edge = number and (answers[number - 1].contour is None) == is_solved
@@ -346,8 +365,10 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
         weight = Weight.GHOST if not is_solved else Weight.MAIN if is_named else Weight.BESIDE
         parts += [replace(trail, role=role, weight=weight) for trail in own]
         if is_named:
-            text = (TextRun(f"{word}{value:g}", role),)
-            parts.append(Mark(own[-1].segments[-1].end, MarkKind.END, text, text))
+            labelled.append(((TextRun(f"{word}{value:g}", role),), [each for trail in own for each in trail.segments]))
+            parts.append(Mark(own[-1].segments[-1].end, MarkKind.END))
+    places = _told_apart([path for _, path in labelled])
+    parts += [Mark(at, MarkKind.PLACE, text, text) for (text, _), at in zip(labelled, places, strict=True)]
     start = next((part.segments[0].start for part in parts if isinstance(part, Trail)), None)
     parts += [Mark(start, MarkKind.START, (TextRun("start", Role.INK),))] if start is not None else []
     told = statuses_text(Counter(answer.status for answer in answers))
@@ -359,3 +380,35 @@ def compose_fan(word: str, values: Sequence[float], answers: Sequence[Answer], t
         meanings={Role.GIVEN: "solved", Role.CONFLICTING: "no contour"},
         has_turning_axis=answers[0].plane.diameters[SECOND],
     )
+
+
+def _told_apart(paths: Sequence[Sequence[Segment]]) -> list[Point]:
+    """A place on each path, after the same share of its length: where those in a row differ most."""
+    rows = [[_after(share, path) for path in paths] for share in _SHARES]
+    return max(rows, key=lambda row: _least_apart(row, paths)) if len(paths) > 1 else rows[0]
+
+
+def _least_apart(places: Sequence[Point], paths: Sequence[Sequence[Segment]]) -> float:
+    """The least distance of the places from the paths beside them, and from one another.
+
+    A label is wide, so that places beside one another are nearer than those above one another.
+    """
+    found = []
+    for (at, own), (other, beside) in pairwise(zip(places, paths, strict=True)):
+        labels = max(abs(at[0] - other[0]) / _WIDE, abs(at[1] - other[1]))
+        found.append(min(labels, *(distance(at, foot_on(each, at)) for each in beside)))
+        found.append(min(distance(other, foot_on(each, other)) for each in own))
+    return min(found)
+
+
+def _after(share: float, path: Sequence[Segment]) -> Point:
+    """The place after a share of the length of a path."""
+    left = share * sum(each.length for each in path)
+    for each in path:
+        if left <= each.length:
+            part = left / each.length if each.length else 0.0
+            if isinstance(each, ArcSegment):
+                return on_arc(each, part)[0]
+            return along(each.start, minus(each.end, each.start), part)
+        left -= each.length
+    return path[-1].end

@@ -122,6 +122,23 @@ def groups_of(system: System) -> tuple[Group, ...]:
     return order(system, basis_of(system))
 
 
+def blocks_of(system: System, verdict: Determinacy) -> tuple[tuple[Group, ...], Group, tuple[Fact, ...]]:
+    """A system in its blocks: groups that are solved one after the other, the unknowns that stay open with the facts
+    about them, and facts that repeat others."""
+    basis = [system.facts[row] for row in verdict.basis]
+    known = [name for name in system.unknowns if name not in verdict.free]
+    about = [fact for fact in basis if not set(verdict.free).intersection(system.unknowns_of(fact))]
+    try:
+        groups = order(system, about, known)
+    except ValueError:  # some of them follow only from facts about what is open
+        groups, about, known = (), [], []
+    left = Group(
+        tuple(fact for fact in basis if fact not in about),
+        tuple(name for name in system.unknowns if name not in known),
+    )
+    return groups, left, tuple(fact for fact in system.facts if fact not in basis)
+
+
 @lru_cache(maxsize=256)
 def circuits_of(system: System) -> Mapping[Fact, tuple[Fact, ...]]:
     """For each fact beside the basis, the facts of the basis from which it follows, in order: one elimination tells it

@@ -2,7 +2,7 @@
 
 from math import atan2, cos, hypot, pi, sin, tau
 
-from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.solving.contour import ArcSegment, Segment, is_on
 from contoursolve.solving.solution import Point
 from contoursolve.tolerance import LENGTH
 
@@ -51,6 +51,15 @@ def foot(at: Point, on: Point, way: Point) -> Point:
     """The foot of the perpendicular from a point onto the line through another along a unit direction."""
     step = minus(at, on)
     return along(on, way, step[0] * way[0] + step[1] * way[1])
+
+
+def foot_on(segment: Segment, at: Point) -> Point:
+    """The place of an element that is nearest to a point."""
+    if isinstance(segment, ArcSegment):
+        there = along(segment.center, direction(segment.center, at), segment.radius)
+    else:
+        there = foot(at, segment.start, direction(segment.start, segment.end))
+    return there if is_on(segment, there) else min(segment.start, segment.end, key=lambda end: distance(end, at))
 
 
 def with_coordinate(at: Point, axis: int, value: float) -> Point:

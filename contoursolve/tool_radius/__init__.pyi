@@ -1,6 +1,5 @@
 from .clearance import (
     crossings as crossings,
-    foot_on as foot_on,
     nearest as nearest,
     split as split,
 )

@@ -18,6 +18,7 @@ from contoursolve.solving import (
     direction,
     extremes,
     foot,
+    foot_on,
     is_on,
     minus,
     way_to,
@@ -108,15 +109,6 @@ def crossings(one: Segment, other: Segment) -> Iterator[Point]:
         at, unit, square = along(one.center, way, reach), (-way[1], way[0]), one.radius**2 - reach**2
     if square >= 0:
         yield from (along(at, unit, sign * sqrt(square)) for sign in (1, -1))
-
-
-def foot_on(segment: Segment, at: Point) -> Point:
-    """The place of an element that is nearest to a point."""
-    if isinstance(segment, ArcSegment):
-        there = along(segment.center, direction(segment.center, at), segment.radius)
-    else:
-        there = foot(at, segment.start, direction(segment.start, segment.end))
-    return there if is_on(segment, there) else min(segment.start, segment.end, key=lambda end: dist(end, at))
 
 
 def _box(segment: Segment) -> tuple[float, float, float, float]:

@@ -10,11 +10,21 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Circle, Line, Turn, Values, dot, make_tangent
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, along, is_on, largest_fitting, middle, way_to
+from contoursolve.solving import (
+    ArcSegment,
+    LineSegment,
+    Point,
+    Segment,
+    along,
+    foot_on,
+    is_on,
+    largest_fitting,
+    middle,
+    way_to,
+)
 from contoursolve.tolerance import AGREEMENT, INCREMENT, LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import (
     crossings,
-    foot_on,
     gaps_below,
     split,
     square_to,

@@ -14,9 +14,8 @@ from contoursolve.controls import TOOL_FACTS, ToolEffect, ToolFacts
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane, Turn, cross
 from contoursolve.reading import Dialect, Effect, rows_of
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, foot_on
 from contoursolve.tolerance import AGREEMENT, LENGTH
-from contoursolve.tool_radius.clearance import foot_on
 from contoursolve.tool_radius.joint import TANGENT, direction, turn_of
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_of
 from contoursolve.tool_radius.tool_settings import settings_of

@@ -14,6 +14,7 @@ import re
 import shutil
 import subprocess
 import sys
+from base64 import b64decode
 from collections.abc import Iterator
 from html import escape
 from os.path import relpath
@@ -161,8 +162,12 @@ def notebook_page(path: Path) -> str:
         lines += [with_links(source, path), ""] if cell["cell_type"] == "markdown" else [*fenced(source, "python"), ""]
         for output in cell.get("outputs", ()):
             data = output.get("data", {})
-            drawn = "".join(data.get("image/svg+xml", ""))
-            if drawn:
+            drawn, painted = ("".join(data.get(kind, "")) for kind in ("image/svg+xml", "image/png"))
+            if painted:
+                name = f"{path.stem}-{number}.png"
+                write(f"notebooks/{name}", b64decode(painted))
+                lines += [f"![What this code draws]({name})", ""]
+            elif drawn:
                 name = f"{path.stem}-{number}.svg"
                 write(f"notebooks/{name}", drawn)
                 title = re.search("<title[^>]*>(.*?)</title>", drawn)

@@ -22,14 +22,11 @@ CHECKS = Path(__file__).parent / "notebook_checks"
 SECONDS = 300
 """For one cell, on a loaded machine."""
 
-WIDGET = "application/vnd.jupyter.widget-view+json"
-"""A widget lives in a kernel, and has another name in each; what it shows without one stays."""
-
 
 def execute(path: Path) -> "nbformat.NotebookNode":
     """The notebook with the outputs that a clean kernel gives it; raises CellExecutionError.
 
-    What tells of the machine and of the moment is left out: versions, times, the names of widgets.
+    What tells of the machine and of the moment is left out: versions and times.
     """
     import nbformat  # noqa: PLC0415
     from nbclient import NotebookClient  # noqa: PLC0415
@@ -49,9 +46,6 @@ def execute(path: Path) -> "nbformat.NotebookNode":
     client.execute()
     notebook.cells.remove(check)
     notebook.metadata["language_info"] = {"name": "python"}
-    for cell in notebook.cells:
-        for output in cell.get("outputs", ()):
-            output.get("data", {}).pop(WIDGET, None)
     return notebook
 
 

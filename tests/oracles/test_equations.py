@@ -1,5 +1,6 @@
 """The system on the table: its equations, conditions and functions, against contours, ranks and families."""
 
+import re
 from decimal import Decimal
 from math import pi
 from random import Random
@@ -393,6 +394,16 @@ def test_what_nobody_calculates_by_hand_is_told(block, start, control, told):
     for answer in contoursolve.solve(block, start=start, control=control).answers:
         if answer.contour:
             assert any(told in step.title for step in answer.system.derivation.steps)
+
+
+def test_a_calculation_by_hand_is_latex():
+    derivation = contoursolve.system("G111 X100. A180. K-30. B120. P5. (#1)", start=START).derivation
+    written = derivation.latex
+    assert "(-30) + \\frac{50 - 20}{\\tan{\\left(120^{\\circ} \\right)}} = -47.3205\\,\\mathrm{mm}" in written
+    assert written.count("\\item ") == len(derivation.steps) == written.count("\\begin{align*}")
+    assert written.count("{") == written.count("}")
+    values = [f"{line.value:z.4f}" for step in derivation.steps for line in step.lines]
+    assert re.findall(r"= (-?[\d.]+)(?:\\,\\mathrm{mm}|\^{\\circ})(?: \\\\)?$", written, re.MULTILINE) == values
 
 
 def test_a_corner_that_has_nothing_to_end_on_has_no_equations():

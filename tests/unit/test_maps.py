@@ -8,6 +8,7 @@ import sys
 from html import unescape
 from html.parser import HTMLParser
 from math import hypot
+from pathlib import Path
 
 import numpy
 import pytest
@@ -17,6 +18,7 @@ from test_pictures import check, labels, strokes
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis import statuses_text
+from contoursolve.output.map_frames import MOST_BYTES, MOST_FRAMES
 from contoursolve.pictures import (
     LEVELS,
     Role,
@@ -27,6 +29,8 @@ from contoursolve.pictures import (
     draw_region,
     draw_sweep,
 )
+from contoursolve.pictures.overview import compose_fan
+from contoursolve.pictures.scene import Mark
 from contoursolve.solving import StatusCode
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
@@ -312,6 +316,13 @@ def test_a_fan_shows_each_contour_and_names_where_the_outcome_changes():
     picture = draw_family_fan("A", values, answers)
     check(picture)
     assert {"A120", "A140", "A200"} <= set(labels(picture))
+    # All end at one place: they are told apart where the rounding is.
+    roundings = [10.0, 20.0, 30.0, 40.0]
+    alike = [contoursolve.solve(BLOCK.replace("P5.", f"P{value}"), start=START).answers[0] for value in roundings]
+    assert len({answer.contour.end for answer in alike}) == 1
+    fan = compose_fan("P", roundings, alike, None)
+    named = {part.label[0].text: part.at for part in fan.parts if isinstance(part, Mark) and part.label}
+    assert len({named[f"P{value:g}"] for value in roundings}) == len(roundings)
     with pytest.raises(ValueError, match="a value for each"):
         draw_family_fan("A", values[:2], answers)
     check(draw_family_fan("A", values[:6] * 8, answers[:6] * 8))
@@ -402,6 +413,11 @@ def test_a_page_asks_no_other_host_and_lets_nothing_out_of_its_texts():
         assert "stolen" not in "".join(told for _, told in found.scripts)
         assert set(re.findall(r"https?://[^\"' )]+", text)) <= {"http://www.w3.org/2000/svg"}
     assert "default-src 'none'" in unescape(page)
+
+
+def test_the_page_about_maps_tells_how_many_contours_one_holds():
+    page = (Path(__file__).parents[2] / "docs" / "python.md").read_text(encoding="utf-8")
+    assert f"at most {MOST_FRAMES} contours and {MOST_BYTES // 1000} kB" in page
 
 
 @pytest.mark.parametrize("name", PAGES)

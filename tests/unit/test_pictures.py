@@ -15,6 +15,7 @@ from fuzzing import CONTROLS, examples, mutate
 
 import contoursolve
 from contoursolve.__main__ import commands
+from contoursolve.diagnosis import BlockState
 from contoursolve.pictures import (
     DARK_COLORS,
     LEVELS,
@@ -27,6 +28,7 @@ from contoursolve.pictures import (
     compose,
     draw,
     draw_answer,
+    draw_matrix,
     draw_result,
 )
 
@@ -123,6 +125,49 @@ def check(picture):
     names = [each.get("id") for each in tree.iter() if each.get("id")]
     assert len(names) == len(set(names))
     return tree
+
+
+def check_matrix(system):
+    """The order of the blocks makes the matrix triangular, what is solved is square, and the picture can be read."""
+    rows = [row for block in system.blocks for row in block.rows]
+    columns = [column for block in system.blocks for column in block.columns]
+    assert sorted(rows) == [*range(len(system.equations))]
+    assert sorted(columns) == [*range(len(system.unknowns))]
+    for number, block in enumerate(system.blocks):
+        if block.state is not BlockState.REPEATED:
+            later = [column for other in system.blocks[number + 1 :] for column in other.columns]
+            assert not any(system.jacobian[row, column] for row in block.rows for column in later)
+        if block.state is BlockState.SOLVED:
+            assert len(block.rows) == len(block.columns)
+            assert system.jacobian.extract(list(block.rows), list(block.columns)).rank() == len(block.rows)
+    repeated = [block for block in system.blocks if block.state is BlockState.REPEATED]
+    assert system.rank == len(rows) - sum(len(block.rows) for block in repeated)
+    assert {str(each) for each in system.free} <= {
+        str(system.unknowns[column].symbol)
+        for block in system.blocks
+        if block.state is BlockState.OPEN
+        for column in block.columns
+    }
+    check(draw(system))
+
+
+WORDS_OF_TWO_LINES = {"A": "A160.", "I": "I10.919", "K": "K-30.", "B": "B120.", "X": "X101.838", "Z": "Z-41.547"}
+
+
+@pytest.mark.parametrize("letters", ["ABX", "AIK", "AIKB", "ABXZ", "AIKBXZ", "KB"])
+def test_the_matrix_of_words_and_unknowns_is_in_the_order_of_its_blocks(letters):
+    block = " ".join(["G111", *(WORDS_OF_TWO_LINES[letter] for letter in letters)])
+    check_matrix(contoursolve.system(block, start="X40. Z0.", rules="off"))
+
+
+@pytest.mark.slow
+def test_the_matrix_of_a_pair_and_of_a_fact_is_in_the_order_of_its_blocks():
+    pair = contoursolve.solve("G3 X0 Y40 I-40 J0\nG1 X-60 Y50 ,A170 Q-1", start="G42 X40 Y0", control="nct-99m")
+    check_matrix(pair.answers[0].system)
+    facts = ["straight part of line 2 = 20"]
+    asked = contoursolve.solve("G111 X100. A180. K-30. B120. P?", start="X40. Z0.", facts=facts).answers[0].system
+    check_matrix(asked)
+    assert "7. Z_corner1_begin" in draw_matrix(asked).description
 
 
 def check_drawing(answer):
