@@ -92,7 +92,7 @@ class Region(Shown, Struct, frozen=True, eq=False):
 
     def family(self, columns: int | None = None, rows: int | None = None) -> Family:
         """The contours at evenly spaced values of both words, as many as `outcomes` has unless it is told: for
-        results, such as `region.family()["V2.Z"]`. Raises FamilyError for less than two values of a word."""
+        results, such as `region.family()["V2 Z"]`. Raises FamilyError for less than two values of a word."""
         own = self.outcomes.shape
         counts = own[0] if columns is None else columns, own[1] if rows is None else rows
         if min(counts) < 2:  # noqa: PLR2004 - both ends
