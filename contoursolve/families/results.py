@@ -125,7 +125,12 @@ class ResultNames:
         """The name of a result as it is printed. Raises FamilyError, as `column`."""
         column = self.column(name)
         is_column = name in self.columns or column.startswith(ASKED)
-        return self._printed(column) if is_column else write_result(self.read(name), self.plane)
+        return self._printed(column) if is_column else self.written(self.read(name))
+
+    def written(self, read: ResultName) -> str:
+        """The name as it is printed. An arc has no straight part; what corners leave of it goes by its column."""
+        column = self._column_of(read) or ""
+        return self._printed(column) if column.endswith(ROOM) else write_result(read, self.plane)
 
     def _column_of(self, read: ResultName) -> str | None:
         """The column of a result; empty for the length of the path, None without one."""

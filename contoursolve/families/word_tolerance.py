@@ -196,7 +196,7 @@ def _read_kept(text: str, answer: Answer) -> _Kept | ResultName:
         return _Kept(text, "deg" if asked.question.unit is Unit.DEGREE else unit.value, (value,))
     names = ResultNames(answer.profile, results_of(CaseClass(answer.profile, None, {}, is_closed=False)))
     read = names.read(text)
-    told = write_result(read, answer.plane)
+    told = names.written(read)
     if read.point is None:
         if read.quantity is not None and not isinstance(read.quantity, StraightIs):
             return read
