@@ -16,7 +16,7 @@ from contoursolve.diagnosis import Answer, Depth, join, named_in_program, typed_
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
-from contoursolve.gcode import FACT, Directive, Program, Word, call
+from contoursolve.gcode import FACT, Directive, Program, Word, call, words_called
 from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run, start_text
 from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.solving import Point
@@ -205,11 +205,11 @@ def read_word(name: str, template: Template) -> tuple[str, Word]:
     if subject_of(text) in stated or blank:
         fact = stated.get(subject_of(text))
         return subject_text(fact.text if fact is not None else text), _fact_of(text, stated)
-    line, _, address = text.rpartition(":")
+    line = text.rpartition(":")[0]
     if line and not line.isdecimal():
         told = "; N names a block, LINE is the line of the program, from 1" if line.startswith("N") else ""
         raise FamilyError(f"{name} names no word; write its letter, or LINE:LETTER such as 2:,A{told}")
-    word = _only(address, words, "the block", line)
+    word = _only(text, words, "the block", line)
     return call(word, words), word
 
 
@@ -229,8 +229,8 @@ def _words_of(program: Program) -> list[Word]:
     return [word for block in program.blocks for word in block.words if word.address not in _NEVER]
 
 
-def _only(address: str, words: Sequence[Word], where: str, line: str) -> Word:
-    same = [word for word in words if word.address == address and (not line or word.span.line == int(line))]
+def _only(name: str, words: Sequence[Word], where: str, line: str) -> Word:
+    same, address = words_called(name, words), name.rpartition(":")[2]
     if len(same) != 1:
         have = ", ".join(call(word, words) for word in words)
         if len({word.span.line for word in same}) == len(same) > 1:
