@@ -376,6 +376,8 @@ def spec_of(  # noqa: PLR0913 - what `family` takes
     branches: Branches = Branches.CHOSEN,
 ) -> SweepSpec:
     """The spec of a block with the words of these names free; a text alone is one fact."""
+    # What `solve` says of these, before they are sorted.
+    SolveOptions(start=start, facts=facts, settings=settings, variables=variables).check_types()
     stated = (facts,) if isinstance(facts, str) else tuple(facts)
     options = tuple(sorted((settings or {}).items()))
     known = tuple((name.strip().upper(), float(value)) for name, value in (variables or {}).items())

@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import inward, short_name
-from contoursolve.diagnostics import Shown, plot_on
+from contoursolve.diagnostics import Shown, check_type, plot_on
 from contoursolve.families.block_template import BlockOptions, RefusedError, SweepSpec, Template, spec_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords, premises_of
@@ -122,6 +122,8 @@ def region(
     >>> [each.reason.text for each in found.boundaries]
     ['P is too large for the second straight', 'P is too large for the first straight']
     """
+    check_type("words", words, Sequence, "two words, such as ('A', 'P')")
+    check_type("within", within, Sequence, "two ranges, such as ((150, 210), (1, 60))")
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")
     spec = spec_of(block, words, **options)

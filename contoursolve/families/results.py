@@ -158,7 +158,7 @@ class ResultNames:
 
 
 class NamedResults(dict[str, Any]):
-    """What a record has for each result: by the names as they are printed, and by all others that a result has."""
+    """Values of a record for each result: by the names as they are printed, and by all others that a result has."""
 
     def __init__(self, names: ResultNames, values: Mapping[str, Any]) -> None:
         super().__init__(values)
@@ -199,7 +199,7 @@ def read_point(name: str, names: ResultNames) -> PointName:
 
 
 def _told(error: GrammarError) -> str:
-    """What is wrong in a name, of which the beginning is known."""
+    """The fault of a name of which the beginning is known; empty for another one."""
     return f"{error}; " if error.begin or not str(error).startswith("expected") else ""
 
 

@@ -6,6 +6,7 @@ from math import dist
 
 from contoursolve.api import solve
 from contoursolve.diagnosis import Answer
+from contoursolve.diagnostics import checked
 from contoursolve.output import start_text
 from contoursolve.program import configure, find_dialect
 from contoursolve.reading import Dialect
@@ -18,6 +19,7 @@ _ROUNDED = 0.005
 """mm. What the rounding of a start point may move the end."""
 
 
+@checked
 def standing_alone(
     answer: Answer,
     *,

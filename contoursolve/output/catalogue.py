@@ -7,7 +7,7 @@ from typing import Any
 from msgspec import Struct
 
 from contoursolve.diagnosis import tabulate
-from contoursolve.diagnostics import Alarm, Source, members
+from contoursolve.diagnostics import Alarm, Source, check_type, members
 from contoursolve.output.plain_text import columns
 from contoursolve.reading import THIS_CONTROL, Dialect, Rule, ZeroMove, ZeroRow
 
@@ -142,6 +142,7 @@ def rule_page(code: str, dialects: Iterable[Dialect]) -> str:
 
     It names the place in the manual of each control that has the rule. Raises LookupError if none has it.
     """
+    check_type("code", code, str)
     found = [(each, rule) for each in dialects for rule in each.catalogue if rule.code == code]
     if not found:
         raise LookupError(f"no rule has the code {code!r}")

@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count
-from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
+from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span, checked
 from contoursolve.gcode import Block
 from contoursolve.output.contours import given_table, path_of
 from contoursolve.output.html import (
@@ -95,6 +95,7 @@ def _find_places(result: Result, tool: "ToolReport | None") -> PageAnchors:
     )
 
 
+@checked
 def report_page(
     result: Result,
     version: str,

@@ -150,7 +150,6 @@ def write_result(name: ResultName, plane: Plane) -> str:
 
 
 _LENGTH = "length"
-_AXIS = re.compile(r"[\s.]*[A-Za-z]\s*$")
 
 
 class _Reader:
@@ -172,10 +171,10 @@ class _Reader:
                 return ResultName(quantity=StraightIs(element, None))
         point = self._point()
         if point is not None:
-            other = _AXIS.match(self.text, self.at)
-            if other is not None:
+            letter = self.text[self.at :].strip(" .")
+            if len(letter) == 1 and letter.isalpha():
                 axes = " and ".join(self.words.plane.axes)
-                raise GrammarError(f"the axes of this contour are {axes}", self.at, other.end())
+                raise GrammarError(f"the axes of this contour are {axes}", self.at, len(self.text))
             return ResultName(point)
         if self._accept(_LENGTH):
             return ResultName()
