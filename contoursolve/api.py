@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from io import BytesIO
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -13,7 +14,7 @@ from msgspec.structs import replace
 from contoursolve import diagnosis, gcode, program as programs
 from contoursolve.controls import ControlName
 from contoursolve.diagnosis import Depth
-from contoursolve.diagnostics import Diagnostic, LateModule, choice_of
+from contoursolve.diagnostics import Diagnostic, LateModule, check_type, choice_of
 from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
 from contoursolve.program import (
     CheckKeywords,
@@ -68,6 +69,7 @@ def parse(text: str, *, name: str = "<program>") -> Program:
     >>> parse("G111 X100. A180. K-30. B120.").blocks[0].words[1].text
     'X100.'
     """
+    check_type("text", text, str)
     return gcode.parse(text, name)
 
 
@@ -230,6 +232,7 @@ def check_file(
 
 
 def _follow_file(path: str | Path, options: SolveOptions) -> Run:
+    check_type("path", path, str | PathLike, 'the name of a file, such as "part.nc"')
     folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
     program = read_program(path)
     stated = stated_settings(block.text for block in program.blocks) | dict(options.settings or {})
@@ -242,6 +245,7 @@ def solve_program(
     **options: Unpack[SolveKeywords],
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
+    check_type("program", program, Program)
     return follow_options(program, SolveOptions(**options)).collect()
 
 
@@ -350,6 +354,7 @@ def expand(
     G01 X50. Z-32.887
     G01 X100. Z-47.321
     """
+    check_type("text", text, str)
     # Only this function needs them.
     from contoursolve.postprocess import (  # noqa: PLC0415  # noqa: PLC0415
         Arcs,
@@ -462,6 +467,7 @@ def read_program(path: str | Path) -> Program:
 
     Raises UnreadableProgramError if there is no such file, or it is not text.
     """
+    check_type("path", path, str | PathLike, 'the name of a file, such as "part.nc"')
     name = str(path)
     text = decode(gcode.read_bytes(name, "a program file", gcode.MOST_OF_PROGRAM), name)
     return gcode.parse(text, "<standard input>" if name == STANDARD_INPUT else name)

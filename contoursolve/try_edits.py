@@ -12,6 +12,7 @@ from contoursolve import gcode
 from contoursolve.api import follow_program, parse, solve
 from contoursolve.controls import DIALECTS, ControlName
 from contoursolve.diagnosis import Edit, EditKind, change, drop, edited, find_repairs
+from contoursolve.diagnostics import checked
 from contoursolve.gcode import Program
 from contoursolve.program import Result, Rules, Units, choose
 from contoursolve.reading import THIS_CONTROL, Dialect, Rule
@@ -32,6 +33,7 @@ class Completion(Struct, frozen=True):
     contour: Contour | None
 
 
+@checked
 def what_if(
     block: str,
     *,
@@ -77,6 +79,7 @@ def _edit(program: Program, address: str, text: str) -> Edit:
     return change(words[0], text) if text else drop(words[0])
 
 
+@checked
 def completions(
     block: str,
     *,

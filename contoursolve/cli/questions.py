@@ -47,7 +47,7 @@ from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools, leas
     multiple=True,
     required=True,
     metavar="WORD",
-    help="A word of the block, such as P, or 2:,A for program line 2; start.X of the start point; a fact, by what it "
+    help="A word of the block, such as P, or 2:,A for program line 2; 'start X' of the start point; a fact, by what it "
     "gives the value of. Given twice, the region of both. 'tool' is the radius of the tool that cuts it.",
 )
 @click.option(
@@ -126,7 +126,7 @@ def range_(
     "--word",
     required=True,
     metavar="WORD",
-    help="A word of the block, such as A, or 2:,A for program line 2; start.X of the start point; a fact, by what it "
+    help="A word of the block, such as A, or 2:,A for program line 2; 'start X' of the start point; a fact, by what it "
     "gives the value of. 'tool' is the largest tool for all contours of PROGRAM, or of the block.",
 )
 @click.option(

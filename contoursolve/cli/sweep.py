@@ -174,8 +174,8 @@ def size(count: float) -> str:
     metavar="WORD=VALUES",
     help="A word of the block and its values, as they stand: START:STOP:STEP with both ends, V1,V2,..., or "
     "@FILE:COLUMN, a column of a CSV or Parquet file; may be repeated. Where several blocks have the word, LINE:WORD, "
-    "such as 2:,A=10:20:1; start.X is the X of --start, and 'length of line 1' the value of that --fact. 'tool' is the "
-    "radius of a tool: for each contour, whether that one cuts it.",
+    "such as 2:,A=10:20:1; 'start X' is the X of --start, and 'length of line 1' the value of that --fact. 'tool' is "
+    "the radius of a tool: for each contour, whether that one cuts it.",
 )
 @side_options
 @fact_option
@@ -191,8 +191,8 @@ def size(count: float) -> str:
 @click.option(
     "--result",
     metavar="NAME",
-    help="With --plot, colour the map of two words by a result, with lines of equal value: a column of FILE such as "
-    "V2.Z or 'line 1.room', the end of the path (end.Z), or its length.",
+    help="With --plot, colour the map of two words by a result, with lines of equal value: a coordinate such as "
+    "'V2 Z' or 'end X', 'straight part of line 1', or the length of the path.",
 )
 @theme_option
 @click.option(
@@ -230,10 +230,9 @@ def sweep_(
     """Solve one contour for many values of some of its words, and count what becomes of it.
 
     The words in --vary stand in the block with any value. FILE gets a row for each set of values: the words, status,
-    reason, all points and corners. The words are as written: in the unit of the block, X of a lathe as diameter. The
-    row also has the room left on each element, and by how much the equations are off at most. All else is in mm, with X
-    of a lathe as radius. Where the control refuses the block for any value, sweep prints its findings as solve does,
-    and no rows.
+    reason, all points and corners. The words are as written, in the unit of the block. The row also has the room left
+    on each element, and by how much the equations are off at most. All else is in mm. X of a lathe is a diameter in
+    both. Where the control refuses the block for any value, sweep prints its findings as solve does, and no rows.
 
     Until FILE is whole, sweep keeps finished rows beside it, in a folder .FILE.NUMBER.parts. After Ctrl-C, SIGTERM or a
     crash the same command goes on where it stopped. sweep names the folders that other sweeps have left.

@@ -11,6 +11,7 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.legality_table import legal_samples
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.subsets import smallest_sets
+from contoursolve.diagnostics import checked
 from contoursolve.geometry import assemble
 from contoursolve.reading import Dialect, ParsedContour, check, read, stating
 from contoursolve.solving import Contour, analyse
@@ -58,6 +59,7 @@ class LegalBlock(Struct, frozen=True):
     text: str
 
 
+@checked
 def words_to_add(answer: Answer, dialect: Dialect) -> tuple[Addition, ...]:
     """Every word that the blocks of a contour may still take: no rule refuses it beside the others, and they do not say
     already what it says.
@@ -88,6 +90,7 @@ def words_to_add(answer: Answer, dialect: Dialect) -> tuple[Addition, ...]:
     return tuple(found)
 
 
+@checked
 def ways_to_complete(answer: Answer, dialect: Dialect) -> tuple[tuple[str, ...], ...]:
     """The smallest sets of addresses that complete the blocks of a contour, each refused by no rule; nothing for one
     that is complete.
@@ -104,6 +107,7 @@ def ways_to_complete(answer: Answer, dialect: Dialect) -> tuple[tuple[str, ...],
     )
 
 
+@checked
 def legal_blocks(dialect: Dialect) -> tuple[LegalBlock, ...]:
     """Examples of all forms of a control; the smallest sets of words of each."""
     return tuple(

@@ -29,7 +29,7 @@ from contoursolve.diagnosis.smallest_sets import smallest_sets
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
 from contoursolve.diagnostics import LateModule, Shown, Span
-from contoursolve.gcode import FACT
+from contoursolve.gcode import FACT, words_called
 from contoursolve.geometry import (
     Corner,
     CornerShape,
@@ -652,17 +652,10 @@ class EquationSystem(Shown):
     def _named(self, key: str) -> list[Given]:
         """The values that a word states, by its key or its symbol. Raises ValueError."""
         keys = word_keys(self.claim.words.values())
-        found = [
-            given
-            for given in self.profile.givens.values()
-            if given.word is not None
-            and key
-            in (
-                keys.get(given.word.span),
-                f"{given.word.span.line}:{given.word.address}",
-                self._names.get(given.name),
-            )
-        ]
+        called = {word.span for word in words_called(key, self.claim.words.values())}
+        spans = called if len(called) == 1 else set()
+        stated = [(given, given.word) for given in self.profile.givens.values() if given.word is not None]
+        found = [given for given, word in stated if word.span in spans or self._names.get(given.name) == key]
         if not found:
             known = dict.fromkeys(keys.values())
             raise ValueError(f"{key} is no word of the contour; its words are {join(list(known))}")

@@ -10,7 +10,7 @@ from functools import cache, partial
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import number_text
-from contoursolve.diagnostics import Diagnostic
+from contoursolve.diagnostics import Diagnostic, checked
 from contoursolve.gcode import FACT, Block, late_pattern
 from contoursolve.geometry import FIRST, SECOND, Arc, CornerShape, Line, Profile, Unit
 from contoursolve.reading import ParsedContour
@@ -72,6 +72,7 @@ def named_in_program(findings: Iterable[Diagnostic], claim: ParsedContour, profi
     return tuple(each if each.span in places or each.span.line <= 0 else renamed(each) for each in findings)
 
 
+@checked
 def called_in_program(profile: Profile, *, has_values: bool = True) -> Callable[[str], str]:
     """A function that calls the straights, arcs and corners in a text by what stands in the program.
 

@@ -16,6 +16,7 @@ from contoursolve.diagnosis.examine import (
     is_rounded,
     list_alternatives,
 )
+from contoursolve.diagnostics import check_type
 from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Pick
 from contoursolve.solving import (
@@ -94,6 +95,7 @@ def list_solutions(answer: Answer) -> Listing | None:
     >>> len(listing.solutions), listing.is_complete
     (1, True)
     """
+    check_type("answer", answer, Answer)
     alternatives = list_alternatives(answer)
     if alternatives is None:
         if answer.contour is None or answer.certificate is None:

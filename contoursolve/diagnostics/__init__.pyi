@@ -1,4 +1,6 @@
 from .choices import (
+    check_type as check_type,
+    checked as checked,
     choice_of as choice_of,
     did_you_mean as did_you_mean,
     names_like as names_like,

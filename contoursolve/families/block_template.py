@@ -1,5 +1,6 @@
 """Template of a block with free words, and how it is read: plain data, from which any process makes the same."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal, InvalidOperation
@@ -15,7 +16,7 @@ from contoursolve.diagnosis import Answer, Depth, join, named_in_program, typed_
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
-from contoursolve.gcode import FACT, Directive, Program, Word, call
+from contoursolve.gcode import FACT, Directive, Program, Word, call, words_called
 from contoursolve.program import (
     Request,
     Result,
@@ -159,6 +160,8 @@ class Template(Struct, frozen=True, eq=False):
 
     def filled(self, values: Mapping[str, float]) -> "Template":
         """The block with these values written in it, and no word free."""
+        if unknown := values.keys() - self.words.keys():
+            raise KeyError(f"{', '.join(unknown)}: the free words are {', '.join(self.words)}")
         words, spelling = self.words.items(), self.program.syntax.words
         texts = {name: with_value(word, typed_text(values[name]), spelling) for name, word in words if name in values}
         return self.typed(texts)
@@ -187,32 +190,42 @@ class Template(Struct, frozen=True, eq=False):
 
 
 def find_words(template: Template, names: Sequence[str]) -> dict[str, Word]:
-    """The words that names such as `A`, `,A`, `2:,A` (of line 2), `start.X` or `length of line 1` (a fact) speak of.
-    Raises FamilyError if one does not say which."""
-    found: dict[str, Word] = {}
-    program, start, facts = template.program, template.asked.start, template.asked.facts
+    """The words of some names, by the names under which they are printed (see `read_word`). Raises FamilyError if one
+    does not say which, or two name one."""
+    read = [read_word(name, template) for name in names]
+    if len({word.span for _, word in read}) < len(read):
+        raise FamilyError(f"{' and '.join(names)} name a word twice")
+    return dict(read)
+
+
+def read_word(name: str, template: Template) -> tuple[str, Word]:
+    """A word by its name, with the name under which it is printed: `A`, `,A`, `2:,A` (of line 2), a variable,
+    `start X`, or `length of line 1` (of a fact, what it gives the value of). Raises FamilyError, which names those that
+    fit."""
+    text, program, start = name_of(name), template.program, template.asked.start
     words = _words_of(program)
-    stated = {
-        subject_of(each.text): each
-        for each in (*facts, *(each for block in program.blocks for each in block.directives))
-        if "=" in each.text
-    }
-    for name in names:
-        head, _, address = name.rpartition(".")
-        if name in template.variables:
-            found[name] = _at(template.variables[name], words)
-        elif " " in name:
-            found[name] = _fact_of(name, stated)
-        elif head == START:
-            found[name] = _only(address, _words_of(start) if start is not None else [], "the start point", "")
-        else:
-            line, _, address = name.rpartition(":")
-            if line and not line.isdigit():
-                raise FamilyError(f"{name} names no word; write its letter, or LINE:LETTER such as 2:,A")
-            found[name] = _only(address, words, "the block", line)
-    if len({word.span for word in found.values()}) < len(found):
-        raise FamilyError(f"{' and '.join(found)} name a word twice")
-    return found
+    head, blank, axis = text.partition(" ")
+    if text in template.variables:
+        return text, _at(template.variables[text], words)
+    if blank and head == START:
+        return text, _only(axis, _words_of(start) if start is not None else [], "the start point", "")
+    facts = (*template.asked.facts, *(each for block in program.blocks for each in block.directives))
+    stated = {subject_of(each.text): each for each in facts if "=" in each.text}
+    if subject_of(text) in stated or blank:
+        fact = stated.get(subject_of(text))
+        return subject_text(fact.text if fact is not None else text), _fact_of(text, stated)
+    line = text.rpartition(":")[0]
+    if line and not line.isdecimal():
+        told = "; N names a block, LINE is the line of the program, from 1" if line.startswith("N") else ""
+        raise FamilyError(f"{name} names no word; write its letter, or LINE:LETTER such as 2:,A{told}")
+    word = _only(text, words, "the block", line)
+    return call(word, words), word
+
+
+def word_named(name: str, template: Template) -> str | None:
+    """The free word of a name, as it is printed; None for a word that is not free. Raises FamilyError for none."""
+    span = read_word(name, template)[1].span
+    return next((own for own, word in template.words.items() if word.span == span), None)
 
 
 def _at(place: tuple[int, int], words: Iterable[Word]) -> Word:
@@ -225,8 +238,8 @@ def _words_of(program: Program) -> list[Word]:
     return [word for block in program.blocks for word in block.words if word.address not in _NEVER]
 
 
-def _only(address: str, words: Sequence[Word], where: str, line: str) -> Word:
-    same = [word for word in words if word.address == address and (not line or word.span.line == int(line))]
+def _only(name: str, words: Sequence[Word], where: str, line: str) -> Word:
+    same, address = words_called(name, words), name.rpartition(":")[2]
     if len(same) != 1:
         have = ", ".join(call(word, words) for word in words)
         if len({word.span.line for word in same}) == len(same) > 1:
@@ -248,7 +261,8 @@ def _fact_of(name: str, stated: Mapping[str, Directive]) -> Word:
     """A fact whose value is a number, as a word with that number."""
     fact = stated.get(subject_of(name))
     if fact is None:
-        raise FamilyError(f"no fact says what {name} is; there are {', '.join(stated) or 'none'}")
+        have = ", ".join(subject_text(each.text) for each in stated.values())
+        raise FamilyError(f"no fact says what {name} is; there are {have or 'none'}")
     text = fact.text.partition("=")[2].strip()
     try:
         number = Decimal(text)
@@ -257,9 +271,24 @@ def _fact_of(name: str, stated: Mapping[str, Directive]) -> Word:
     return Word(FACT, number, "." in text, fact.text, fact.span)
 
 
+def subject_text(text: str) -> str:
+    """The subject of a fact, whose value it gives, as it is printed."""
+    return " ".join(text.partition("=")[0].split())
+
+
 def subject_of(text: str) -> str:
-    """The subject of a fact, whose value it gives, however it is spaced."""
-    return " ".join(text.partition("=")[0].split()).lower()
+    """The subject of a fact, however it is spelled: `Z of end of corner 2` is `corner 2.end Z`."""
+    subject = subject_text(text).lower().replace("centre", "center")
+    also = _ALSO.fullmatch(subject)
+    if also is None:
+        return _DOTTED.sub(r" \1", subject)
+    axis, part, of = also.groups()
+    return f"{of}{f'.{_BEGIN.get(part, part)}' if part else ''} {axis}"
+
+
+_ALSO = re.compile(r"([a-z]) of (?:(begin|start|end|center) of )?(.+)")
+_DOTTED = re.compile(r"\.([a-z])$")
+_BEGIN = {"start": "begin"}
 
 
 def is_same(typed: Word, other: Word) -> bool:
@@ -354,6 +383,8 @@ def spec_of(  # noqa: PLR0913 - what `family` takes
     branches: Branches = Branches.CHOSEN,
 ) -> SweepSpec:
     """The spec of a block with the words of these names free; a text alone is one fact."""
+    # What `solve` says of these, before they are sorted.
+    SolveOptions(start=start, facts=facts, settings=settings, variables=variables).check_types()
     stated = (facts,) if isinstance(facts, str) else tuple(facts)
     options = tuple(sorted((settings or {}).items()))
     known = tuple((name.strip().upper(), float(value)) for name, value in (variables or {}).items())

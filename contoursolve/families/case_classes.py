@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import pairwise, product
 from math import isfinite, nan
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy
 from msgspec import Struct, field
@@ -18,6 +18,7 @@ from contoursolve.diagnostics import Basis
 from contoursolve.families.block_template import Template, called, errors_of
 from contoursolve.families.errors import ByRowError, FamilyError
 from contoursolve.families.free_words import bordered, factor_of, kind_of, limits_of, stated_by, value_of
+from contoursolve.families.results import ASKED, RESIDUAL, ROOM, coordinate_name, factors_of
 from contoursolve.families.traced_reading import OWN, Alike, Reading, placed_of, trace_reading
 from contoursolve.families.word_values import Places, Ranges, read_limits
 from contoursolve.gcode import FACT, Word
@@ -433,8 +434,14 @@ class FreeWords:
 Results = Mapping[str, NDArray[Any]]
 """Columns by name."""
 
-Behind = tuple[str, int | None]
-"""The output behind a result, and the axis of a coordinate: inside they count from the start point."""
+
+class ShownOutput(NamedTuple):
+    """The output behind a result, the axis of a coordinate, as inside they count from the start point, and by how much
+    larger the number is that a person reads: a diameter."""
+
+    output: str
+    axis: int | None = None
+    factor: int = 1
 
 
 def shown_as(output: str) -> str:
@@ -444,7 +451,7 @@ def shown_as(output: str) -> str:
 
 def names_of(case: CaseClass) -> dict[str, str]:
     """The names of the results, by the outputs that have them."""
-    return {case.checked.worst: "residual"} | {shown_as(output): name for name, (output, _) in results_of(case).items()}
+    return {case.checked.worst: RESIDUAL} | {shown_as(each.output): name for name, each in results_of(case).items()}
 
 
 def sides_of_choice(case: CaseClass) -> dict[str, int]:
@@ -453,26 +460,29 @@ def sides_of_choice(case: CaseClass) -> dict[str, int]:
     return {choice.point: choice.side.sign for choice in case.profile.choices if choice.given and choice.point in shown}
 
 
-def results_of(case: CaseClass) -> dict[str, Behind]:
+def results_of(case: CaseClass) -> dict[str, ShownOutput]:
     """The output behind each result."""
     figure, path = case.system.figure, compile_path(case.system).path
-    axes = list(zip((FIRST, SECOND), case.profile.plane.axes, strict=True))
-    found: dict[str, Behind] = {}
+    plane = case.profile.plane
+    axes = list(zip((FIRST, SECOND), plane.axes, factors_of(plane), strict=True))
+    found: dict[str, ShownOutput] = {}
     for point in figure.points:
-        found |= {f"{point}.{letter}": (scalar(point, axis), axis) for axis, letter in axes}
-    found |= {f"{radius}": (radius, None) for radius in figure.radii}
+        for axis, letter, factor in axes:
+            found[coordinate_name(point, letter)] = ShownOutput(scalar(point, axis), axis, factor)
+    found |= {f"{radius}": ShownOutput(radius) for radius in figure.radii}
     for corner in figure.corners:
         for place in ("begin", "end", *(("center",) if corner.shape is CornerShape.FILLET else ())):
-            for axis, letter in axes:
-                found[f"{corner.name}.{place}.{letter}"] = getattr(path.corners[corner.name], place)[axis], axis
-    return found | {f"{element.name}.room": (path.rooms[element.name], None) for element in figure.path}
+            for axis, letter, factor in axes:
+                output = getattr(path.corners[corner.name], place)[axis]
+                found[coordinate_name(f"{corner.name}.{place}", letter)] = ShownOutput(output, axis, factor)
+    return found | {f"{element.name}{ROOM}": ShownOutput(path.rooms[element.name]) for element in figure.path}
 
 
 def asked_of(profile: Profile) -> dict[str, Question]:
     """The values that are asked for, by the names of their columns."""
     found: dict[str, Question] = {}
     for question in profile.questions:
-        name = f"asked.{question.word.text.partition('=')[0].rstrip('? ').strip()}"
+        name = f"{ASKED}{question.word.text.partition('=')[0].rstrip('? ').strip()}"
         found[f"{name} in program line {question.word.span.line}" if name in found else name] = question
     return found
 
@@ -483,11 +493,11 @@ def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Resu
     table["status"][row] = code_of(solution.status)
     table["reason"][row] = reason_of(solution.refusals[0].kind if solution.refusals else None)
     if not solution.points:
-        for name in (*(name for name in table if name.endswith(".room")), "residual"):
+        for name in (*(name for name in table if name.endswith(ROOM)), RESIDUAL):
             # A room without points is none.
             table[name][row] = table[name][row] if isfinite(table[name][row]) else nan
         return
-    letters = case.profile.plane.axes
+    letters, factors = case.profile.plane.axes, factors_of(case.profile.plane)
     for radius, value in solution.radii.items():
         table[radius][row] = value
     pairs = dict(solution.points)
@@ -496,8 +506,8 @@ def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Resu
         pairs |= {f"{name}.begin": corner.begin, f"{name}.end": corner.end}
         pairs |= {f"{name}.center": corner.center} if corner.center is not None else {}
     for name, pair in pairs.items():
-        for letter, value in zip(letters, pair, strict=True):
-            table[f"{name}.{letter}"][row] = value
+        for letter, value, factor in zip(letters, pair, factors, strict=True):
+            table[coordinate_name(name, letter)][row] = value * factor
     touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     for point, side in sides_of_choice(case).items():
         table[f"branch.{point}"][row] = 0 if point in touching else side

@@ -15,11 +15,11 @@ from contoursolve.families.block_template import SweepSpec, Template, called
 from contoursolve.families.branch_rows import BLOCK, BranchRows, count_solutions
 from contoursolve.families.case_classes import (
     ORIGIN,
-    Behind,
     ByRow,
     CaseClass,
     Input,
     Results,
+    ShownOutput,
     asked_of,
     case_alone,
     case_of,
@@ -32,6 +32,7 @@ from contoursolve.families.case_classes import (
 )
 from contoursolve.families.export import Measure, measures_of
 from contoursolve.families.free_words import Examples
+from contoursolve.families.results import RESIDUAL, ROOM
 from contoursolve.families.traced_reading import place_of_contour, read_alone
 from contoursolve.families.word_values import Places, Ranges, stretches
 from contoursolve.geometry import System
@@ -100,7 +101,7 @@ class CompiledSweep(Struct, eq=False):
         for case in self.cases:
             if case.status is None:
                 found |= dict.fromkeys((*results_of(case), *asked_of(case.profile)), numpy.float64)
-        return {**found, "residual": numpy.float64}
+        return {**found, RESIDUAL: numpy.float64}
 
     def empty(self, rows: int) -> Table:
         """Room for the results of so many rows; NaN and 0 where not every class has all of them."""
@@ -205,18 +206,19 @@ class _ClassRows:
         self.branches = self.branches or BranchRows(self.case, None if self.case.profile.picks else self.only)
         settled = self.branches.solve(values, target.size)
         self._note(settled.is_path, settled.status, settled.reason, target, table)
-        results = results_of(self.case) | {name: (name, None) for name in asked_of(self.case.profile)}
+        asked = asked_of(self.case.profile).items()
+        results = results_of(self.case) | {name: ShownOutput(name, factor=1 + each.is_diameter) for name, each in asked}
         rows = numpy.flatnonzero(settled.is_shown)
         if not rows.size:
             return
         own = {word: column[rows] for word, column in values.items()}
         out, worst = self.branches.path_of(settled, rows, own)
         origin, is_path = self.case.origin(own), settled.is_path[rows]
-        for name, (output, axis) in results.items():
-            column = out[output] + (0.0 if axis is None else origin[axis])
-            is_measure = name.endswith(".room")
+        for name, (output, axis, factor) in results.items():
+            column = (out[output] + (0.0 if axis is None else origin[axis])) * factor
+            is_measure = name.endswith(ROOM)
             table[name][target[rows]] = column if is_measure else numpy.where(is_path, column, numpy.nan)
-        table["residual"][target[rows]] = worst
+        table[RESIDUAL][target[rows]] = worst
 
     def _function(self, ranges: Ranges, places: Mapping[str, Places], rows: int) -> Columns:
         """The function, with the values of some rows as its inputs."""
@@ -240,7 +242,7 @@ class _ClassRows:
 
 
 @lru_cache(maxsize=64)
-def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...]) -> ColumnFunction:
+def _compile(system: System, varied: frozenset[str], shown: tuple[ShownOutput, ...]) -> ColumnFunction:
     """The function of a system for columns: what the verdict reads, and the results as they are shown."""
     checked = compile_checks(system)
     tape, path, outputs = checked.tape, checked.outputs.path, checked.outputs
@@ -248,10 +250,11 @@ def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...]) 
     needed += [corner.cosine for corner in path.corners.values()]
     kept = tape.keep(needed)
     gap, rooms = where(checked.is_clear, 0.0, nan), set(path.rooms.values())
-    for output, axis in shown:
+    for output, axis, factor in shown:
         value = tape.expression(output)
         if output not in rooms:
             value += gap if axis is None else kept.input(f"{ORIGIN}{axis}") + gap
+        value = value * factor if factor > 1 else value
         kept.output(shown_as(output), value)
     return compile_columns(kept, varied)
 

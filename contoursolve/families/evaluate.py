@@ -107,8 +107,8 @@ def compile_sweep(spec: SweepSpec, ranges: Ranges, before: CompiledSweep | None 
     has them for all these values; errors as for `family`."""
     if before is not None and before.covers(ranges):
         return replace(before, ranges=ranges)
-    spec = replace(spec, names=tuple(ranges.values))
-    template = spec.template()
+    template = replace(spec, names=tuple(ranges.values)).template()
+    spec, ranges = replace(spec, names=tuple(template.words)), ranges.named(template.words)
     ready = _compiled(spec, examples_of(template, ranges), ranges, template)
     if all(case.status is not None for case in ready.cases):
         check_block(template, dict(zip(template.words, ready.examples.rows[0].values, strict=True)))
@@ -143,7 +143,7 @@ def family(
     Args:
         block: the block, or the blocks of one contour; their words stand for one of the values.
         vary: the values of each free word, as written in the block, by its name: its letter (`A`, `,A`), with its
-            line where several have it (`2:,A`); `start.X` of the start point; for a fact, what it gives the value of
+            line where several have it (`2:,A`); `start X` of the start point; for a fact, what it gives the value of
             (`length of line 1`).
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them; or `{"X": 40, "Z": 0}`.
         control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables; found from the block where it is
@@ -176,8 +176,8 @@ def family(
     >>> found = family("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.", vary={"A": [180, 170], "P": [5, 20, 60]})
     >>> found["status"].tolist()
     [[0, 0, 6], [0, 0, 0]]
-    >>> [f"{value:.4f}" for value in found["corner 1.end.X"][:, 0]]
-    ['22.5000', '27.3090']
+    >>> [f"{value:.4f}" for value in found["corner 1.end X"][:, 0]]
+    ['45.0000', '54.6180']
     """
     ready = sweep(
         block,

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer, join
 from contoursolve.diagnostics import LateModule, Shown, need, plot_on
-from contoursolve.families.block_template import SweepSpec, Template
+from contoursolve.families.block_template import SweepSpec, Template, word_named
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import kind_of
-from contoursolve.families.results import find_result, lengths_of, names_of_results
+from contoursolve.families.results import ResultNames, lengths_of
 from contoursolve.families.versions import versions
 from contoursolve.families.word_values import TOOL, Ranges, are_same
 from contoursolve.gcode import Word
@@ -52,22 +52,22 @@ def measures_of(template: Template, ranges: Ranges, columns: Iterable[str]) -> d
     """The measures of the words and of some columns."""
     answer = template.solve({word: float(values[0]) for word, values in ranges.values.items()})
     plane = answer.plane
-    radial = {axis for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True) if is_diameter}
+    diameters = {axis for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True) if is_diameter}
     asked = asked_of(answer.profile)
     found: dict[str, Measure] = {}
     for name in (*ranges.values, *columns):
-        head, _, axis = name.rpartition(".")
+        axis = name.rpartition(" ")[2]
         if name in template.words:
             found[name] = measure_of_word(template.words[name], answer)
-        elif name in ("status", "reason", "tool.fits", "tool.fault") or head == "branch":
+        elif name in ("status", "reason", "tool.fits", "tool.fault") or name.startswith("branch."):
             found[name] = Measure("")
         elif name == TOOL:
             found[name] = Measure(answer.unit.value)
         elif name in asked:
             is_angle = asked[name].unit is Unit.DEGREE
-            found[name] = Measure("deg" if is_angle else "mm", "radius" if asked[name].is_diameter else "")
+            found[name] = Measure("deg" if is_angle else "mm", "diameter" if asked[name].is_diameter else "")
         else:
-            found[name] = Measure("mm", "radius" if axis in radial else "")
+            found[name] = Measure("mm", "diameter" if axis in diameters else "")
     return found
 
 
@@ -88,18 +88,20 @@ class Family(Shown):
     """Every contour of a family as named arrays.
 
     `family[name]` has the shape (rows,) for paired words, and one axis for each word, in their order, for a grid. The
-    names, in mm with X of a lathe as radius, whatever the unit of the block:
+    names of results, in mm with X of a lathe as diameter, whatever the unit of the block:
 
     * the free words, as written: in the unit of the block, X of a lathe as diameter (float64);
     * `status` (uint8, see `StatusCode`) and `reason` (uint8, an index of `REASONS`; 0 for none);
     * `branch.P1` (int8): the side that the block chooses: +1 farther or left, -1 nearer or right; 0 where there is no
       contour, or both are one;
-    * `V1.Z`, `V1.X`: the points; `r`: radii; `corner 1.begin.Z`, `.end`, `.center`: the corners (float64, NaN where
+    * `V1 Z`, `V1 X`: the points; `r`: radii; `corner 1.begin Z`, `.end`, `.center`: the corners (float64, NaN where
       there is no contour, or no such corner);
-    * `asked.P`: what is asked for with `?`, mm (radius) or degrees (float64, NaN where there is no contour);
+    * `asked.P`: what is asked for with `?`, mm (X as diameter) or degrees (float64, NaN where there is no contour);
     * `line 1.room` (float64): what the corners leave of an element, below 0 if they do not fit; it has a value wherever
       the points have one;
     * `residual` (float64): by how much the solved equations are off at most, the corners' among them.
+
+    A result goes by each of its names: `end Z` and `corner 2.end Z`, `V1 Z` and `Z of V1` are also read.
 
     With all branches, each array has a last axis for the `solutions`, and `solution(name)` is the family of one alone.
 
@@ -147,13 +149,23 @@ class Family(Shown):
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name in self.columns:
             return self.columns[name].reshape(self.shape)
-        if name not in self.ranges.values:
-            raise KeyError(f"{name}; there are {', '.join(self.names)}")
+        word = name if name in self.ranges.values else self._word(name)
+        if word is None:
+            try:
+                column = self._results.column(name)
+            except FamilyError as error:
+                raise KeyError(f"{error}; the arrays are {', '.join(self.names)}") from None
+            return self.columns[column].reshape(self.shape) if column else self.result(name)
+        name = word
         values = self.ranges.values[name][self.ranges.places(name, 0, self.ranges.count)]
         return values.repeat(len(self.solutions) or 1).reshape(self.shape)
 
     def __contains__(self, name: object) -> bool:
-        return name in self.columns or name in self.ranges.values
+        try:
+            self[name]  # type: ignore[index]
+        except (KeyError, TypeError):
+            return False
+        return True
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
@@ -171,11 +183,11 @@ class Family(Shown):
 
         Raises FamilyError for words that are not free, for free ones without a value, and where there is no contour."""
         single = {name: at.item() for name, at in self.ranges.values.items() if at.size == 1}
-        told = {**single, **(values or {}), **words}
-        free = self.ranges.values.keys()
+        template, free = self.spec.template(), self.ranges.values.keys()
+        told = {**single, **{self._word(name) or name: value for name, value in {**(values or {}), **words}.items()}}
         if told.keys() != free:
             raise FamilyError(f"the free words are {join(list(free))}; give each of them a value, and no other")
-        answer = self.spec.template().solve({name: float(told[name]) for name in free})
+        answer = template.solve({name: float(told[name]) for name in free})
         if answer.contour is None:
             place = join([f"{name} = {told[name]:g}" for name in free])
             reasons = "; ".join(each.message for each in answer.diagnostics if each.is_error)
@@ -196,28 +208,38 @@ class Family(Shown):
     @property
     def results(self) -> tuple[str, ...]:
         """The names that `result` takes."""
-        return tuple(self._columns_by_result())
+        return tuple(self._results.known)
 
     def result(self, name: str) -> NDArray[numpy.float64]:
-        """One result of each contour, and NaN where there is none: any column of numbers, `end.Z` and `end.X` of the
-        path, and its `length`; mm, X of a lathe as radius. Raises FamilyError for a name that is none."""
-        known = self._columns_by_result()
-        column = known[find_result(name, known)]
-        values = self.columns[column] if column else lengths_of(self.columns)
+        """One result of each contour, and NaN where there is none: `end Z`, `V1 X`, `corner 1.center Z`,
+        `straight part of line 1`, and the `length` of the path; mm, X of a lathe as diameter. Raises FamilyError for a
+        name that is none."""
+        names = self._results
+        column = names.column(name)
+        values = self.columns[column] if column else lengths_of(self.columns, names.plane)
         return numpy.where(self.has_contour, values.reshape(self.shape), numpy.nan)
 
     def measure_of(self, name: str) -> Measure:
         """The unit of a result. Raises FamilyError for a name that is none."""
-        known = self._columns_by_result()
-        column = known[find_result(name, known)]
+        column = self._results.column(name)
         return self.measures()[column] if column else Measure("mm")
 
     def full_name(self, name: str) -> str:
         """The name of a result as `results` has it. Raises FamilyError for a name that is none."""
-        return find_result(name, self.results)
+        return self._results.printed(name)
 
-    def _columns_by_result(self) -> dict[str, str]:
-        return names_of_results(self.spec.template(), self.ranges, self.columns)
+    @property
+    def _results(self) -> ResultNames:
+        """The names of the results."""
+        answer = self.spec.template().solve({word: float(values[0]) for word, values in self.ranges.values.items()})
+        return ResultNames(answer.profile, (name for name, each in self.columns.items() if each.dtype.kind == "f"))
+
+    def _word(self, name: str) -> str | None:
+        """The free word of a name; None for what is none."""
+        try:
+            return word_named(name, self.spec.template())
+        except (FamilyError, TypeError):
+            return None
 
     def summary(self) -> dict[Status, int]:
         """The number of rows with each status, without those that none has."""

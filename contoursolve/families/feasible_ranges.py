@@ -175,7 +175,7 @@ def feasible(
     Args:
         block: the block, or the blocks of one contour.
         word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`); a word of the start
-            point as `start.X`; a fact by what it gives the value of (`length of line 1`).
+            point as `start X`; a fact by what it gives the value of (`length of line 1`).
         within: the range to search; without it, one turn of an angle, or 1 m to either side of a length. The turn is
             0 to 360, or -360 to 0 for a negative angle.
         options: as for `family`, with the same errors; also raises FamilyError where facts or `?` leave no

@@ -29,10 +29,19 @@ from contoursolve.families.branches import PLACES, Branch
 from contoursolve.families.case_classes import CaseClass, results_of
 from contoursolve.families.errors import FamilyError, NotMovedError
 from contoursolve.families.isolate import VOID, Fineness, Signs
+from contoursolve.families.results import (
+    ResultNames,
+    base_name,
+    check_text,
+    coordinate_name,
+    end_name,
+    factors_of,
+    read_point,
+)
 from contoursolve.gcode import Word, read_directive
-from contoursolve.geometry import Arc, Figure, Length, Plane, Unit
+from contoursolve.geometry import PATH_END, Unit
 from contoursolve.numeric import Array, Intervals
-from contoursolve.reading import Lexicon, ReadIssue, WithoutPoint
+from contoursolve.reading import ReadIssue, WithoutPoint
 from contoursolve.solving import Contour, Point, Status
 
 CONSTANT = 1e-10
@@ -55,14 +64,20 @@ class Goal(Struct, frozen=True):
         return hypot(*(have - want for have, want in zip(at, self.place, strict=True) if want is not None))
 
 
-def read_goal(text: str, plane: Plane, lexicon: Lexicon, unit: Length) -> Goal:
+def read_goal(text: str, answer: Answer) -> Goal:
     """The goal that a text states in words, which count as the control counts. Raises FamilyError for one that is none,
     and for words that may be meant in another way."""
-    match = re.fullmatch(r"\s*(\S.*?)((?:\s+[A-Za-z]\s*[-+]?[\d.]+)+)\s*", text)
+    check_text("goal", text)
+    plane, lexicon, unit = answer.plane, answer.claim.lexicon, answer.unit
+    match = re.fullmatch(r"\s*(\S.*?)((?:\s+[A-Za-z]\s*[-+]?[\d.,]+)+)\s*", text)
     if match is None:
         raise FamilyError(f"{text!r} is no goal; write a point and where it is wanted, such as 'end Z-50.'")
+    names = ResultNames(answer.profile, results_of(CaseClass(answer.profile, None, {}, is_closed=False)))
+    point = read_point(match[1], names)
     place: list[float | None] = [None, None]
-    for letter, number in re.findall(r"([A-Za-z])\s*([-+]?[\d.]+)", match[2]):
+    for letter, number in re.findall(r"([A-Za-z])\s*([-+]?[\d.,]+)", match[2]):
+        if "," in number:
+            raise FamilyError(f"{letter}{number} has a decimal comma; write {letter}{number.replace(',', '.')}")
         if letter.upper() not in plane.axes:
             raise FamilyError(f"{letter}{number}: the axes of this contour are {' and '.join(plane.axes)}")
         axis = plane.axes.index(letter.upper())
@@ -80,18 +95,19 @@ def read_goal(text: str, plane: Plane, lexicon: Lexicon, unit: Length) -> Goal:
         if place[axis] is not None:
             raise FamilyError(f"{text!r} states {letter.upper()} twice")
         place[axis] = value
-    return Goal(match[1], (place[0], place[1]))
+    return Goal(point.text if point == PATH_END else base_name(point, answer.profile.figure), (place[0], place[1]))
 
 
-def place_of(name: str, contour: Contour | None) -> Point | None:
-    """The place of a named point of a solved contour; None where it has no such point, or there is no contour."""
+def place_of(point: str, contour: Contour | None) -> Point | None:
+    """The place of a point of a solved contour, `end` or by the name of its column; None where it has no such point, or
+    there is no contour."""
     if contour is None:
         return None
-    if name == "end":
+    if point == PATH_END.of:
         return contour.end
-    if name in contour.places:
-        return contour.places[name]
-    element, _, part = name.rpartition(".")
+    if point in contour.places:
+        return contour.places[point]
+    element, _, part = point.rpartition(".")
     for each in contour.elements:
         if each.name == element:
             found: Point | None = getattr(each, {"begin": "start"}.get(part, part), None)
@@ -99,48 +115,19 @@ def place_of(name: str, contour: Contour | None) -> Point | None:
     return None
 
 
-def end_name(figure: Figure) -> str:
-    """The name of the point at which a figure's path ends."""
-    last = figure.path[-1]
-    landing = next((corner.name for corner in figure.corners if corner.at == last.head), None)
-    return last.head if landing is None else f"{landing}.end"
-
-
 def outputs_at(goal: Goal, branch: Branch) -> dict[str, tuple[int, float]] | None:
     """The outputs of a solution that are the coordinates of a goal, each with its axis and where it is wanted; None
     where it has no such point."""
     case, found = branch.case, dict[str, tuple[int, float]]()
-    results, point = results_of(case), point_name(goal.point, case.system.figure)
+    results, figure = results_of(case), case.system.figure
+    point = end_name(figure) if goal.point == PATH_END.of else goal.point
     for axis, wanted in enumerate(goal.place):
-        name = f"{point}.{case.profile.plane.axes[axis]}"
+        name = coordinate_name(point, case.profile.plane.axes[axis])
         if wanted is not None and name not in results:
             return None
         if wanted is not None:
-            found[results[name][0]] = axis, wanted
+            found[results[name].output] = axis, wanted
     return found
-
-
-def points_of(case: CaseClass) -> list[str]:
-    """The names of the points of a contour."""
-    letter = "." + case.profile.plane.axes[0]
-    return ["end", *(name.removesuffix(letter) for name in results_of(case) if name.endswith(letter))]
-
-
-def point_name(name: str, figure: Figure) -> str:
-    """The name that a family has for a point, such as `end`, or the begin, the end or the center of an element."""
-    if name == "end":
-        return end_name(figure)
-    own, _, part = name.rpartition(".")
-    element = next((each for each in figure.path if each.name == own), None)
-    if element is None:
-        return name
-    before = next((each.name for each in figure.corners if own in (each.after, each.lands_on)), "")
-    behind = next((each.name for each in figure.corners if each.before == own), "")
-    if part == "begin":
-        return f"{before}.end" if before else element.tail
-    if part == "end":
-        return f"{behind}.begin" if behind else element.head
-    return element.center if part == "center" and isinstance(element, Arc) else name
 
 
 class TargetCurve:
@@ -264,14 +251,5 @@ def _stated(goal: Goal, answer: Answer) -> str:
     value, plane = goal.place[axis], answer.plane
     if value is None or goal.is_nearest:
         raise FamilyError("without a closed form, name one coordinate to bring the point to")
-    shown = value * (2 if plane.diameters[axis] else 1) / float(answer.unit.in_mm)
-    return f"{plane.axes[axis]} of {_point(goal.point, answer.profile.figure)} = {typed_text(shown)}"
-
-
-def _point(name: str, figure: Figure) -> str:
-    """A point as facts call it."""
-    element, _, part = name.rpartition(".")
-    if name == "end":
-        landing, _, _ = end_name(figure).rpartition(".")
-        element, part = landing or figure.path[-1].name, "end"
-    return f"{part} of {element}" if element else name
+    shown = value * factors_of(plane)[axis] / float(answer.unit.in_mm)
+    return f"{coordinate_name(goal.point, plane.axes[axis])} = {typed_text(shown)}"

@@ -1,6 +1,6 @@
 """The inverse question: which value of a word brings a point to a place, or as near to it as it gets."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from decimal import ROUND_HALF_EVEN, Decimal
 from math import ceil, floor, isfinite
 from typing import Unpack
@@ -12,6 +12,7 @@ from contoursolve.diagnosis import Answer, join, typed_text, value_text, with_va
 from contoursolve.diagnostics import Shown
 from contoursolve.families.block_template import BlockOptions, Template, first_error, spec_of
 from contoursolve.families.branches import Branch
+from contoursolve.families.case_classes import results_of
 from contoursolve.families.errors import FamilyError, NotClosedError, NotMovedError
 from contoursolve.families.free_words import check_block
 from contoursolve.families.goals import (
@@ -19,14 +20,13 @@ from contoursolve.families.goals import (
     Goal,
     TargetCurve,
     asked_values,
-    end_name,
     outputs_at,
     place_of,
-    points_of,
     read_goal,
 )
 from contoursolve.families.isolate import Zero, isolate
 from contoursolve.families.range_pieces import LEAST_GAP, NARROW, RangePiece, RangeSearch, short
+from contoursolve.families.results import ResultNames, coordinate_name
 from contoursolve.families.sensitivities import slopes_of
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Length, Plane, Unit, assemble
@@ -117,7 +117,7 @@ def find_word(
     Args:
         block: the block, or the blocks of one contour; the word stands in it with any value.
         word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a word of the start
-            point as `start.X`; a fact by what it gives the value of (`length of line 1`).
+            point as `start X`; a fact by what it gives the value of (`length of line 1`).
         goal: a point and where it is wanted, in words as the control reads them: `end Z-50.`, `V1 X44.`,
             `corner 1.center Z-30.`. With both coordinates, such as `end Z-50. X100.`, it finds the values at which
             the point is nearest to there.
@@ -136,7 +136,7 @@ def find_word(
     template = spec_of(block, (word,), **options).template()
     check_block(template)
     answer = template.solve({})
-    wanted = read_goal(goal, answer.plane, answer.claim.lexicon, answer.unit)
+    wanted = read_goal(goal, answer)
     _check_open(answer)
     search = RangeSearch(template)
     low, high = search.range_of(within)
@@ -164,13 +164,13 @@ def find_word(
 
 def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:
     """The text of an error, with the words that move the point, as far as derivatives tell."""
-    name, axes = end_name(answer.profile.figure) if goal.point == "end" else goal.point, answer.plane.axes
+    axes = answer.plane.axes
     try:
         slopes = slopes_of(answer).slopes
     except FamilyError:
         return str(error)
-    wanted = [f"{name}.{axes[axis]}" for axis in (FIRST, SECOND) if goal.place[axis] is not None]
-    words = {word for each in wanted for word, slope in slopes.get(each, {}).items() if not abs(slope) <= CONSTANT}
+    names = [coordinate_name(goal.point, axes[axis]) for axis in (FIRST, SECOND) if goal.place[axis] is not None]
+    words = {word for name in names for word, slope in slopes[name].items() if not abs(slope) <= CONSTANT}
     moving = [word for word in next(iter(slopes.values()), {}) if word in words]
     return f"{error}; {join(moving)} {'does' if len(moving) == 1 else 'do'}" if moving else str(error)
 
@@ -293,9 +293,8 @@ class _TargetSearch:
                 found += self._of_zero(zero, curve, piece)
             found += [_Candidate(value) for value in self._ends(curve, piece)]
         if not is_there and any(piece.is_solved and not piece.is_value for piece in pieces):
-            raise FamilyError(
-                f"the contour has no point {self.goal.point}; there are {', '.join(self._points(pieces))}"
-            )
+            have = ", ".join(ResultNames(self.search.answer.profile, self._results(pieces)).points)
+            raise FamilyError(f"the contour has no point {self.goal.point}; there are {have}")
         if is_there and not moves:
             raise NotMovedError(f"{self.search.word} does not move {self.goal.point} in this direction")
         return found
@@ -335,9 +334,9 @@ class _TargetSearch:
             if not self.goal.is_nearest or not rises < 0:  # true for NaN
                 yield value
 
-    def _points(self, pieces: Sequence[RangePiece]) -> list[str]:
-        """The names of the points of the contour."""
-        return points_of(next(piece.case for piece in pieces if piece.case and piece.is_solved))
+    def _results(self, pieces: Sequence[RangePiece]) -> Iterable[str]:
+        """The names of the results of the contour."""
+        return results_of(next(piece.case for piece in pieces if piece.case and piece.is_solved))
 
     def _curve(self, branch: Branch, within: tuple[float, float]) -> TargetCurve | None:
         """The curve of a solution; None where it has no such point."""

@@ -11,17 +11,18 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown
-from contoursolve.families.block_template import BlockOptions, Template, find_words, first_error, spec_of, unit_word
+from contoursolve.families.block_template import BlockOptions, Template, first_error, read_word, spec_of, unit_word
 from contoursolve.families.case_classes import premises_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.evaluate import Tally, compile_sweep, solve_sweep
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import check_block, kind_of, value_of
-from contoursolve.families.goals import end_name, place_of
+from contoursolve.families.goals import place_of
+from contoursolve.families.results import ResultNames, base_name, coordinate_name, factors_of, read_point
 from contoursolve.families.sensitivities import Spread, read_tolerances, slopes_of, stated_words
 from contoursolve.families.word_values import ranges_of
 from contoursolve.gcode import Word, call
-from contoursolve.geometry import Length, Plane, Unit
+from contoursolve.geometry import PATH_END, Length, Plane, Unit
 from contoursolve.numeric import Array
 from contoursolve.program import takes
 from contoursolve.reading import Premises
@@ -126,15 +127,22 @@ def tolerances(
     template = spec.template()
     check_block(template)
     answer = template.solve({})
-    slopes, axes = slopes_of(answer).slopes, answer.plane.axes
-    name = end_name(answer.profile.figure) if point == "end" else point
-    if answer.contour is None or any(f"{name}.{axis}" not in slopes for axis in axes):
-        points = dict.fromkeys(each.removesuffix(f".{axes[0]}") for each in slopes if each.endswith(f".{axes[0]}"))
-        raise FamilyError(f"the contour has no point {point}; there are {', '.join(('end', *points))}")
-    first, second = (slopes[f"{name}.{axis}"] for axis in axes)
-    study = _Study(template, answer, point)
+    found = slopes_of(answer)
+    slopes, axes, factors = found.slopes, answer.plane.axes, factors_of(answer.plane)
+    names, figure = ResultNames(answer.profile, slopes), answer.profile.figure
+    named = read_point(point, names)
+    point, name = named.text, base_name(named, figure)
+    columns = [coordinate_name(name, axis) for axis in axes]
+    if answer.contour is None or any(column not in slopes for column in columns):
+        raise FamilyError(f"the contour has no point {point}; there are {', '.join(names.points)}")
+    # Points of records have X of a lathe as radius.
+    first, second = (
+        {word: slope / factor for word, slope in slopes[column].items()}
+        for column, factor in zip(columns, factors, strict=True)
+    )
+    study = _Study(template, answer, point if named == PATH_END else name)
     by_word = {word: (first[word] * study.unit(word), second[word] * study.unit(word)) for word in first}
-    allowed = read_tolerances({} if allowed is None else allowed, by_word)
+    allowed = read_tolerances({} if allowed is None else allowed, found.spelled)
     effects = [study.effect(word, slope, allowed.get(word)) for word, slope in by_word.items()]
     effects.sort(key=lambda each: (not isnan(each.moves), -each.moves, -(each.by_half or 0.0)))
     parts = [[abs(by_word[word][axis]) * value for word, value in allowed.items()] for axis in (0, 1)]
@@ -142,11 +150,13 @@ def tolerances(
     if allowed and len(allowed) <= MOST_WORDS:
         values = {word: study.value(word) for word in allowed}
         vary = {study.name(word): [values[word] - off, values[word] + off] for word, off in allowed.items()}
-        found = solve_sweep(compile_sweep(spec, ranges_of(vary, is_paired=False)))
+        grid = solve_sweep(compile_sweep(spec, ranges_of(vary, is_paired=False)))
         # A family without any contour has no points.
-        none = numpy.full(len(found), nan)
-        limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
-        limits = replace(limits, missing=tuple(_missing(template, found, list(allowed))))
+        none = numpy.full(len(grid), nan)
+        limits = _limits(
+            *(grid.columns.get(column, none) / factor for column, factor in zip(columns, factors, strict=True))
+        )
+        limits = replace(limits, missing=tuple(_missing(template, grid, list(allowed))))
     spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
     premises = premises_of((), template, [answer.premises])
     return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits, premises)
@@ -184,7 +194,7 @@ class _Study:
         self.words = stated_words(answer)
 
     def _typed(self, word: str) -> Word:
-        return self.words[word] if word in self.words else find_words(self.template, [word])[word]
+        return self.words[word] if word in self.words else read_word(word, self.template)[1]
 
     def name(self, word: str) -> str:
         """The name of a word among all words of the text, of which some may stand before the contour."""

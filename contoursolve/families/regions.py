@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import asdict, replace
 
 from contoursolve.diagnosis import inward, short_name
-from contoursolve.diagnostics import Shown, plot_on
+from contoursolve.diagnostics import Shown, check_type, plot_on
 from contoursolve.families.block_template import BlockOptions, RefusedError, SweepSpec, Template, spec_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords, premises_of
@@ -109,7 +109,7 @@ class Region(Shown, Struct, frozen=True, eq=False):
 
     def family(self, columns: int | None = None, rows: int | None = None) -> Family:
         """The contours at evenly spaced values of both words, as many as `outcomes` has unless it is told: for
-        results, such as `region.family()["V2.Z"]`. Raises FamilyError for less than two values of a word."""
+        results, such as `region.family()["V2 Z"]`. Raises FamilyError for less than two values of a word."""
         own = self.outcomes.shape
         counts = own[0] if columns is None else columns, own[1] if rows is None else rows
         if min(counts) < 2:  # noqa: PLR2004 - both ends
@@ -140,6 +140,8 @@ def region(
     >>> [each.reason.text for each in found.boundaries]
     ['P is too large for the second straight', 'P is too large for the first straight']
     """
+    check_type("words", words, Sequence, "two words, such as ('A', 'P')")
+    check_type("within", within, Sequence, "two ranges, such as ((150, 210), (1, 60))")
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")
     spec = spec_of(block, words, **options)

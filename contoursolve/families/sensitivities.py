@@ -15,11 +15,13 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown, hash_of
-from contoursolve.families.block_template import BlockOptions, first_error, spec_of, subject_of
+from contoursolve.families.block_template import BlockOptions, first_error, spec_of, subject_of, subject_text
 from contoursolve.families.branch_rows import add_path
-from contoursolve.families.case_classes import CaseClass, case_in, results_of
+from contoursolve.families.case_classes import CaseClass, ShownOutput, case_in, results_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import check_block, factor_of
+from contoursolve.families.results import ROOM, NamedResults, ResultNames
+from contoursolve.families.word_values import name_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
 from contoursolve.numeric import COSINE, SIDE, SINE, Compiled, Tape, condition, direction
@@ -50,20 +52,22 @@ class Sensitivity(Shown, Struct, frozen=True):
 
     Attributes:
         slopes: `slopes[result][word]` in mm for each unit of the word as it is written, so that a diameter counts as
-            such. The results have the names that they have in a `Family`, X of a lathe as radius. NaN where a word
-            parts two places that have become one, as in a half circle.
+            such. The results have the names that they have in a `Family`, and go by all that these go by; X of a lathe
+            as diameter. NaN where a word parts two places that have become one, as in a half circle.
         plane: the axes of the points, first and second.
     """
 
     slopes: Mapping[str, Mapping[str, float]]
     plane: Plane
+    spelled: Mapping[str, str] = {}
+    """The words by all their names."""
 
     __hash__ = hash_of
 
     def spread(self, tolerances: Mapping[str, float]) -> dict[str, Spread]:
         """The move of each result when the words are off by up to these tolerances, as written. Raises FamilyError
         for a word that is not there, and a tolerance below 0."""
-        tolerances = read_tolerances(tolerances, next(iter(self.slopes.values())))
+        tolerances = read_tolerances(tolerances, self.spelled)
         found: dict[str, Spread] = {}
         for result, slopes in self.slopes.items():
             parts = [abs(slopes[word] * tolerance) for word, tolerance in tolerances.items()]
@@ -71,13 +75,15 @@ class Sensitivity(Shown, Struct, frozen=True):
         return found
 
 
-def read_tolerances(allowed: Mapping[str, float], known: Iterable[str]) -> dict[str, float]:
-    """Tolerances by the names of the words. Raises FamilyError."""
+def read_tolerances(allowed: Mapping[str, float], spelled: Mapping[str, str]) -> dict[str, float]:
+    """Tolerances by the names of the words, of which `spelled` has all. Raises FamilyError."""
     if not isinstance(allowed, Mapping):
         raise TypeError(f"tolerances are a mapping of words to numbers, such as {{'A': 0.1}}, not {allowed!r}")
     found: dict[str, float] = {}
     for word, value in allowed.items():
-        name = _named(word, known)
+        name = spelled.get(_key(word))
+        if name is None:
+            raise FamilyError(f"no word {word}; there are {', '.join(dict.fromkeys(spelled.values()))}")
         if name in found:
             raise FamilyError(f"{name} has two tolerances; name it once")
         try:
@@ -92,13 +98,16 @@ def read_tolerances(allowed: Mapping[str, float], known: Iterable[str]) -> dict[
     return found
 
 
-def _named(word: str, known: Iterable[str]) -> str:
-    """The name of a word among those that there are. Raises FamilyError."""
-    names = {name.lower(): name for name in known}
-    found = names.get(" ".join(word.lower().split()))
-    if found is None:
-        raise FamilyError(f"no word {word}; there are {', '.join(names.values())}")
-    return found
+def _key(word: str) -> str:
+    """The name of a word, or of a fact, however it is spelled."""
+    return subject_of(name_of(word))
+
+
+def _spelled(slopes: Rates, words: Mapping[str, Word]) -> dict[str, str]:
+    """The words that results have derivatives by, by all their names: with their line, and without where that tells."""
+    names = {name: name for name in next(iter(slopes.values()), {})}
+    names |= {f"{word.span.line}:{word.address}": name for name, word in words.items()}
+    return {_key(spelling): name for spelling, name in names.items()}
 
 
 @takes(BlockOptions)
@@ -113,7 +122,7 @@ def sensitivity(block: str, **options: Unpack[BlockOptions]) -> Sensitivity:
     exists: the same error.
 
     >>> slopes = sensitivity("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").slopes
-    >>> {word: f"{slope:.3f}" for word, slope in slopes["V2.Z"].items()}
+    >>> {word: f"{slope:.3f}" for word, slope in slopes["V2 Z"].items()}
     {'X': '-0.289', 'A': '-0.302', 'K': '1.000', 'B': '-0.698', 'P': '0.000', 'Q': '0.000'}
     """
     template = spec_of(block, **options).template()
@@ -128,17 +137,27 @@ def slopes_of(answer: Answer, *, is_twice_fine: bool = False) -> Sensitivity:
     values = {name: float(word.number or 0) for name, word in words.items()}
     case = case_in(answer, words, values)
     if not case.is_closed or case.profile.is_extended:
-        return Sensitivity(_implicit(answer, words, is_twice_fine=is_twice_fine), answer.plane)
+        return _implicit(answer, words, is_twice_fine=is_twice_fine)
     _check(case.solve(values) if case.status is None else None, answer)
     inputs = {name: value for name, value in case.numbers().items() if name in case.machine.tape.inputs}
     outputs, singular = results_of(case), _singular(case, inputs)
-    rates = _slopes(case.machine.tape, [output for output, _ in outputs.values()], inputs)
+    rates = _slopes(case.machine.tape, [each.output for each in outputs.values()], inputs)
     stated = [
         (case.profile.givens[name], each.word, nan if each.word in singular else float(each.factor))
         for name, each in case.free.items()
     ]
-    slopes = {result: _by_word(rates[output], stated, words) for result, (output, _) in outputs.items()}
-    return Sensitivity(slopes, answer.plane)
+    slopes = {result: _by_word(rates[each.output], stated, words) for result, each in outputs.items()}
+    return _sensitivity(slopes, outputs, answer, words)
+
+
+def _sensitivity(
+    slopes: Rates, results: Mapping[str, ShownOutput], answer: Answer, words: Mapping[str, Word]
+) -> Sensitivity:
+    """The derivatives of results as a person reads them, from those of their outputs."""
+    found = {
+        name: {word: slope * results[name].factor for word, slope in each.items()} for name, each in slopes.items()
+    }
+    return Sensitivity(NamedResults(ResultNames(answer.profile, found), found), answer.plane, _spelled(found, words))
 
 
 def _slopes(tape: Tape, outputs: Sequence[str], inputs: Mapping[str, float]) -> Rates:
@@ -193,7 +212,7 @@ def stated_words(answer: Answer) -> dict[str, Word]:
     return {call(word, typed): word for word in typed if word in stating}
 
 
-def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool) -> dict[str, dict[str, float]]:
+def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool) -> Sensitivity:
     """The derivatives where there is no closed form, or more is stated than words."""
     from contoursolve.solving import settle  # noqa: PLC0415 - few blocks need it
 
@@ -205,7 +224,7 @@ def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool)
     profile = answer.profile
     tied = _tied(assemble(profile)) if is_twice else frozenset[str]()
     results = results_of(CaseClass(profile, None, {}, is_closed=False))
-    outputs = {name: output for name, (output, _) in results.items() if not name.endswith(".room")}
+    outputs = {name: each.output for name, each in results.items() if not name.endswith(ROOM)}
     rates = _implicit_rates(profile, solution, tuple(outputs.values()))
     names = {id(word): name for name, word in words.items()}
     stated = []
@@ -215,7 +234,8 @@ def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool)
             name = names.get(id(own.word)) or _fact_name(own, own.word, profile)
             factor = float(factor_of(answer, own.word, own, own.word.number or Decimal(0)))
             stated.append((given, name, nan if given.name in tied else factor))
-    return {name: _by_word(rates[output], stated, ()) for name, output in outputs.items()}
+    slopes = {name: _by_word(rates[output], stated, ()) for name, output in outputs.items()}
+    return _sensitivity(slopes, results, answer, words)
 
 
 def _tied(system: System) -> frozenset[str]:
@@ -229,7 +249,7 @@ def _tied(system: System) -> frozenset[str]:
 def _fact_name(given: Given, word: Word, profile: Profile) -> str:
     """The subject of a fact; of a place, with the axis."""
     axis = given.name.rpartition(".")[2]
-    name = subject_of(word.text)
+    name = subject_text(word.text)
     return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in word.text and axis.isdigit() else name
 
 

@@ -10,6 +10,7 @@ from contoursolve.diagnosis import list_solutions
 from contoursolve.families.case_classes import CaseClass, has_one_function
 from contoursolve.families.compiled_sweep import CompiledSweep
 from contoursolve.families.export import Family
+from contoursolve.families.results import coordinate_name, factors_of
 from contoursolve.geometry import Profile
 from contoursolve.solving import Contour, find_alternatives
 
@@ -61,10 +62,10 @@ def names_of_solutions(ready: CompiledSweep, found: Sequence[Family]) -> list[tu
 
 def _is_in(family: Family, row: int, contour: Contour) -> bool:
     """Whether a row has the points of a contour."""
-    letters = contour.plane.axes
+    letters, factors = contour.plane.axes, factors_of(contour.plane)
     return all(
-        abs(family.columns[f"{name}.{letter}"][row] - at) <= SAME
+        abs(family.columns[column][row] - at * factor) <= SAME
         for name, place in contour.points.items()
-        for letter, at in zip(letters, place, strict=True)
-        if f"{name}.{letter}" in family.columns
+        for letter, at, factor in zip(letters, place, factors, strict=True)
+        if (column := coordinate_name(name, letter)) in family.columns
     )

@@ -1,6 +1,5 @@
 """The inverse of a tolerance: between which values of a word a result moves no farther than it may."""
 
-import re
 from collections.abc import Sequence
 from decimal import Decimal
 from math import hypot, inf, isfinite, remainder
@@ -9,10 +8,11 @@ from typing import Unpack
 import numpy
 from msgspec import Struct
 
-from contoursolve.diagnosis import Answer, AskedValue, join, short_name, value_text
+from contoursolve.diagnosis import Answer, AskedValue, short_name, value_text
 from contoursolve.diagnostics import Shown
 from contoursolve.families.block_template import BlockOptions, first_error, spec_of, subject_of
 from contoursolve.families.branches import Branch
+from contoursolve.families.case_classes import CaseClass, results_of
 from contoursolve.families.errors import FamilyError, NotClosedError
 from contoursolve.families.feasible_ranges import (
     End,
@@ -29,8 +29,9 @@ from contoursolve.families.free_words import check_block
 from contoursolve.families.goals import CONSTANT, Goal, TargetCurve, outputs_at, place_of
 from contoursolve.families.isolate import isolate
 from contoursolve.families.range_pieces import LEAST_GAP, NARROW, REACH, RangePiece, RangeSearch, short
+from contoursolve.families.results import ResultNames, base_name, check_text, factors_of
 from contoursolve.gcode import FACT
-from contoursolve.geometry import FIRST, SECOND, Unit
+from contoursolve.geometry import FIRST, PATH_END, SECOND, ResultName, StraightIs, Unit, write_result
 from contoursolve.numeric import halve
 from contoursolve.program import takes
 from contoursolve.reading import Premises
@@ -126,7 +127,7 @@ def tolerance_for(
     Args:
         block: the block, or a program. Of several contours, the one in which the word stands is meant.
         word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a word of the start
-            point as `start.X`; a fact by what it gives the value of (`length of line 1`).
+            point as `start X`; a fact by what it gives the value of (`length of line 1`).
         keep: a coordinate of a point (`end Z`, `corner 1.center X`), or a point (`end`, `V1`); a word that is asked for
             with `?` (`P`); what a fact gives the value of (`length of line 2`, `direction of line 2`).
         within: by how much it may move, as the control writes it: mm or inches, X of a lathe as diameter; degrees.
@@ -144,18 +145,19 @@ def tolerance_for(
     """
     if isinstance(within, bool) or not isinstance(within, (int, float)) or not 0 < within < inf:
         raise FamilyError(f"within is how far {keep} may move, a number above 0, not {within!r}")
-    keep = _ROOM.sub(r"straight part of \1", keep)
+    check_text("result", keep)
     spec = spec_of(block, (word,), **options)
     template = spec.template()
     check_block(template)
     search = RangeSearch(template)
     kept = _read_kept(keep, search.answer)
-    if kept is None:
+    if isinstance(kept, ResultName):
         # What a fact would give the value of is asked for beside the words.
+        keep = write_result(kept, search.answer.plane)
         options["facts"] = (*spec.facts, f"{keep} = ?")
         search = RangeSearch(spec_of(block, (word,), **options).template())
         kept = _read_kept(keep, search.answer)
-    if kept is None:
+    if isinstance(kept, ResultName):
         raise FamilyError(f"the contour has no value of {keep}")
     found = _ToleranceSearch(search, kept, float(within), _all_of(search))
     low, high = found.ends()
@@ -180,50 +182,57 @@ class _Kept(Struct, frozen=True):
     value: tuple[float, ...]
     goal: Goal | None = None
     scale: float = 1.0
+    result: ResultName | None = None
+    """A length that is measured in the contour itself."""
 
     def moved(self, answer: Answer) -> float:
         """By how much it is off in another contour; infinite where there is none, or it is not there."""
         if self.goal is not None:
             at = place_of(self.goal.point, answer.contour)
             return inf if at is None else self.goal.away(at) / self.scale
-        there = _asked_value(self.text, answer)
+        there = _asked_value(self.text, answer) if self.result is None else _measured(self.result, answer)
         if there is None:
             return inf
         off = there - self.value[0]
         return abs(remainder(off, TURN) if self.unit == "deg" else off)
 
 
-def _read_kept(text: str, answer: Answer) -> _Kept | None:
-    """The result that a text names, in the block as it stands; None for what a fact would give the value of. Raises
-    FamilyError without a contour, and for a point or an axis that is not there."""
+def _read_kept(text: str, answer: Answer) -> _Kept | ResultName:
+    """The result that a text names, in the block as it stands; its name alone where a fact gives the value of it.
+
+    Raises FamilyError without a contour, and for a result that is not there."""
     if answer.contour is None:
         raise FamilyError(f"as it stands, the block has no contour to keep: {first_error(answer)}")
-    asked, value = _asked(text, answer), _asked_value(text, answer)
+    asked, value, unit = _asked(text, answer), _asked_value(text, answer), answer.unit
     if asked is not None and value is not None:
-        return _Kept(text, "deg" if asked.question.unit is Unit.DEGREE else answer.unit.value, (value,))
-    match = re.fullmatch(r"\s*(\S.*?)(?:[\s.]+([A-Za-z]))?\s*", text)
-    letter = match[2].upper() if match and match[2] else ""
-    axes = [axis for axis in (FIRST, SECOND) if not letter or answer.plane.axes[axis] == letter]
-    name = match[1] if match else ""
-    at = place_of(name, answer.contour)
-    if not isinstance(at, tuple) and _OF_FACTS.search(text):
+        return _Kept(text, "deg" if asked.question.unit is Unit.DEGREE else unit.value, (value,))
+    names = ResultNames(answer.profile, results_of(CaseClass(answer.profile, None, {}, is_closed=False)))
+    read = names.read(text)
+    told = names.written(read)
+    if read.point is None:
+        if read.quantity is not None and not isinstance(read.quantity, StraightIs):
+            return read
+        measured = _measured(read, answer)
+        if measured is None:
+            raise FamilyError(f"{told} is of no length here; name another result")
+        return _Kept(told, unit.value, (measured,), result=read)
+    point = read.point.text if read.point == PATH_END else base_name(read.point, answer.profile.figure)
+    at, axis = place_of(point, answer.contour), read.axis
+    if at is None:
+        raise FamilyError(f"{told} is on an element of no length; name another result")
+    scale = float(unit.in_mm) / (factors_of(answer.plane)[axis] if axis is not None else 1)
+    place = (at[FIRST] if axis != SECOND else None, at[SECOND] if axis != FIRST else None)
+    return _Kept(told, unit.value, at, Goal(point, place), scale)
+
+
+def _measured(read: ResultName, answer: Answer) -> float | None:
+    """The length of a path, or of what the corners leave of an element, as it is written; None where it is not
+    there."""
+    if answer.contour is None:
         return None
-    if not isinstance(at, tuple):
-        elements = join([each.name for each in answer.contour.elements])
-        have = f"there are {', '.join(('end', *answer.contour.places))}, and begin, end and center of {elements}"
-        raise FamilyError(f"the contour has no {name or 'point without a name'}; {have}")
-    if not axes:
-        raise FamilyError(f"{text}: the axes of this contour are {' and '.join(answer.plane.axes)}")
-    scale = float(answer.unit.in_mm) / (2 if letter and answer.plane.diameters[axes[0]] else 1)
-    place = (at[FIRST] if FIRST in axes else None, at[SECOND] if SECOND in axes else None)
-    return _Kept(f"{name} {letter}".strip(), answer.unit.value, at, Goal(name, place), scale)
-
-
-_ROOM = re.compile(r"^\s*(line\s?\d*)\.room\s*$", re.IGNORECASE)
-"""The name that a family has for what the corners leave of a line."""
-
-_OF_FACTS = re.compile(r"\sof\s|^\s*angle\s", re.IGNORECASE)
-"""Subjects of facts."""
+    own = read.quantity.line if isinstance(read.quantity, StraightIs) else ""
+    lengths = [each.length for each in answer.contour.elements if each.name == own or not own]
+    return sum(lengths) / float(answer.unit.in_mm) if lengths else None
 
 
 def _asked(text: str, answer: Answer) -> AskedValue | None:

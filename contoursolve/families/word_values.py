@@ -1,6 +1,6 @@
 """Values of free words: columns side by side or the axes of a grid, and what names of words mean."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from math import isfinite
 from typing import Any
 
@@ -10,6 +10,7 @@ from msgspec.structs import asdict
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.families.errors import FamilyError
+from contoursolve.families.results import check_text
 from contoursolve.numeric import Array
 from contoursolve.tolerance import LARGEST
 
@@ -46,6 +47,10 @@ class Ranges(Struct, frozen=True, eq=False):
 
     def __hash__(self) -> int:
         return hash((tuple(self.values), self.shape))
+
+    def named(self, names: Iterable[str]) -> "Ranges":
+        """The same by other names of the words, in their order."""
+        return Ranges(dict(zip(names, self.values.values(), strict=True)), self.is_paired)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -99,13 +104,18 @@ class Ranges(Struct, frozen=True, eq=False):
 
 
 def name_of(text: str) -> str:
-    """The name of a word, upper case; of a word of the start point, `start.X`; of a fact, its text; of a tool, TOOL."""
+    """The name of a word as it is printed, upper case: `A`, `2:A`; of a word of the start point, `start X`; of a fact,
+    its text; of a tool, TOOL. Raises TypeError for what is no text."""
+    check_text("word", text)
     parts = text.split()
+    head, dot, rest = " ".join(parts).partition("." if len(parts) == 1 else " ")
+    if dot and head.lower() == START:
+        return f"{START} {rest.upper()}"
     if len(parts) > 1:
         return " ".join(parts)
-    head, dot, rest = text.strip().partition(".")
-    if dot and head.lower() == START:
-        return f"{START}.{rest.upper()}"
+    line, colon, address = text.strip().upper().partition(":")
+    if colon and line.isdecimal():
+        return f"{int(line)}:{address}"
     return TOOL if head.lower() == TOOL and not dot else text.strip().upper()
 
 

@@ -95,4 +95,5 @@ from .word import (
     call as call,
     typed_places as typed_places,
     typed_span as typed_span,
+    words_called as words_called,
 )

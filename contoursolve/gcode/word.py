@@ -88,6 +88,15 @@ def call(word: Word, words: Sequence[Word]) -> str:
     return word.address if is_alone else f"{word.span.line}:{word.address}"
 
 
+def words_called(name: str, words: Iterable[Word]) -> list[Word]:
+    """The words that a name means among all: its letter, `A`, or with its program line, `2:A`; several where the letter
+    alone does not tell. Capitals do not matter."""
+    line, _, address = name.strip().upper().rpartition(":")
+    if line and not line.isdecimal():
+        return []
+    return [each for each in words if each.address == address and (not line or each.span.line == int(line))]
+
+
 class NamedAs(Enum):
     """The part that words play which a comment names for contoursolve alone."""
 

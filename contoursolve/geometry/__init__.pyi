@@ -77,6 +77,7 @@ from .profile import (
 from .statements.apply import (
     apply_statements as apply_statements,
     rank as rank,
+    vocabulary_of as vocabulary_of,
     word_of as word_of,
 )
 from .statements.draft import (
@@ -84,9 +85,14 @@ from .statements.draft import (
     StatementError as StatementError,
 )
 from .statements.grammar import (
+    PATH_END as PATH_END,
     GrammarError as GrammarError,
+    PointName as PointName,
+    ResultName as ResultName,
     Vocabulary as Vocabulary,
+    read_result as read_result,
     read_statement as read_statement,
+    write_result as write_result,
     write_statement as write_statement,
 )
 from .statements.statement import (

@@ -23,7 +23,7 @@ from contoursolve.diagnosis import (
     write_word,
 )
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import FACT, TypedPlace, Word, parse, split_lines, typed_places
+from contoursolve.gcode import FACT, TypedPlace, Word, parse, split_lines, typed_places, words_called
 from contoursolve.geometry import Pick, Unit
 from contoursolve.notebook.block_place import BlockPlace
 from contoursolve.output import stated_words
@@ -305,7 +305,7 @@ def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Ex
             text = f"{radius.normalize():f}"
             edits.append(Edit(EditKind.CHANGE, FACT, span, f"{old.radius}", text))
             continue
-        answer, word = _find(exploration, key)
+        answer, _, word = _find(exploration, key)
         edits.append(_change(answer, word, _written(answer, word, value)))
     return _edited(exploration, edits)
 
@@ -330,7 +330,7 @@ def is_movable(answer: Answer, word: Word) -> bool:
 def free(exploration: Exploration, key: str) -> Exploration:
     """The contour with `?` for a word; a word that was freed gets back the value that the others give it, or the one
     that it had."""
-    answer, word = _find(exploration, key)
+    answer, key, word = _find(exploration, key)
     if not word.is_asked:
         freed = _edited(exploration, [_change(answer, word, answer.claim.lexicon.spell(word.address, "?"))])
         return replace(freed, last={**exploration.last, key: word.text})
@@ -431,16 +431,20 @@ def _change(answer: Answer, word: Word, text: str) -> Edit:
     return Edit(EditKind.CHANGE, word.address, places_of(answer)[word.span].span, word.text, text)
 
 
-def _find(exploration: Exploration, key: str) -> tuple[Answer, Word]:
+def _find(exploration: Exploration, name: str) -> tuple[Answer, str, Word]:
+    """The word of a name, with its key."""
     answer = exploration.answer
     words = words_of(answer) if answer else {}
-    if answer is None or key not in words:
-        raise ValueError(f"the contour has no word {key}; there are {', '.join(words) or 'none'}")
+    called = words_called(name, words.values())
+    if answer is None or len(called) != 1:
+        several = f"{len(called)} words {name}" if called else f"no word {name}"
+        raise ValueError(f"the contour has {several}; there are {', '.join(words) or 'none'}")
+    key = next(key for key, word in words.items() if word is called[0])
     if not is_movable(answer, words[key]):
         raise ValueError(f"{key} has no value to move")
     if key in (computed := computed_words(exploration)):
         raise ValueError(computed[key].told)
-    return answer, words[key]
+    return answer, key, words[key]
 
 
 def _written(answer: Answer, word: Word, value: float | str) -> str:

@@ -437,7 +437,7 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
             low = min(low, each.low.value - margin) if each.low.value > near[0] else low
             high = max(high, each.high.value + margin) if each.high.value < near[1] else high
     ends = [
-        [end.reason.text.replace(called(name), label) if end.reason else "" for end in (each.low, each.high)]
+        [end.reason.text.replace(called(found.word), label) if end.reason else "" for end in (each.low, each.high)]
         for each in found.intervals
     ]
     note, whole = range_texts(found, field["key"].rpartition(":")[2], field["value"])

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from contoursolve.controls import ControlName
-from contoursolve.diagnostics import LateModule, importing
+from contoursolve.diagnostics import LateModule, check_type, importing
 from contoursolve.families import Family, Region, with_numbers
 from contoursolve.notebook.exploration import begin, rewrite_block
 from contoursolve.program import Rules, Units
@@ -48,6 +48,7 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     `contoursolve[notebook]`. Raises ValueError for several contours without `line`, and for a line that belongs to
     none.
     """
+    check_type("block", block, str)
     with importing("notebook", "exploring a contour"):
         from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
     options: dict[str, Any] = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}

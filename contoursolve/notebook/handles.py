@@ -78,8 +78,11 @@ class ContourDerivatives(Struct, frozen=True):
 
     def of_point(self, name: str) -> Slopes:
         """The derivatives of a named point by words; words that move it too little are missing."""
-        first, second = (self.slopes.get(f"{name}.{axis}", {}) for axis in self.answer.plane.axes)
-        return {key: (first[key], second[key]) for key in first if hypot(first[key], second[key]) > LEAST}
+        plane = self.answer.plane
+        first, second = (self.slopes.get(f"{name} {axis}", {}) for axis in plane.axes)
+        one, other = (1 + is_diameter for is_diameter in plane.diameters)
+        found = {key: (first[key] / one, second[key] / other) for key in first}
+        return {key: slope for key, slope in found.items() if hypot(*slope) > LEAST}
 
     def of_element(self, segment: Segment) -> tuple[Slopes, ...]:
         """The derivatives of the start, the end, and the centre of an element by words."""

@@ -183,13 +183,12 @@ def _sensitivity(found: Sensitivity) -> Iterator[str]:
 def slope_table(found: Sensitivity) -> Table:
     """By how much each word moves each result, as the control writes it; `none` where no derivative exists."""
     words, plane = next(iter(found.slopes.values()), {}), found.plane
-    axes = dict(zip(plane.axes, zip(axis_labels(plane), plane.diameters, strict=True), strict=True))
+    labels = dict(zip(plane.axes, axis_labels(plane), strict=True))
 
     def row(result: str, slopes: Mapping[str, float]) -> tuple[str, ...]:
-        head, dot, axis = result.rpartition(".")
-        label, is_diameter = axes.get(axis, (axis, False))
-        moved = (slope * (2 if is_diameter else 1) + 0.0 for slope in slopes.values())
-        return (f"{head}{dot}{label}", *("none" if isnan(each) else f"{each:.4f}" for each in moved))
+        head, blank, axis = result.rpartition(" ")
+        label = f"{head}{blank}{labels.get(axis, axis)}"
+        return (label, *("none" if isnan(each) else f"{each + 0.0:.4f}" for each in slopes.values()))
 
     rows = [row(*each) for each in islice(found.slopes.items(), MOST_ROWS)]
     return Table("how far each result moves, mm for each unit of a word as it is written", ("result", *words), rows)

@@ -7,6 +7,7 @@ from math import dist
 from contoursolve.api import solve
 from contoursolve.controls import ControlName
 from contoursolve.diagnosis import Answer
+from contoursolve.diagnostics import checked
 from contoursolve.output import start_text
 from contoursolve.program import Rules, Units, configure, find_dialect
 from contoursolve.reading import Dialect
@@ -19,6 +20,7 @@ _ROUNDED = 0.005
 """mm. What the rounding of a start point may move the end."""
 
 
+@checked
 def standing_alone(
     answer: Answer,
     *,

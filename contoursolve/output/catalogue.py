@@ -7,7 +7,7 @@ from typing import Any
 from msgspec import Struct
 
 from contoursolve.diagnosis import tabulate
-from contoursolve.diagnostics import Alarm, Source, members
+from contoursolve.diagnostics import Alarm, Source, check_type, members
 from contoursolve.output.plain_text import columns
 from contoursolve.reading import THIS_CONTROL, Dialect, Rule, ZeroMove, ZeroRow
 
@@ -142,6 +142,7 @@ def rule_page(code: str, dialects: Iterable[Dialect]) -> str:
 
     It names the place in the manual of each control that has the rule. Raises LookupError if none has it.
     """
+    check_type("code", code, str)
     found = [(each, rule) for each in dialects for rule in each.catalogue if rule.code == code]
     if not found:
         raise LookupError(f"no rule has the code {code!r}")
@@ -215,8 +216,9 @@ _FACTS = (
     ("chord of corner 1 = 6", "straight from the begin to the end of an arc or a rounding"),
     ("polar angle of arc = 90", "the angle from the plane's first axis to where an arc ends, seen from its center"),
     ("polar angle of begin of arc = 0", "or to where it begins"),
-    ("Z of end of corner 2 = -50.2", "a coordinate of where an element begins or ends, or of its center"),
-    ("X of V1 = 44", "a coordinate of a point"),
+    ("corner 2.end Z = -50.2", "a coordinate of where an element begins or ends, or of its center"),
+    ("Z of end of corner 2 = -50.2", "the same"),
+    ("V1 X = 44", "a coordinate of a point; `end` is the end of the path"),
     ("radius of corner 1 = 5", "the radius of an arc or a rounding, the size of a chamfer"),
     ("line tangent to arc", "neighbours go on smoothly; others touch"),
     ("line 2 tangent to circle (Z-40. X120. R10.)", "an element touches a given circle"),

@@ -12,6 +12,7 @@ from contoursolve.diagnosis import (
     list_alternatives,
     unknowns_text,
 )
+from contoursolve.diagnostics import checked
 from contoursolve.geometry import Profile, System, assemble
 from contoursolve.output.plain_text import printable
 from contoursolve.solving import (
@@ -25,6 +26,7 @@ from contoursolve.solving import (
 )
 
 
+@checked
 def construction_lines(answer: Answer) -> list[str]:
     """The construction of a contour, step by step, as `contoursolve solve --explain` prints it.
 

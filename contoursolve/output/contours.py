@@ -26,7 +26,7 @@ from contoursolve.diagnosis import (
     short_name,
     word_keys,
 )
-from contoursolve.diagnostics import Diagnosis, Verdict
+from contoursolve.diagnostics import Diagnosis, Verdict, checked
 from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
@@ -245,11 +245,13 @@ def _asked_text(asked: AskedValue, answer: Answer) -> str:
 # The path ----------------------------------------------------------------------------------------------------
 
 
+@checked
 def path_of(answer: Answer, contour: Contour) -> Table:
     """The path of a contour, with what its points and elements are in the program."""
     return path_table(contour, answer.unit, labels_of(answer.profile))
 
 
+@checked
 def path_table(contour: Contour, unit: Length = Length.MM, called: Mapping[str, str] = MappingProxyType({})) -> Table:
     """The named points, and the elements with their end points, in a unit and as the control writes the axes; `called`
     says what they are."""

@@ -19,6 +19,7 @@ from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
 from contoursolve.diagnosis import Answer, count, join
+from contoursolve.diagnostics import check_type
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.program import Result
 from contoursolve.solving import ArcSegment, Contour, Point, Segment, shifted
@@ -82,6 +83,9 @@ def to_dxf(answers: Sequence[Answer], paths: Mapping[str, Contour] = MappingProx
 
     Raises ValueError if none is solved and there are no paths.
     """
+    check_type("answers", answers, Sequence, "a list of answers, such as `result.answers`")
+    for answer in answers:
+        check_type("each of the answers", answer, Answer)
     drawn = [(number, answer) for number, answer in enumerate(answers, 1) if answer.contour]
     if not drawn and not paths:
         raise ValueError("no contour is solved: the drawing would be empty")

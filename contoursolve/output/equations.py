@@ -12,6 +12,7 @@ from contoursolve.diagnosis import (
     count,
     join,
 )
+from contoursolve.diagnostics import checked
 from contoursolve.gcode import Word
 from contoursolve.numeric import symbolic
 from contoursolve.output.plain_text import Table, printable
@@ -51,6 +52,7 @@ def equation_lines(system: EquationSystem) -> list[str]:
     return lines
 
 
+@checked
 def equations_of(answer: Answer, word: Word) -> tuple[list[str], list[tuple[str, str, str]]]:
     """The equations that a word states, and the conditions in which it plays a part: in words, as an expression, and
     the value of that.

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, ContourState, count, join, labels_of, rank, states_in, statuses_text
-from contoursolve.diagnostics import Diagnostic, Fix, LateModule, Severity
+from contoursolve.diagnostics import Diagnostic, Fix, LateModule, Severity, check_type
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
@@ -410,6 +410,9 @@ def beside_of(
     if tool is None:
         return ()
     from contoursolve.output.tool_picture import parts_beside  # noqa: PLC0415 - few programs state a tool
+    from contoursolve.tool_radius import ToolReport  # noqa: PLC0415 - the same
+
+    check_type("tool", tool, ToolReport, "the ToolReport of `solve_with_tool`")
 
     return parts_beside(tool, answer)
 

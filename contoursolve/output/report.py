@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count
-from contoursolve.diagnostics import Diagnostic, Evidence, Label, LateModule, Severity, Span
+from contoursolve.diagnostics import Diagnostic, Evidence, Label, LateModule, Severity, Span, checked
 from contoursolve.gcode import Block
 from contoursolve.output.contours import given_table, path_of
 from contoursolve.output.html import (
@@ -97,6 +97,7 @@ def _find_places(result: Result, tool: "tool_radius.ToolReport | None") -> PageA
     )
 
 
+@checked
 def report_page(
     result: Result,
     version: str,

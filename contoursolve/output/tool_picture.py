@@ -8,6 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import DECIMALS, Answer
+from contoursolve.diagnostics import checked
 from contoursolve.geometry import Turn
 from contoursolve.pictures import (
     Closeup,
@@ -89,6 +90,7 @@ def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[Tool
     return tuple(_together([*several]) for _, several in planes)
 
 
+@checked
 def tool_text(report: ToolReport, line: int) -> str:
     """The sentence about which tool cuts the contour on a line; empty where no tool goes."""
     each = next((each for each in report.runs if line in each.run.lines), None)

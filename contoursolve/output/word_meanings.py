@@ -5,20 +5,24 @@ from decimal import Decimal
 from msgspec import Struct
 
 from contoursolve.diagnosis import Answer, AskedValue, coordinates, meaning_of, short_name, word_keys
+from contoursolve.diagnostics import checked
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Line, Profile, Unit
 
 
+@checked
 def form_text(answer: Answer) -> str:
     """Name and title of the contour's form, in the control's words."""
     return f"{answer.claim.form.name} ({answer.claim.form.title})"
 
 
+@checked
 def end_text(answer: Answer) -> str:
     """The end point of a contour, as the control writes it: `Z-50.2073 X100.0000`; empty without a path."""
     return coordinates(answer.contour.end, answer.plane, answer.unit) if answer.contour else ""
 
 
+@checked
 def start_text(answer: Answer) -> str:
     """The words that lead to the start point of a contour, as its control reads coordinates; empty if it is unknown.
 
@@ -57,6 +61,7 @@ class StatedWord(Struct, frozen=True):
     is_ignored: bool = False
 
 
+@checked
 def stated_words(answer: Answer) -> tuple[StatedWord, ...]:
     """The words that state something about a contour, in the order of the program.
 

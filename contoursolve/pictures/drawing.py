@@ -157,7 +157,7 @@ def draw_family_map(
     values with a contour and without, with what fails beyond them.
 
     `words` go to the right and up; without them, the two words of the family. `result` colours the contours by one of
-    the family's `results`, with lines of equal value: `"V2.Z"`, `"line 1.room"`, `"length"`. Raises ValueError where
+    the family's `results`, with lines of equal value: `"V2 Z"`, `"end X"`, `"length"`. Raises ValueError where
     these are not two words of a grid, FamilyError for a result that is none.
     """
     from contoursolve.pictures.maps import lay_out_map  # noqa: PLC0415 - numpy

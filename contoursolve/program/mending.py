@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, hash_of
+from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, checked, hash_of
 from contoursolve.gcode import split_lines
 from contoursolve.program.open_program import OpenProgram
 from contoursolve.program.pipeline import Result
@@ -20,6 +20,7 @@ Found = tuple[Diagnostic, tuple[int, ...]]
 """A finding, and the lines that its fixes replace."""
 
 
+@checked
 def changes_of(fix: Fix, lines: Sequence[int], old: Mapping[int, str]) -> Changes:
     """The changes that a fix makes to the lines that it replaces and to those beside; `old` are texts of lines, at
     least of the first."""
@@ -119,6 +120,7 @@ Wanted = Callable[[Diagnostic], Sequence[Fix]]
 """The fixes of a finding that are wanted: the first of them that leaves the program no worse is applied."""
 
 
+@checked
 def safe_fixes(finding: Diagnostic) -> list[Fix]:
     """The fixes of a finding that keep the contour; none behind a likelier one that changes it, whose slip they would
     hide."""
@@ -127,6 +129,7 @@ def safe_fixes(finding: Diagnostic) -> list[Fix]:
     return [fix for fix in finding.fixes if fix.applicability is Applicability.SAFE]
 
 
+@checked
 def likely_fixes(finding: Diagnostic) -> list[Fix]:
     """The first fix of a finding, unless its number is still to be chosen; then those that keep the contour."""
     first = [fix for fix in finding.fixes[:1] if fix.applicability is not Applicability.PLACEHOLDER]
@@ -194,6 +197,7 @@ _AT_ONCE = 1 << 16
 """Fixes that are applied before the program is examined again."""
 
 
+@checked
 def mend_open(program: OpenProgram, wanted: Wanted = safe_fixes) -> Mended:
     """The same of a program that is open in an editor, which stays as it is."""
     copy = program.copy()

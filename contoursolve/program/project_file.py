@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnostics import UserError, did_you_mean
+from contoursolve.diagnostics import UserError, checked, did_you_mean
 from contoursolve.gcode import late_pattern, split_lines
 from contoursolve.reading import Dialect
 
@@ -42,6 +42,7 @@ class SettingError(UserError, ValueError):
     """A setting that there is not, or a project file that cannot be read; the message says what there is."""
 
 
+@checked
 def find_settings(folder: Path) -> dict[str, str]:
     """The settings, by `control.name`, of the first project file in a folder or the folders above it.
 
@@ -58,6 +59,7 @@ def find_baseline(folder: Path) -> Path | None:
     return found[1].parent / named if found is not None and isinstance(named, str) else None
 
 
+@checked
 def find_tool_table(folder: Path, read: Callable[[str, Mapping[str, Any]], Any] = lambda _, row: row) -> dict[str, Any]:
     """The table of tools of this file, each row as it is read; empty if it has none. Raises SettingError."""
     found = _find(folder)

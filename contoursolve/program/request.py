@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import COMMON_RULES, DIALECTS, ControlName
 from contoursolve.diagnosis import Depth, Policy
-from contoursolve.diagnostics import choice_of
+from contoursolve.diagnostics import check_type, choice_of
 from contoursolve.execution import ALONE, Surroundings, check_names, surroundings_of
 from contoursolve.gcode import ISO, Directive, Named, NamedAs, Program, parse, read_directive, read_named, spelled
 from contoursolve.geometry import Length
@@ -132,13 +132,18 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     reference: "str | Iterable[str]" = ()
     strict: bool = False
 
+    def check_types(self) -> None:
+        """Raise TypeError, which names the option and what fits, for one of another type."""
+        for argument, (kind, fits) in _ARGUMENTS.items():
+            if (value := getattr(self, argument)) is not None:
+                check_type(argument, value, kind, fits)
+
     def request(self, name: str, dialect: Dialect | None = None) -> Request:
         """The request for the program of this name, for a control; a text alone is one fact. Raises ValueError where
         units, rules or depth is none of its choices."""
+        self.check_types()
         start = start_text(self.start)
         several = [self.facts] if isinstance(self.facts, str) else self.facts
-        if not isinstance(several, Iterable):
-            raise TypeError(f'facts are texts such as "length of line 1 = 30", not {several!r}')
         asked = Request(
             None,
             choice_of(Length, self.units, "units"),
@@ -155,6 +160,17 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
         return asked.of(dialect) if dialect is not None else asked
 
 
+_ARGUMENTS: Mapping[str, tuple[type, str]] = {
+    "facts": (Iterable, 'texts, such as "length of line 1 = 30"'),
+    "settings": (Mapping, 'a mapping of settings, such as {"fanuc-lathe.angle": "normal"}'),
+    "variables": (Mapping, 'a mapping of variables, such as {"#100": 95.0}'),
+    "folders": (Iterable, "names of folders"),
+    "trust": (Iterable, 'words, such as "Z-50. A120."'),
+    "reference": (Iterable, 'words, such as "Z-50."'),
+}
+"""Types of options, and what fits."""
+
+
 def start_text(start: object) -> str | None:
     """The words of a start point: as they are typed, or numbers by letters such as `{"X": 40, "Z": 0}`, which count as
     the words do. Raises TypeError for anything else."""
@@ -164,7 +180,14 @@ def start_text(start: object) -> str | None:
         raise TypeError(f'the start is words such as "X40. Z0.", or {{"X": 40, "Z": 0}}, not {start!r}')
     from contoursolve.diagnosis import typed_text  # noqa: PLC0415 - few starts are numbers
 
-    return " ".join(f"{letter}{typed_text(value)}" for letter, value in start.items())
+    words: list[str] = []
+    for letter, value in start.items():
+        check_type("a letter of the start", letter, str)
+        try:
+            words.append(f"{letter}{typed_text(value)}")
+        except (TypeError, ValueError):
+            raise TypeError(f"{letter} of the start is a number, not {value!r}") from None
+    return " ".join(words)
 
 
 def takes(keywords: type[ReadingKeywords]) -> Callable[[Callable[P, T]], Callable[P, T]]:
@@ -204,5 +227,9 @@ def _named(role: NamedAs, texts: "str | Iterable[str]") -> list[Named]:
 
 
 def _fact(fact: "str | Statement", line: int) -> Directive:
+    if not isinstance(fact, str):
+        from contoursolve.geometry import Statement  # noqa: PLC0415 - few facts are records
+
+        check_type("a fact", fact, Statement, 'a text such as "length of line 1 = 30", or a statement')
     text = fact if isinstance(fact, str) else str(fact)
     return replace(read_directive(text, line), statement=None if isinstance(fact, str) else fact)

@@ -19,7 +19,7 @@ from contoursolve.diagnosis import (
     place_text,
     status_text,
 )
-from contoursolve.diagnostics import Diagnostic, Severity, hash_of
+from contoursolve.diagnostics import Diagnostic, Severity, checked, hash_of
 from contoursolve.geometry import Arc, scalar
 from contoursolve.pictures import Known, Role, find_known, in_part, list_trails
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program, element_of
@@ -145,6 +145,7 @@ class SketchAnswer(Struct, frozen=True):
         return next(errors, f"no contour: {status_text(self.status)}")
 
 
+@checked
 def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchAnswer:
     """All that is known of a sketch, however little that is.
 

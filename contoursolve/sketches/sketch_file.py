@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS, words_of_drawing
-from contoursolve.diagnostics import names_like
+from contoursolve.diagnostics import checked, names_like
 from contoursolve.sketches.sketch import ASKED, VERSION, ContourSketch, SketchCorner, SketchElement, SketchError
 from contoursolve.tolerance import LARGEST
 
@@ -97,6 +97,7 @@ def _fields_of(part: str, kind: str | None = None) -> dict[str, _Field]:
     return own | {name: _Field(_Kind.VALUE, meaning) for name, meaning in words_of_drawing(part, kind).items()}
 
 
+@checked
 def read_sketch(text: str) -> ContourSketch:
     """The sketch of a file's text, TOML or JSON.
 
@@ -251,6 +252,7 @@ def _meant(name: str, fields: Mapping[str, _Field]) -> str:
     return f"; {' or '.join(meant)} was probably meant" if meant else f"; there are {', '.join(fields)}"
 
 
+@checked
 def write_sketch(sketch: ContourSketch, *, as_json: bool = False) -> str:
     """The text of a sketch's file, TOML or JSON; `read_sketch` of it is the same sketch.
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 from contoursolve.diagnosis import length_text, status_text
-from contoursolve.diagnostics import members, plain
+from contoursolve.diagnostics import checked, members, plain
 from contoursolve.pictures import (
     Mark,
     MarkKind,
@@ -40,6 +40,7 @@ _MEANINGS: Mapping[Role, str] = {
 }
 
 
+@checked
 def draw_sketch(found: SketchAnswer, *, theme: Theme = Theme.LIGHT) -> Picture | None:
     """The picture of what is known of a sketch; None where nothing is.
 
@@ -102,6 +103,7 @@ def _told(found: SketchAnswer) -> Iterator[str]:
     yield from (f"{each[0].upper()}{each[1:]}." for each in (found.missing, *found.remarks) if each)
 
 
+@checked
 def sketch_view(sketch: ContourSketch, *, with_ranges: bool = False, theme: Theme = Theme.PAGE) -> dict[str, Any]:
     """All that is known of a sketch, and its picture as SVG, as plain data; numbers of fields are texts."""
     found = solve_sketch(sketch, with_ranges=with_ranges)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from contoursolve.controls import DIALECTS, ControlName
 from contoursolve.diagnosis import Answer, status_text
-from contoursolve.diagnostics import UserError
+from contoursolve.diagnostics import UserError, check_type, checked
 from contoursolve.postprocess import Written, write_contour
 from contoursolve.program import Result, configure, find_dialect
 from contoursolve.reading import Dialect
@@ -41,10 +41,12 @@ def write(
     >>> write(shaft, "fanuc-lathe").candidates[0].lines
     ('G01 Z-30. ,R5.', 'X100. ,A120.')
     """
+    check_type("contour", contour, Answer | Result | ContourSketch)
     target = control if isinstance(control, Dialect) else configure(find_dialect(control), settings)
     return write_contour(_answer_of(contour), target)
 
 
+@checked
 def write_for_all(
     contour: Answer | Result | ContourSketch, *, settings: Mapping[str, str] | None = None
 ) -> tuple[Written, ...]:

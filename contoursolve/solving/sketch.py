@@ -263,7 +263,10 @@ class Sketch(Shown):
         return profile, {f"fact {number}": questions[number] for number in sorted(questions)}
 
     def solve(self) -> Drawings:
-        """Every way to draw the sketch. Raises GrammarError or StatementError as `profile`."""
+        """Every way to draw the sketch. Raises ValueError for one without elements, and GrammarError or StatementError
+        as `profile`."""
+        if not (self._path or self._beside or self._free_lines):
+            raise ValueError("the sketch is empty; add a line, an arc or a circle")
         profile, questions = self._stated()
         texts = {f"fact {number}": str(fact) for number, fact in enumerate(self._statements, 1)}
         stated = Stated(profile, texts, questions)

@@ -117,8 +117,9 @@ def sweep_tools(
     if not values and not as_it_stands.answers:
         raise FamilyError("the block has no contour words; contoursolve range --word tool tells which tools cut it")
     contours = compile_sweep(spec, Ranges(values, is_paired=is_paired))
-    unit = contours.template.solve({word: float(each[0]) for word, each in values.items()}).unit
-    own = asdict(contours) | {"ranges": Ranges({**values, TOOL: radii}, is_paired=is_paired), "tool": wanted}
+    unit = contours.template.solve({word: float(each[0]) for word, each in contours.ranges.values.items()}).unit
+    ranges = Ranges({**contours.ranges.values, TOOL: radii}, is_paired=is_paired)
+    own = asdict(contours) | {"ranges": ranges, "tool": wanted}
     return ToolSweep(**own, contours=contours, scale=float(unit.in_mm))
 
 

@@ -112,8 +112,8 @@ def roundings() -> Table:
     """G111 by A, K, B, X with P and Q."""
     rows, q = A.size * P.size, 5.0
     places = ("begin", "end", "center")
-    names = [f"{name}.{axis}" for name in ("V1", "V2") for axis in "ZX"]
-    names += [f"corner {n}.{place}.{axis}" for n in (1, 2) for place in places for axis in "ZX"]
+    names = [f"{name} {axis}" for name in ("V1", "V2") for axis in "ZX"]
+    names += [f"corner {n}.{place} {axis}" for n in (1, 2) for place in places for axis in "ZX"]
     table = empty([*names, "line 1.room", "line 2.room", "residual"], rows)
     ca_of, sa_of = np.cos(np.radians(A)), np.sin(np.radians(A))
     cb, sb = np.cos(np.radians(120)), np.sin(np.radians(120))
@@ -122,7 +122,7 @@ def roundings() -> Table:
         ca, sa, p = ca_of[at // P.size], sa_of[at // P.size], P[at % P.size]
         reasons = Reasons(at.size)
         (v1z, v1x), (v2z, v2x), lengths, worst = skeleton(ca, sa, cb, sb, reasons)
-        points = [("V1.Z", v1z), ("V1.X", v1x + 20), ("V2.Z", v2z), ("V2.X", v2x + 20)]
+        points = [("V1 Z", v1z), ("V1 X", 2 * (v1x + 20)), ("V2 Z", v2z), ("V2 X", 2 * (v2x + 20))]
         backs, along = [], np.sign(cb)
         corners = ((v1z, v1x, (ca, sa), (cb, sb), p), (v2z, v2x, (cb, sb), (along, 0.0), q))
         for n, (z, y, u, v, size) in enumerate(corners):
@@ -133,7 +133,7 @@ def roundings() -> Table:
             cz, cx = bz - side * u[1], bx + side * u[0]
             shape = zip(places, ((z + bz, y + bx), (z + ez, y + ex), (z + cz, y + cx)), strict=True)
             for place, pair in shape:
-                points += [(f"corner {n + 1}.{place}.Z", pair[0]), (f"corner {n + 1}.{place}.X", pair[1] + 20)]
+                points += [(f"corner {n + 1}.{place} Z", pair[0]), (f"corner {n + 1}.{place} X", 2 * (pair[1] + 20))]
             check_lengths(n, lengths, reasons)
             check_turn(turn, cosine, reasons, at.shape)
             backs.append([(element, np.broadcast_to(back, at.shape)) for element in ((0, 1) if n == 0 else (1,))])
@@ -163,8 +163,8 @@ def quadrant(first: Any, other: Any) -> Any:
 def bevels() -> Table:
     """G111 by A, K, B, X with C and D at 45 degrees to the axes."""
     rows, d = A.size * C.size, 5.0
-    names = [f"{name}.{axis}" for name in ("V1", "V2") for axis in "ZX"]
-    names += [f"corner {n}.{place}.{axis}" for n in (1, 2) for place in ("begin", "end") for axis in "ZX"]
+    names = [f"{name} {axis}" for name in ("V1", "V2") for axis in "ZX"]
+    names += [f"corner {n}.{place} {axis}" for n in (1, 2) for place in ("begin", "end") for axis in "ZX"]
     table = empty([*names, "line 1.room", "line 2.room", "residual"], rows)
     ca_of, sa_of = np.cos(np.radians(A)), np.sin(np.radians(A))
     cb, sb = np.cos(np.radians(120)), np.sin(np.radians(120))
@@ -173,7 +173,7 @@ def bevels() -> Table:
         ca, sa, c = ca_of[at // C.size], sa_of[at // C.size], C[at % C.size]
         reasons = Reasons(at.size)
         (v1z, v1x), (v2z, v2x), lengths, worst = skeleton(ca, sa, cb, sb, reasons)
-        points = [("V1.Z", v1z), ("V1.X", v1x + 20), ("V2.Z", v2z), ("V2.X", v2x + 20)]
+        points = [("V1 Z", v1z), ("V1 X", 2 * (v1x + 20)), ("V2 Z", v2z), ("V2 X", 2 * (v2x + 20))]
         backs = []
         qz, qx = quadrant(cb, ca), quadrant(sb, sa)
         corners = (
@@ -186,7 +186,7 @@ def bevels() -> Table:
             back_in, back_out = (gz * v[1] - gx * v[0]) / turn, (u[0] * gx - u[1] * gz) / turn
             bz, bx, ez, ex = -back_in * u[0], -back_in * u[1], back_out * v[0], back_out * v[1]
             for place, pair in (("begin", (z + bz, y + bx)), ("end", (z + ez, y + ex))):
-                points += [(f"corner {n + 1}.{place}.Z", pair[0]), (f"corner {n + 1}.{place}.X", pair[1] + 20)]
+                points += [(f"corner {n + 1}.{place} Z", pair[0]), (f"corner {n + 1}.{place} X", 2 * (pair[1] + 20))]
             check_lengths(n, lengths, reasons)
             if n == 1:
                 reasons.refuse(np.broadcast_to(qz == 0, at.shape), Kind.LANDING_UNKNOWN)
@@ -223,7 +223,7 @@ COMMA_A, R = np.linspace(150, 200, SIDE), np.linspace(45, 80, SIDE)
 def circle_line() -> Table:
     """NCT: an arc from the start through (-50, 0) by its radius, then a line through (-50, 42.857) by its angle."""
     rows = COMMA_A.size * R.size
-    names = [f"{name}.{axis}" for name in ("C", "N1", "P1", "N2") for axis in "XY"]
+    names = [f"{name} {axis}" for name in ("C", "N1", "P1", "N2") for axis in "XY"]
     table = empty([*names, "r", "arc.room", "line.room", "residual"], rows)
     table["branch.P1"] = np.empty(rows, np.int8)
     ca_of, sa_of = np.cos(np.radians(COMMA_A)), np.sin(np.radians(COMMA_A))
@@ -260,8 +260,8 @@ def circle_line() -> Table:
             reasons.refuse(~(line >= -LENGTH), Kind.LINE_REVERSED)
             swept = np.arctan2(-cx * sy + cy * sx, -cx * sx - cy * sy)
             arc = r * np.where(swept > 0, swept, swept + 2 * np.pi)
-        points = [("C.X", cx + 50), ("C.Y", cy), ("N1.X", n1x + 50), ("N1.Y", n1y)]
-        points += [("P1.X", px + 50), ("P1.Y", py), ("N2.X", n2x + 50), ("N2.Y", n2y), ("r", r)]
+        points = [("C X", cx + 50), ("C Y", cy), ("N1 X", n1x + 50), ("N1 Y", n1y)]
+        points += [("P1 X", px + 50), ("P1 Y", py), ("N2 X", n2x + 50), ("N2 Y", n2y), ("r", r)]
         finish(table, part, reasons, points, {"arc.room": arc, "line.room": line}, worst)
         table["branch.P1"][part] = np.where(reasons.codes == 0, -1, 0)
     return table

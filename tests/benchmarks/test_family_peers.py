@@ -28,7 +28,7 @@ A, P = np.round(RNG.uniform(150, 210, ROWS), 3), np.round(RNG.uniform(0.5, 9, RO
 K, B, X = -30.0, radians(120), 50.0
 
 NAMES = [
-    f"{name}.{axis}" for name in ("V1", "V2", "corner 1.begin", "corner 1.end", "corner 1.center") for axis in "ZX"
+    f"{name} {axis}" for name in ("V1", "V2", "corner 1.begin", "corner 1.end", "corner 1.center") for axis in "ZX"
 ]
 
 
@@ -176,7 +176,8 @@ def by_loop(rows: int) -> np.ndarray:
 
 def by_family(rows: int) -> np.ndarray:
     found = contoursolve.family(BLOCK, start=START, vary={"A": A[:rows], "P": P[:rows]}, paired=True)
-    return np.stack([found[name] for name in NAMES], axis=1)
+    # X of a lathe is a diameter in a family.
+    return np.stack([found[name] / (1 + name.endswith("X")) for name in NAMES], axis=1)
 
 
 @cache

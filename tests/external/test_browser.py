@@ -252,7 +252,7 @@ def test_a_map_answers_to_the_pointer_and_to_keys_without_a_kernel(browser, tmp_
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_the_page_of_a_map_is_accessible(axe, browser, tmp_path, scheme):
-    (tmp_path / "map.html").write_text(contoursolve.map_page(region_here(), "end.Z"), encoding="utf-8")
+    (tmp_path / "map.html").write_text(contoursolve.map_page(region_here(), "end Z"), encoding="utf-8")
     for width in (1240, 390):
         watched = Watched(browser, viewport={"width": width, "height": 900}, color_scheme=scheme)
         watched.page.goto((tmp_path / "map.html").as_uri())
@@ -269,7 +269,7 @@ def test_the_page_of_a_map_is_accessible(axe, browser, tmp_path, scheme):
 @pytest.mark.slow
 def test_in_jupyterlab_a_map_is_solved_where_the_pointer_is_and_opens_the_explorer(browser, tmp_path, artefacts):
     kind = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None, "id": "map"}
-    cell = {**kind, "source": f"import contoursolve\n{REGION}\ncontoursolve.explore_map(region, 'end.Z')"}
+    cell = {**kind, "source": f"import contoursolve\n{REGION}\ncontoursolve.explore_map(region, 'end Z')"}
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     document = {"cells": [cell], "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
     (tmp_path / "map.ipynb").write_text(json.dumps(document), encoding="utf-8")

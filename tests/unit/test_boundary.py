@@ -121,7 +121,7 @@ FACT = ["--fact", "straight part of line 2 = 20", "--word", "straight part of li
         (BLOCK, ["--word", "A", "--word", "P"], 2, "--within"),
         (BLOCK.replace("P5.", "P60."), ["--word", "P", "--within", "55:60"], 1, NOT_CLOSED),
         (BLOCK.replace("P5.", "P?").replace(" Q5.", ""), FACT, 0, "straight part of line 2, now 20.0000 mm"),
-        (BLOCK, ["--word", "Start.x"], 0, "start.X, now 40.0000 mm"),
+        (BLOCK, ["--word", "Start.x"], 0, "start X, now 40.0000 mm"),
         (BLOCK, ["--word", "R"], 2, "no word R"),
         (BLOCK, ["--word", "P", "--within", "5"], 2, "--within 5: write LOW:HIGH, such as 0.1:50"),
     ],

@@ -33,11 +33,11 @@ def test_the_default_stays_one_solution_and_refuses_a_block_without_its_choice()
     for name, one in zip(found.solutions, chosen, strict=True):
         own = found.solution(name)
         assert (own.shape, own.solutions) == ((2,), ())
-        for column in ("P1.X", "P1.Y", "N2.X"):
+        for column in ("P1 X", "P1 Y", "N2 X"):
             if column in own.names:
                 assert own[column] == pytest.approx(one[column], abs=1e-12)
     alone = family(f"{block} Q1", vary={word: [171.87]}, branches="all")
-    assert (alone.solutions, alone["P1.X"].shape) == (("P1 farther",), (1, 1))
+    assert (alone.solutions, alone["P1 X"].shape) == (("P1 farther",), (1, 1))
     with pytest.raises(ValueError, match="branches"):
         family(block, vary={word: [171.87]}, branches="both")
     with pytest.raises(KeyError, match="there are P1 farther, P1 nearer"):
@@ -56,14 +56,14 @@ def test_solutions_are_a_dimension_of_arrays_tables_and_executors():
     for name in found.names:
         assert found[name].tobytes() == other[name].tobytes(), name
     data = found.to_xarray()
-    assert data["P1.X"].dims == (word, "3:Y", "solution")
-    assert data.sel(solution="P1 nearer")["P1.X"].shape == (8, 2)
+    assert data["P1 X"].dims == (word, "3:Y", "solution")
+    assert data.sel(solution="P1 nearer")["P1 X"].shape == (8, 2)
     table = found.to_arrow()
     assert table.num_rows == found["status"].size
     assert table.column("solution").to_pylist()[:2] == list(found.solutions)
     assert np.array_equal(np.isnan(found.result("length")), ~found.has_contour)
     paired = family(block, vary={word: [171.87, 165.0], "3:Y": [42.857, 40.0]}, paired=True, branches="all")
-    assert paired["P1.X"].shape == (2, 2)
+    assert paired["P1 X"].shape == (2, 2)
     assert "solutions: P1 nearer and P1 farther" in str(found)
     with pytest.raises(ValueError, match="a map shows one solution"):
         contoursolve.pictures.draw_family_map(found)

@@ -254,9 +254,12 @@ def test_a_result_stays_near_between_the_ends_of_a_tolerance_and_not_beyond(name
     values = np.unique([*np.linspace(found.low.value, found.high.value, 801), *edges])
     grid = family(block, vary={word: values}, **options)
     here = np.flatnonzero(values == found.stated)[0]
-    off = [grid[f"{point}.{axis}"] - grid[f"{point}.{axis}"][here] for axis in letters if letter in ("", axis)]
-    scale = 2 if letter and answer.plane.diameters[letters.index(letter)] else 1
-    moved = np.hypot.reduce([*off, np.zeros(values.size)]) * scale / in_mm
+    factors = [1 if letter else 1 + each for each in answer.plane.diameters]
+    columns = [
+        (grid[f"{point} {axis}"], each) for axis, each in zip(letters, factors, strict=True) if letter in ("", axis)
+    ]
+    off = [(column - column[here]) / each for column, each in columns]
+    moved = np.hypot.reduce([*off, np.zeros(values.size)]) / in_mm
     inside = (values > found.low.value) & (values < found.high.value)
     assert (moved[inside] <= within * (1 + 1e-9)).all()
     for end, number in ((found.low, 0), (found.high, -1)):
@@ -288,8 +291,8 @@ def test_places_of_elements_are_those_of_the_points_and_corners_that_end_them():
     block, options = "G01 Z-30. ,R5.\nX60. ,A150.\nZ-80.", {"start": START, "control": "fanuc-lathe"}
     for one, other in (
         ("line 2.end Z", "N2 Z"),
-        ("line 1.end Z", "corner 1.begin Z"),
-        ("line 2.begin X", "corner 1.end X"),
+        ("Z of begin of corner 1", "corner 1.begin Z"),
+        ("end.z", "Z of end of line 2"),
     ):
         found = [tolerance_for(block, ",A", keep=each, within=0.01, **options) for each in (one, other)]
         assert (found[0].low.value, found[0].high.value) == (found[1].low.value, found[1].high.value)
@@ -333,10 +336,10 @@ def test_lengths_and_directions_are_kept_as_facts_name_them(block, facts, word, 
     ("word", "keep", "within", "told"),
     [
         ("A", "end Z", 0, "within is how far end Z may move, a number above 0, not 0"),
-        ("A", "V9 Z", 1, "the contour has no V9; there are end, S, V1, V2"),
-        ("A", "end Y", 1, "end Y: the axes of this contour are Z and X"),
+        ("A", "V9 Z", 1, "there is no result V9 Z; did you mean V2 Z or V1 Z? the results are end Z, end X"),
+        ("A", "end Y", 1, "there is no result end Y; the axes of this contour are Z and X"),
         ("W", "end Z", 1, "the block has no word W"),
-        ("A", "length of line 9", 1, "the fact cannot be read"),
+        ("A", "length of line 9", 1, "expected an element (line 1, line 2, corner 1, corner 2), found `line 9`"),
     ],
 )
 def test_what_has_no_tolerance_says_why(word, keep, within, told):

@@ -84,14 +84,15 @@ def solved_alone(family, values):
 def test_the_length_and_the_end_of_each_row_are_those_of_its_contour(name):
     family = family_of(name, 3, 4)
     axes = list(family.ranges.values.values())
-    length, ends = family.result("length"), [family.result(each) for each in family.results if each.startswith("end.")]
+    length, ends = family.result("length"), [family.result(each) for each in family.results if each.startswith("end ")]
     assert family.has_contour.any()
     for row in numpy.ndindex(*family.shape):
         contour = solved_alone(family, [axis[place] for axis, place in zip(axes, row, strict=True)])
         assert (contour is None) == numpy.isnan(length[row])
         if contour is not None:
             assert length[row] == pytest.approx(sum(each.length for each in contour.elements), abs=1e-9)
-            assert [each[row] for each in ends] == pytest.approx(contour.end, abs=1e-9)
+            factors = [1 + each for each in contour.plane.diameters]
+            assert [each[row] for each in ends] == pytest.approx(numpy.multiply(contour.end, factors), abs=1e-9)
 
 
 def test_each_solution_of_a_row_has_its_results_and_its_map():
@@ -115,10 +116,10 @@ def test_each_solution_of_a_row_has_its_results_and_its_map():
 def test_an_unknown_result_is_refused_with_those_that_are_like_it():
     family = family_of("a taper", 4, 3)
     for wrong, said in (
-        ("V3.Z", "there is no result V3.Z; did you mean V2.Z or V1.Z? the results are end.Z, "),
+        ("V3 Z", "there is no result V3 Z; did you mean V2 Z or V1 Z? the results are end Z, "),
         ("lenght", "did you mean length?"),
         ("status", "there is no result status"),
-        (" ", "a result has a name"),
+        (" ", "the results are end Z, end X, V1 Z"),
     ):
         for ask in (draw_family_map, contoursolve.explore_map):
             with pytest.raises(contoursolve.FamilyError, match=re.escape(said)):
@@ -180,16 +181,16 @@ def test_a_line_of_equal_value_runs_where_single_solves_have_its_value(name):
 def test_a_map_of_a_result_says_what_it_shows_and_only_then_has_its_colours():
     family = family_of("a taper", 24, 20)
     shown = draw_family_map(family, result="v2.z", theme=Theme.PAGE)
-    assert "V2.Z [mm]: " in shown.title
+    assert "V2 Z [mm]: " in shown.title
     assert "level-8" in shown.svg
     assert not any(role.value in draw_family_map(family, theme=Theme.PAGE).svg for role in LEVELS)
     (remark,) = [each for each in labels(shown) if each.startswith("V2.Z [mm]: from")]
-    low, high = numpy.nanmin(family.result("V2.Z")), numpy.nanmax(family.result("V2.Z"))
+    low, high = numpy.nanmin(family.result("V2 Z")), numpy.nanmax(family.result("V2 Z"))
     assert [float(each) for each in re.findall(r"-?\d+\.\d+", remark)[:2]] == pytest.approx([low, high], abs=0.01)
     assert "solved" not in labels(shown)
-    fixed = draw_family_map(family, result="V1.Z")
+    fixed = draw_family_map(family, result="V1 Z")
     assert "V1.Z [mm]: -30.000 wherever there is a contour" in labels(fixed)
-    assert "V2.X [mm, radius]" in draw_family_map(family, result="V2.X").title
+    assert "V2 X [mm, diameter]" in draw_family_map(family, result="V2 X").title
 
 
 @pytest.mark.parametrize("name", REGIONS)
@@ -303,7 +304,7 @@ def test_where_every_value_is_refused_nothing_is_painted_as_solved():
     vary = {"B": numpy.arange(10.0, 90.0, 5), "I": [10.0, 10.0001]}
     found = contoursolve.family("G111 A135. I10. K-10. B120. Z-40.", start=START, rules="off", vary=vary)
     assert (found["status"] == StatusCode.OVERDETERMINED).all()
-    assert not numpy.isfinite(found["V2.X"]).any()
+    assert not numpy.isfinite(found["V2 X"]).any()
     assert {role for *_, role in fields_of(draw_family_map(found))} == {Role.REFUSED_FIELD}
 
 
@@ -339,10 +340,10 @@ ONE = ("--vary", "A=120:250:2", "--vary", "Q=5")
         ((*ONE, "--vary", "P=1:60:9", "--vary", "X=90,100"), "no.svg", "has 3 words"),
         (("--vary", "A=170"), "no.svg", "has 0 words"),
         (("--vary", "A=170,180", "--vary", "P=1,2", "--paired"), "no.svg", "has paired words"),
-        ((*ONE, "--vary", "P=1:60:9", "--result", "V9.Z"), "no.svg", "there is no result V9.Z; did you mean"),
-        ((*ONE, "--result", "V2.Z"), "no.svg", "a map of V2.Z takes two words that vary"),
+        ((*ONE, "--vary", "P=1:60:9", "--result", "V9 Z"), "no.svg", "there is no result V9 Z; did you mean"),
+        ((*ONE, "--result", "V2 Z"), "no.svg", "a map of V2 Z takes two words that vary"),
         (ONE, "fan.pdf", "pictures end in .svg or .png"),
-        ((*ONE, "--result", "V2.Z"), "", "name its file with --plot"),
+        ((*ONE, "--result", "V2 Z"), "", "name its file with --plot"),
     ],
 )
 def test_a_sweep_that_no_picture_can_show_writes_none(tmp_path, arguments, name, said):
@@ -504,13 +505,13 @@ def test_a_region_and_a_family_are_drawn_beside_what_is_there(ax):
     assert (ax.get_xlabel(), ax.get_ylabel(), ax.get_title()) == ("A [deg]", "P [mm]", "length [mm]")
     family = family_of("a taper", 31, 29)
     other = type(ax.figure)().subplots()
-    for options in ({}, {"result": "V1.Z"}, {"result": "end.Z", "words": ("P", "A")}):
+    for options in ({}, {"result": "V1 Z"}, {"result": "end Z", "words": ("P", "A")}):
         other.clear()
         assert family.plot(other, **options) is other
     assert (other.get_xlabel(), other.get_ylim()) == ("P [mm]", (150.0, 210.0))
     one = contoursolve.family(BLOCK, start=START, vary={"A": [170], "P": [1, 2]})
     for own, axes, options, error, said in (
-        (family, other, {"result": "end.Y"}, contoursolve.FamilyError, "did you mean end"),
+        (family, other, {"result": "end Y"}, contoursolve.FamilyError, "the axes of this contour are Z and X"),
         (family, [other], {}, TypeError, "ax is axes of matplotlib"),
         (one, other, {"words": ("A", "P")}, ValueError, "two or more values"),
     ):

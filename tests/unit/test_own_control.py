@@ -137,9 +137,9 @@ def test_every_door_takes_a_control_as_its_tables():
     line, start = "G1 X30 ,A45", "X0 Y0"
     assert [each.word for each in contoursolve.completions("G1 ,A45", start=start, control=MINE)] == ["X?", "Y?"]
     found = contoursolve.family(line, start=start, vary={",A": [0.0, 45.0]}, control=MINE)
-    assert found["N1.Y"].tolist() == pytest.approx([0, 30])
+    assert found["N1 Y"].tolist() == pytest.approx([0, 30])
     slopes = contoursolve.sensitivity(line, start=start, control=MINE).slopes
-    assert slopes["N1.Y"]["X"] == pytest.approx(1)
+    assert slopes["N1 Y"]["X"] == pytest.approx(1)
     assert contoursolve.feasible(line, "X", start=start, control=MINE).intervals[0].low.value == 0
     explorer = contoursolve.explore(PAIR, control=MINE)
     explorer.values = {"Q": 1}
@@ -159,7 +159,7 @@ def test_an_executor_takes_a_control_whose_functions_can_be_sent():
     line, values = "G1 X30 ,A45", {",A": [0.0, 45.0]}
     with ThreadPoolExecutor(1) as executor:
         found = contoursolve.family(line, start="X0 Y0", vary=values, control=MINE, executor=executor)
-        assert found["N1.Y"].tolist() == pytest.approx([0, 30])
+        assert found["N1 Y"].tolist() == pytest.approx([0, 30])
         nameless = replace(MINE, signs=lambda _: ())
         with pytest.raises(contoursolve.FamilyError, match="functions must stand in a module"):
             contoursolve.family(line, start="X0 Y0", vary=values, control=nameless, executor=executor)

@@ -139,8 +139,8 @@ def test_families_and_paths_show_themselves():
     words = check(contour._repr_mimebundle_()).words
     assert {"-50.2073", "X dia [mm]", "100.0000"} <= {*words}  # as the control writes X
     slopes = contoursolve.sensitivity(WHOLE, start="X40. Z0.")
-    (row,) = (line.split() for line in str(slopes).split("\n") if "V2.X" in line)
-    assert (row[:3], slopes.slopes["V2.X"]["X"]) == (["V2.X", "dia", "1.0000"], 0.5)
+    (row,) = (line.split() for line in str(slopes).split("\n") if "V2 X" in line)
+    assert (row[:4], slopes.slopes["V2 X"]["X"]) == (["V2", "X", "dia", "1.0000"], 1.0)
 
 
 @pytest.mark.parametrize("control", DIALECTS)

@@ -22,7 +22,7 @@ def test_a_million_draws_are_as_far_off_as_the_tolerances_say():
     stated = {each.word: each.stated for each in found.effects}
     drawn = {word: stated[word] + rng.uniform(-off, off, 100_000) for word, off in ALLOWED.items()}
     rows = family(BLOCK, vary=drawn, paired=True, start=START)
-    for axis, name in enumerate(("corner 2.end.Z", "corner 2.end.X")):
+    for axis, name in enumerate(("corner 2.end Z", "corner 2.end X")):
         values, spread = rows[name], found.spread[axis]
         assert np.abs(values - found.place[axis]).max() <= spread.worst * 1.001 + 1e-12
         assert values.std() * np.sqrt(3) == pytest.approx(spread.typical, rel=0.01, abs=1e-12)
@@ -75,7 +75,7 @@ def test_limits_without_a_contour_are_told_before_what_the_tolerances_come_to():
 def test_a_half_circle_has_no_derivative_by_its_radius():
     """Its centre runs away as the root of what the radius is more than half the chord."""
     block = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
-    slopes = sensitivity(block).slopes["P1.X"]
+    slopes = sensitivity(block).slopes["P1 X"]
     assert np.isnan(slopes["R"])
     assert np.isfinite(slopes[",A"])
     document = CliRunner().invoke(main, ["sensitivity", "--block", block, "--format", "json"])

@@ -10,7 +10,7 @@ from contoursolve.diagnostics import Span
 from contoursolve.gcode import FACT, Directive, Word
 from contoursolve.geometry.profile import Profile, Question, Unit
 from contoursolve.geometry.statements.draft import Draft, StatementError
-from contoursolve.geometry.statements.grammar import GrammarError, Vocabulary, read_statement
+from contoursolve.geometry.statements.grammar import GrammarError, PointName, Vocabulary, read_statement
 from contoursolve.geometry.statements.statement import (
     ANGLES,
     DirectionIs,
@@ -96,7 +96,17 @@ def vocabulary_of(profile: Profile) -> Vocabulary:
     """The names that facts about a profile may mention."""
     figure = profile.figure
     elements = [element.name for element in (*figure.path, *figure.corners)]
-    return Vocabulary(elements, (figure.start, *figure.points), profile.plane, profile.unit)
+    at = {corner.at: corner.name for corner in figure.corners}
+    cut = {
+        f"{element.name}.{part}": (f"{at[point]}.{its}", point)
+        for element in figure.path
+        for part, point, its in (("begin", element.tail, "end"), ("end", element.head, "begin"))
+        if point in at
+    }
+    end = PointName("", figure.path[-1].head) if figure.path else None
+    if end is not None and end.of in at:
+        end = PointName("end", at[end.of])
+    return Vocabulary(elements, (figure.start, *figure.points), profile.plane, profile.unit, end, cut)
 
 
 def _resolved(statement: Statement, next_place: Callable[[], Place | None]) -> Statement:

@@ -1,7 +1,7 @@
 """The textual form of statements: read with the place of every mistake, and written again."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import partial
 
@@ -62,6 +62,36 @@ class Vocabulary(Struct, frozen=True):
     points: Sequence[str]
     plane: Plane
     unit: Length
+    end: "PointName | None" = None
+    """The point at which the path ends, which `end` names."""
+    cut: Mapping[str, tuple[str, str]] = {}
+    """Ends of elements that a corner cuts off, such as `line 1.end`: where the element ends then, and where it would
+    without the corner. Whoever names one means either."""
+
+
+class PointName(Struct, frozen=True):
+    """A point by its name: `of` alone, or the `part` of that element (`begin`, `end` or `center`)."""
+
+    part: str
+    of: str
+
+    @property
+    def text(self) -> str:
+        """The name as it is printed, such as `V2` or `corner 1.center`."""
+        return f"{self.of}.{self.part}" if self.part else self.of
+
+
+PATH_END = PointName("", "end")
+"""The point at which the path ends, as it is named."""
+
+
+class ResultName(Struct, frozen=True):
+    """A number of a contour by its name: a coordinate of a point, or what `quantity` states the value of; the length of
+    the path without both. A point alone has no `axis`."""
+
+    point: PointName | None = None
+    axis: int | None = None
+    quantity: Statement | None = None
 
 
 class _Measure(Struct, frozen=True):
@@ -102,11 +132,53 @@ def read_statement(text: str, vocabulary: Vocabulary) -> Statement:
     return statement
 
 
+def read_result(text: str, vocabulary: Vocabulary) -> ResultName:
+    """The number of a contour that a text names, or the point. Raises GrammarError."""
+    reader = _Reader(text, vocabulary, is_fact=False)
+    found = reader.result()
+    reader.finish()
+    return found
+
+
+def write_result(name: ResultName, plane: Plane) -> str:
+    """The name as it is printed: `end Z`, `corner 1.center Z`, `straight part of line 1`, `length`."""
+    if name.quantity is not None:
+        return write_statement(name.quantity, plane, Length.MM).removesuffix(" = ?")
+    if name.point is None:
+        return _LENGTH
+    return name.point.text if name.axis is None else f"{name.point.text} {plane.axes[name.axis]}"
+
+
+_LENGTH = "length"
+
+
 class _Reader:
-    def __init__(self, text: str, vocabulary: Vocabulary) -> None:
+    def __init__(self, text: str, vocabulary: Vocabulary, *, is_fact: bool = True) -> None:
         self.text = text
         self.words = vocabulary
         self.at = 0
+        self.is_fact = is_fact
+
+    def result(self) -> ResultName:
+        quantity = self._quantity()
+        if quantity is not None:
+            stated = quantity.state(None)
+            if isinstance(stated, PointIs):
+                return ResultName(PointName(stated.part, stated.of), stated.axis)
+            return ResultName(quantity=stated)
+        for element in self._names(self.words.elements):
+            if self._accept(f"{element}.room"):
+                return ResultName(quantity=StraightIs(element, None))
+        point = self._point()
+        if point is not None:
+            letter = self.text[self.at :].strip(" .")
+            if len(letter) == 1 and letter.isalpha():
+                axes = " and ".join(self.words.plane.axes)
+                raise GrammarError(f"the axes of this contour are {axes}", self.at, len(self.text))
+            return ResultName(point)
+        if self._accept(_LENGTH):
+            return ResultName()
+        raise self._error("a point with an axis, or a quantity such as `radius of`", _NAME)
 
     def statement(self) -> Statement:
         quantity = self._quantity()
@@ -138,7 +210,7 @@ class _Reader:
     def finish(self) -> None:
         self._skip()
         if self.at < len(self.text):
-            raise self._error("the end of the fact")
+            raise self._error("the end of the fact" if self.is_fact else "the end of the name")
 
     def _equation(self, quantity: _Quantity) -> Statement:
         if not self._symbol("="):
@@ -170,15 +242,52 @@ class _Reader:
             return _Quantity(partial(TurnIs, first, self._element("an element")), is_angle=True)
         for axis, name in enumerate(self.words.plane.axes):
             if self._accept(f"{name} of"):
-                return self._coordinate(axis)
+                return self._coordinate(axis, self._part_of())
+        begin, point = self.at, self._point()
+        if point is not None:
+            self._symbol(".")
+            for axis, name in enumerate(self.words.plane.axes):
+                if self._accept(name):
+                    return self._coordinate(axis, point)
+        self.at = begin
         return None
 
-    def _coordinate(self, axis: int) -> _Quantity:
+    def _coordinate(self, axis: int, point: PointName) -> _Quantity:
         factor = Decimal("0.5") if self.words.plane.diameters[axis] else Decimal(1)
-        part = self._part()
-        expected = "an element" if part else "a point, or `begin of`, `end of`, `center of`"
-        name = self._name(self.words.elements if part else self.words.points, expected)
-        return _Quantity(partial(PointIs, part, name, axis), factor=factor)
+        return _Quantity(partial(PointIs, point.part, point.of, axis), factor=factor)
+
+    def _part_of(self) -> PointName:
+        """The point behind `Z of`."""
+        begin, part = self.at, self._part()
+        if part:
+            point = PointName(part, self._name(self.words.elements, "an element"))
+            return point if self.is_fact else self._uncut(point, begin)
+        return self._point() or PointName("", self._name(self.words.points, _A_POINT))
+
+    def _point(self) -> PointName | None:
+        """The point whose name stands here, such as `V2`, `corner 1.center` or `end`; None without one."""
+        begin, words = self._skip(), self.words
+        for name in self._names((*words.points, *words.elements)):
+            if name in words.points and self._accept(name):
+                return PointName("", name)
+            for part in _PARTS:
+                if name in words.elements and self._accept(f"{name}.{part}"):
+                    return self._uncut(PointName(part, name), begin)
+        is_end = words.end is not None and self._accept(PATH_END.of)
+        return None if not is_end else words.end if self.is_fact else PATH_END
+
+    def _uncut(self, point: PointName, begin: int) -> PointName:
+        """The point, unless a corner cuts it off. Raises GrammarError."""
+        if point.text in self.words.cut:
+            its, without = self.words.cut[point.text]
+            told = f"a corner cuts off {point.text}: write {its} for where it ends, or {without} for its virtual end"
+            raise GrammarError(told, begin, self.at)
+        return point
+
+    def _names(self, names: Iterable[str]) -> list[str]:
+        """The names that may stand here, the longest first."""
+        here = self.text[self._skip() :].lstrip().lower()
+        return sorted((name for name in names if here.startswith(name[:1].lower())), key=len, reverse=True)
 
     def _part(self, parts: Sequence[str] = tuple(_PARTS)) -> str:
         """The part of an element that is meant; empty if none is said."""
@@ -257,8 +366,7 @@ class _Reader:
         return self._name(self.words.elements, expected)
 
     def _name(self, names: Sequence[str], expected: str) -> str:
-        self._skip()
-        for name in sorted(names, key=len, reverse=True):
+        for name in self._names(names):
             if self._accept(name):
                 return name
         raise self._error(f"{expected} ({', '.join(names)})", _NAME)
@@ -309,6 +417,9 @@ class _Reader:
 
 _LYING = ("lies on", "is on")
 """The verb that says of a part of an element where it lies, as it is written first."""
+
+
+_A_POINT = "a point, or `begin of`, `end of`, `center of`"
 
 
 class _Relation(Struct, frozen=True):

@@ -22,7 +22,7 @@ assert abs(asked["asked.P"][2] - (30 / cos(radians(30)) - straight) / tan(radian
 assert (~asked.has_contour).sum() == 2
 
 # Each version is what the block says with its two values.
-for A, P, end in zip(versions["A"], versions["P"], versions["corner 2.end.Z"], strict=True):
+for A, P, end in zip(versions["A"], versions["P"], versions["corner 2.end Z"], strict=True):
     (alone,) = contoursolve.what_if(BLOCK, change={"A": f"A{A}", "P": f"P{P}"}, start=START).answers
     assert abs(alone.contour.end[0] - end) < 1e-12
 

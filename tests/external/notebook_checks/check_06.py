@@ -12,5 +12,5 @@ assert abs(float(outputs["conditions"]) - numpy.sin(numpy.radians(180 - 120))) <
 
 # One of the 14,641 is our block.
 row = (ANGLES["A"] == 180).argmax(), (ANGLES["B"] == 120).argmax()
-assert abs(family["V1.Z"][row] - by_hand) < 1e-9
+assert abs(family["V1 Z"][row] - by_hand) < 1e-9
 assert family["status"][row] == 0
