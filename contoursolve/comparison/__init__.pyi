@@ -10,6 +10,7 @@ from .claims import (
 from .compare import (
     Comparison as Comparison,
     Difference as Difference,
+    changes_beside as changes_beside,
     compare as compare,
 )
 from .follow import (
@@ -30,4 +31,9 @@ from .travel import (
 )
 from .verify import (
     verify as verify,
+)
+from .words import (
+    COMMENT as COMMENT,
+    Change as Change,
+    Said as Said,
 )

@@ -1,36 +1,66 @@
-"""Compares two paths from their starts: each element, or the part of it that the other path has in one piece."""
+"""Compares two paths: every difference with its words, the largest first; and what changed besides."""
 
-from collections.abc import Iterator, Sequence
-from math import inf
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
+from itertools import pairwise
+from math import inf, isfinite
 
 from msgspec import Struct
 
+from contoursolve.comparison.align import Alignment, Pair, Passage, align, pair_up, unlike
 from contoursolve.comparison.follow import ToolPath
-from contoursolve.comparison.travel import Motion, Place, Step, Travel, Unfollowed, deviation, distance
+from contoursolve.comparison.travel import Place, Step, Travel, Unfollowed, deviation, distance
+from contoursolve.comparison.words import (
+    Change,
+    Lasting,
+    Said,
+    beside_path,
+    changed_comments,
+    changes_between,
+    path_words,
+)
+
+_NEAR = 60
+"""Elements of the other path beside which an element without a partner is looked for."""
 
 
 class Difference(Struct, frozen=True):
-    """The first place where two paths are not the same, and how far apart, mm; None where that is no distance.
+    """Moves in a row that are not the same in two programs, and the words that make them so.
 
-    `old` or `new` is None where that path has ended.
+    `old` and `new` are the moves with which it begins, one of them None where only one program has a move. `distance`
+    is how far apart the paths are there at most, mm: ends of moves from the ends in their place, and what is between
+    from what is between; None where it is no distance. The first and the last line are those of all moves.
     """
 
     reason: str
     old: Step | None
     new: Step | None
     distance: float | None
+    changes: tuple[Change, ...]
+    old_lines: tuple[int, int] | None
+    new_lines: tuple[int, int] | None
+    farthest: tuple[int | None, int | None]
+    """The lines of OLD and of NEW where they are so far apart."""
+    steps: tuple[tuple[Step, ...], tuple[Step, ...]]
+    """All its moves in OLD and in NEW."""
 
 
 class Comparison(Struct, frozen=True):
-    """Two paths that are the same to within `deviation` mm, at most at these lines, up to the difference if any."""
+    """Two paths, and all their differences, the largest first; those that are no distance come last, as they run.
+
+    Where they are the same, they are so to within `deviation` mm, at most at these lines.
+    """
 
     old: ToolPath
     new: ToolPath
     tolerance: float
+    differences: tuple[Difference, ...]
     difference: Difference | None
+    """The first one along the path."""
     deviation: float
     lines: tuple[int, int] | None
     """The lines of OLD and of NEW where the deviation is largest."""
+    alignment: Alignment
 
     @property
     def is_equal(self) -> bool:
@@ -38,164 +68,275 @@ class Comparison(Struct, frozen=True):
         return self.difference is None
 
 
-class _Match(Struct, frozen=True):
-    """Up to which fraction of its way each element was found to be the same, and how far apart they are, mm."""
-
-    old: float
-    new: float
-    deviation: float
-
-
-class _Mismatch(Struct, frozen=True):
-    reason: str
-    distance: float | None = None
-
-
-class _Cursor(Struct):
-    """A place on a path: an element, and the fraction of its way that is done."""
-
-    steps: Sequence[Step]
-    index: int = 0
-    done: float = 0.0
-
-    @property
-    def step(self) -> Step | None:
-        return self.steps[self.index] if self.index < len(self.steps) else None
-
-    def go(self, done: float) -> None:
-        self.index, self.done = (self.index + 1, 0.0) if done >= 1 else (self.index, done)
-
-    def place(self) -> Place | None:
-        """The position of the tool; None if it is not known."""
-        step = self.step
-        if isinstance(step, Travel):
-            return step.at(self.done)
-        before = self.steps[self.index - 1] if self.index else None
-        return before.end if isinstance(before, Travel) else None
-
-
 def compare(old: ToolPath, new: ToolPath, tolerance: float) -> Comparison:
-    """Follow both paths as far as they are the same to within a tolerance, mm.
+    """Compare two paths to within a tolerance, mm. A move that only one of them has shifts nothing behind it.
 
     It makes no difference into how many collinear lines or arcs of one circle a cut is divided.
     """
-    one, other = _Cursor(old.steps), _Cursor(new.steps)
-    largest, lines = 0.0, None
-    while one.step is not None and other.step is not None:
-        found = _match(one, other, tolerance)
-        if isinstance(found, _Mismatch):
-            short = _negligible(one, other, tolerance)
-            if not short:
-                difference = _blame(one, other, found)
-                return Comparison(old, new, tolerance, difference, largest, lines)
-            for cursor in short:
-                cursor.go(1.0)
-            continue
-        if lines is None or found.deviation > largest:
-            largest, lines = found.deviation, (one.step.line, other.step.line)
-        one.go(found.old)
-        other.go(found.new)
-    while short := _negligible(one, other, tolerance):
-        for cursor in short:
-            cursor.go(1.0)
-    if one.step is None and other.step is None:
-        return Comparison(old, new, tolerance, None, largest, lines)
-    difference = _blame(one, other, _Mismatch(f"{'OLD' if other.step is None else 'NEW'} goes on"))
-    return Comparison(old, new, tolerance, difference, largest, lines)
+    alignment = align(old.steps, new.steps, tolerance)
+    found = [each for passage in alignment.passages for each in _Passage(old, new, passage, tolerance).differences()]
+    # Sorting keeps what is equal in the order of the path.
+    ordered = sorted(found, key=lambda each: inf if each.distance is None else -each.distance)
+    first = found[0] if found else None
+    return Comparison(old, new, tolerance, tuple(ordered), first, alignment.deviation, alignment.lines, alignment)
 
 
-def _negligible(one: _Cursor, other: _Cursor, tolerance: float) -> list[_Cursor]:
-    """The elements that need not be in the other path: what is left of them is too short to tell, and leads to where
-    the other path is."""
-    found = []
-    for cursor, beside in ((one, other.place()), (other, one.place())):
-        step = cursor.step
-        if isinstance(step, Travel) and step.is_bounded and step.motion is not Motion.PRESET and beside is not None:
-            is_short = step.length(cursor.done) <= tolerance
-            if is_short and max(distance(step.end, beside), distance(step.at(cursor.done), beside)) <= tolerance:
-                found.append(cursor)
-    return found
+class _Found(Struct, frozen=True):
+    """A pair of steps that are not the same."""
+
+    pair: Pair
+    reason: str
+    distance: float | None
+    changes: tuple[Change, ...]
+    begins: bool
+    """Whether a difference may begin here: a word changes, and where the path leads with it."""
 
 
-def _match(one: _Cursor, other: _Cursor, tolerance: float) -> _Match | _Mismatch:
-    old, new = one.step, other.step
-    if not (isinstance(old, Travel) and isinstance(new, Travel)):
-        if not (isinstance(old, Unfollowed) and isinstance(new, Unfollowed)):
-            return _Mismatch(
-                f"only {'OLD' if isinstance(old, Unfollowed) else 'NEW'} has a block that diff does not follow"
-            )
+class _Passage:
+    """One passage where two paths are not the same."""
+
+    def __init__(self, old: ToolPath, new: ToolPath, passage: Passage, tolerance: float) -> None:
+        self.old, self.new, self.passage, self.tolerance = old, new, passage, tolerance
+        self.words = cache(self._words)
+        self.is_readable = old.control == new.control
+
+    def differences(self) -> Iterator[Difference]:
+        """The differences of the passage along the path."""
+        pairs = [*pair_up(self.old.steps, self.new.steps, self.passage, self._say_the_same)]
+        groups = list[list[_Found]]()
+        before: Pair | None = None
+        was_alone = False
+        for number, pair in enumerate(pairs):
+            found = self._found(pairs, number)
+            if found is None:
+                before, was_alone = pair, False
+                continue
+            is_alone = None in pair
+            begins = found.begins and not (is_alone and was_alone) and not self._goes_on(found, groups, before)
+            if not groups or (begins and any(each.begins for each in groups[-1])):
+                groups.append([])
+            groups[-1].append(found)
+            before, was_alone = pair, is_alone
+        for group in groups or [[_Found(pairs[0], "they are divided differently", None, (), begins=True)]]:
+            yield self._difference(group)
+
+    def _goes_on(self, found: _Found, groups: Sequence[Sequence[_Found]], before: Pair | None) -> bool:
+        """Whether a pair is unlike as that before it is, such as by compensation."""
+        return bool(groups and found.reason == groups[-1][-1].reason == self._unlike(found.pair) and before)
+
+    def _unlike(self, pair: Pair) -> str:
+        one, other = self._steps(pair)
+        return unlike(one, other) if isinstance(one, Travel) and isinstance(other, Travel) else ""
+
+    def _steps(self, pair: Pair) -> tuple[Step | None, Step | None]:
+        first, second = pair
         return (
-            _Match(1, 1, 0)
-            if old.words == new.words
-            else _Mismatch("blocks that diff does not follow are not the same")
+            self.old.steps[first] if first is not None else None,
+            self.new.steps[second] if second is not None else None,
         )
-    reason = _unlike(old, new)
-    if reason:
-        return _Mismatch(reason)
-    begin = distance(old.at(one.done), new.at(other.done))
-    if begin > tolerance:
-        return _Mismatch("they start apart" if begin < inf else "an axis is known in one program only", begin)
-    apart = distance(old.end, new.end)
-    is_whole = not (old.is_divisible and new.is_divisible)
-    if apart <= tolerance:
-        # The whole of both comes first: what is left of one of them would be shorter than the tolerance.
-        off = max(begin, apart) if is_whole else deviation(old, new, ((one.done, 1.0), (other.done, 1.0)))
-        if off <= tolerance:
-            return _Match(1, 1, off)
-    found = [] if is_whole else list(_parts(one, other, old, new))
-    best = min(found, key=lambda each: each.deviation, default=None)
-    if best is not None and best.deviation <= tolerance:
-        return best
-    if apart == inf:
-        return _Mismatch("an axis is known in one program only", apart)
-    if apart <= tolerance:
-        off = deviation(old, new, ((one.done, 1.0), (other.done, 1.0)))
-        return _Mismatch("they end at the same point, and run apart between", off)
-    return _Mismatch("they end apart", apart)
+
+    # Words ---------------------------------------------------------------------------------------------------
+
+    def _words(self, side: int, place: int) -> tuple[Said, ...]:
+        """What the block of a step says of the path."""
+        path = (self.old, self.new)[side]
+        step = path.steps[place]
+        if path.modes is None or step.number >= len(path.blocks):
+            return ()
+        return tuple(path_words(path.blocks[step.number], path.modes))
+
+    def _say_the_same(self, first: int, second: int) -> bool:
+        one, other = ({each.key for each in self.words(side, at)} for side, at in ((0, first), (1, second)))
+        return bool(one) and one == other
+
+    def _changes(self, pair: Pair, before: Pair | None) -> tuple[Change, ...]:
+        """The words of two blocks that are not the same, with those of the blocks before them that move nothing."""
+        if not self.is_readable:
+            return ()
+        sides = [
+            [*self._between(side, at, before and before[side]), *(self.words(side, at) if at is not None else ())]
+            for side, at in enumerate(pair)
+        ]
+        return tuple(changes_between(*sides))
+
+    def _between(self, side: int, at: int | None, before: int | None) -> Iterator[Said]:
+        """What the blocks between two steps say of the path."""
+        path = (self.old, self.new)[side]
+        if at is None or path.modes is None:
+            return
+        last = at - 1 if before is None else before
+        behind = path.steps[last].number + 1 if last >= 0 else 0
+        for block in path.blocks[behind : path.steps[at].number]:
+            yield from path_words(block, path.modes)
+
+    # Distances -----------------------------------------------------------------------------------------------
+
+    def _found(self, pairs: Sequence[Pair], number: int) -> _Found | None:
+        """What is not the same in a pair; None for one that is."""
+        pair, before = pairs[number], pairs[number - 1] if number else None
+        one, other = self._steps(pair)
+        is_joined = before is None or None not in before
+        changes = self._changes(pair, before)
+        if isinstance(one, Travel) and isinstance(other, Travel):
+            reason, off, begins = self._between_travels(one, other, is_joined=is_joined)
+            return _Found(pair, reason, off, changes, begins and self._is_changed(changes)) if reason else None
+        if one is not None and other is not None:
+            is_same = isinstance(one, Unfollowed) and isinstance(other, Unfollowed) and one.words == other.words
+            told = "blocks that diff does not follow are not the same"
+            return None if is_same else _Found(pair, told, None, changes, begins=True)
+        off = self._away(pairs, number)
+        return (
+            None if off is not None and off <= self.tolerance else _Found(pair, self._alone(pair), off, changes, True)
+        )
+
+    def _is_changed(self, changes: Sequence[Change]) -> bool:
+        return bool(changes) or not self.is_readable or self.old.modes is None or self.new.modes is None
+
+    def _between_travels(self, one: Travel, other: Travel, *, is_joined: bool) -> tuple[str, float | None, bool]:
+        """In what two moves are not the same, how far they are apart, and whether they lead elsewhere than they
+        begin."""
+        kind, begin, end = unlike(one, other), distance(one.start, other.start), distance(one.end, other.end)
+        if inf in (begin, end):
+            known = [each for each in (begin, end) if isfinite(each)]
+            told = kind or "an axis is known in one program only"
+            return told, max(known) if known and max(known) > self.tolerance else None, True
+        if is_joined:
+            off = deviation(one, other, ((0.0, 1.0), (0.0, 1.0)))
+        else:
+            # Where they begin is no matter: the move before is in one program only.
+            off = max(end, _away(one, [other]), _away(other, [one]))
+        moved = max((abs(a - b) for a, b in zip(_step(one, other, 1), _step(one, other, 0), strict=True)), default=0.0)
+        leads = bool(kind) or off > self.tolerance >= begin or min(moved, end) > self.tolerance
+        if off <= self.tolerance:
+            return kind, None, leads
+        if kind:
+            return kind, off, leads
+        if end > self.tolerance:
+            return "they end apart", off, leads
+        if begin > self.tolerance and is_joined:
+            return "they start apart", off, leads
+        return "they end at the same point, and run apart between", off, leads
+
+    def _alone(self, pair: Pair) -> str:
+        name = "OLD" if pair[1] is None else "NEW"
+        step = next(each for each in self._steps(pair) if each is not None)
+        if isinstance(step, Unfollowed):
+            return f"only {name} has a block that diff does not follow"
+        other, own = (self.new, self.passage.new) if name == "OLD" else (self.old, self.passage.old)
+        return f"{name} goes on" if own.stop == own.start == len(other.steps) else f"only {name} has this move"
+
+    def _away(self, pairs: Sequence[Pair], number: int) -> float | None:
+        """How far a move that one program has is from the path of the other, mm; None if that is not known."""
+        pair = pairs[number]
+        side = 0 if pair[0] is not None else 1
+        step = self._steps(pair)[side]
+        if not isinstance(step, Travel):
+            return None
+        near = [each[1 - side] for each in pairs[max(0, number - _NEAR) : number + _NEAR]]
+        steps, span = (self.old.steps, self.passage.old) if side else (self.new.steps, self.passage.new)
+        beside = [steps[at] for at in near if at is not None]
+        ways: list[Travel | Place] = [each for each in beside if isinstance(each, Travel)]
+        ends = (steps[span.start - 1] if span.start else None, steps[span.stop] if span.stop < len(steps) else None)
+        ways += [place for each, place in zip(ends, map(_edge, ends, (1, 0)), strict=True) if each and place]
+        off = _away(step, ways) if ways else inf
+        return off if isfinite(off) else None
+
+    # Groups --------------------------------------------------------------------------------------------------
+
+    def _difference(self, group: Sequence[_Found]) -> Difference:
+        root = next((each for each in group if each.begins), group[0])
+        known = [each for each in group if each.distance is not None]
+        worst = max(known, key=lambda each: each.distance or 0.0, default=root)
+        if None in root.pair:
+            pair = tuple(_first(each.pair[side] for each in group if None in each.pair) for side in (0, 1))
+            old, new = self._steps((pair[0], pair[1]))
+        else:
+            old, new = self._steps(root.pair)
+        both = [self._steps(each.pair) for each in group]
+        steps = tuple(one for one, _ in both if one), tuple(other for _, other in both if other)
+        one, other = self._steps(worst.pair)
+        return Difference(
+            root.reason,
+            old,
+            new,
+            worst.distance,
+            tuple(dict.fromkeys(change for each in group for change in each.changes)),
+            _lines(steps[0]),
+            _lines(steps[1]),
+            (one.line if one else None, other.line if other else None),
+            steps,
+        )
 
 
-def _parts(one: _Cursor, other: _Cursor, old: Travel, new: Travel) -> Iterator[_Match]:
-    """One element up to its end, and of the other what lies beside it."""
-    for first, second in ((1.0, new.fraction(old.end)), (old.fraction(new.end), 1.0)):
-        if one.done < first <= 1 and other.done < second <= 1:
-            yield _Match(first, second, deviation(old, new, ((one.done, first), (other.done, second))))
+def _first(places: Iterable[int | None]) -> int | None:
+    return next((each for each in places if each is not None), None)
 
 
-def _unlike(old: Travel, new: Travel) -> str:
-    """In what two elements are of another kind; empty if in nothing."""
-    if old.motion is not new.motion:
-        return f"OLD is a {old.motion.value}, NEW is a {new.motion.value}"
-    if old.free != new.free:
-        return f"where it is on {' and '.join(sorted({*old.free} ^ {*new.free}))} is known in one program only"
-    if old.is_skippable != new.is_skippable:
-        return f"only {'OLD' if old.is_skippable else 'NEW'} can be skipped with /"
-    if old.compensation != new.compensation:
-        return f"OLD is compensated by G{old.compensation}, NEW by G{new.compensation}"
-    if (old.bend is None) != (new.bend is None):
-        return f"OLD is {_shape(old)}, NEW is {_shape(new)}"
-    if old.bend and new.bend:
-        if old.bend.axes != new.bend.axes:
-            return "the arcs lie in different planes"
-        if (old.bend.sweep > 0) != (new.bend.sweep > 0):
-            return "the arcs turn in opposite directions"
-    return ""
+def _lines(steps: Sequence[Step]) -> tuple[int, int] | None:
+    return (steps[0].line, steps[-1].line) if steps else None
 
 
-def _shape(travel: Travel) -> str:
-    return "a line" if travel.bend is None else "an arc"
+def _edge(step: Step | None, end: int) -> Place | None:
+    """Where a step begins or ends."""
+    return (step.end if end else step.start) if isinstance(step, Travel) else None
 
 
-def _blame(one: _Cursor, other: _Cursor, found: _Mismatch) -> Difference:
-    """The elements that differ. Where one of them has begun before, its end may belong to the element before the
-    other one: that whose end is nearer is named."""
-    old, new = one.step, other.step
-    for begun, fresh in ((one, other), (other, one)):
-        step, before = begun.step, fresh.steps[fresh.index - 1] if fresh.index else None
-        if not (begun.done and isinstance(step, Travel) and isinstance(before, Travel)):
-            continue
-        apart = distance(before.end, step.end)
-        now = fresh.step
-        if not isinstance(now, Travel) or apart < distance(now.end, step.end):
-            pair = (step, before) if begun is one else (before, step)
-            return Difference("they end apart", *pair, apart)
-    return Difference(found.reason, old, new, found.distance)
+def _step(one: Travel, other: Travel, end: int) -> list[float]:
+    """From a place on one move to the same on the other, by axes."""
+    places = zip(one.at(end), other.at(end), strict=True)
+    return [a - b if a is not None and b is not None else 0.0 for a, b in places]
+
+
+def _away(step: Travel, ways: Sequence[Travel | Place]) -> float:
+    """The largest distance of a move from some others, point by point, mm."""
+
+    def nearest(at: Place) -> float:
+        return min(each.away(at) if isinstance(each, Travel) else distance(each, at) for each in ways)
+
+    return max(nearest(step.at(part / step.samples)) for part in range(step.samples + 1))
+
+
+# Besides the path --------------------------------------------------------------------------------------------
+
+
+def changes_beside(comparison: Comparison) -> tuple[Change, ...]:
+    """What changed besides the path, in the order of the programs: tools, their offsets, feeds, speeds, functions and
+    dwells, as they run, and behind them the comments."""
+    old, new = comparison.old, comparison.new
+    if old.modes is None or new.modes is None or not old.program or not new.program:
+        return ()
+    told = _quoted(comparison.differences)
+    sides = [_Beside(path) for path in (old, new)]
+    changes = list[Change]()
+    for (_, _), (first, second) in pairwise(((-1, -1), *comparison.alignment.shared)):
+        changes += changes_between(sides[0].until(first), sides[1].until(second))
+    changes += changed_comments(old.program.blocks, new.program.blocks)
+    return tuple(dict.fromkeys(each for each in changes if each not in told))
+
+
+def _quoted(differences: Iterable[Difference]) -> set[Change]:
+    return {change for each in differences for change in each.changes}
+
+
+class _Beside:
+    """What a program says besides its path, from step to step."""
+
+    def __init__(self, path: ToolPath) -> None:
+        self.path, self.place, self.lasting = path, 0, Lasting({})
+        self.unfollowed = {each.number for each in path.unfollowed}
+
+    def until(self, step: int) -> list[Said]:
+        """What it says behind the step before, up to the block of this one."""
+        path, modes = self.path, self.path.modes
+        if modes is None:
+            return []
+        is_end = step >= len(path.steps)
+        stop = max(self.place, len(path.blocks) if is_end else path.steps[step].number + 1)
+        blocks = enumerate(path.blocks[self.place : stop], self.place)
+        self.place = stop
+        found = (
+            said
+            for number, block in blocks
+            for said in beside_path(block, modes, is_followed=number not in self.unfollowed)
+        )
+        return [*self.lasting.news(found)]
