@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
-from itertools import pairwise
+from itertools import chain
 from math import inf, isfinite
 
 from msgspec import Struct
@@ -11,12 +11,13 @@ from contoursolve.comparison.align import Alignment, Pair, Passage, align, pair_
 from contoursolve.comparison.follow import ToolPath
 from contoursolve.comparison.travel import Place, Step, Travel, Unfollowed, deviation, distance
 from contoursolve.comparison.words import (
+    BlockRole,
     Change,
-    Lasting,
     Said,
     beside_path,
     changed_comments,
     changes_between,
+    news_of,
     path_words,
 )
 
@@ -260,7 +261,7 @@ class _Passage:
             old,
             new,
             worst.distance,
-            tuple(dict.fromkeys(change for each in group for change in each.changes)),
+            tuple(dict.fromkeys(change for each in group if None not in each.pair for change in _quoted(each.changes))),
             _lines(steps[0]),
             _lines(steps[1]),
             (one.line if one else None, other.line if other else None),
@@ -274,6 +275,12 @@ def _first(places: Iterable[int | None]) -> int | None:
 
 def _lines(steps: Sequence[Step]) -> tuple[int, int] | None:
     return (steps[0].line, steps[-1].line) if steps else None
+
+
+def _quoted(changes: Sequence[Change]) -> Sequence[Change]:
+    """The changes of two blocks that have about the same words; none of blocks that are written in another way."""
+    paired = sum(each.old is not None and each.new is not None for each in changes)
+    return changes if len(changes) - paired <= max(1, paired) else ()
 
 
 def _edge(step: Step | None, end: int) -> Place | None:
@@ -305,38 +312,33 @@ def changes_beside(comparison: Comparison) -> tuple[Change, ...]:
     old, new = comparison.old, comparison.new
     if old.modes is None or new.modes is None or not old.program or not new.program:
         return ()
-    told = _quoted(comparison.differences)
+    told = {change for each in comparison.differences for change in each.changes}
     sides = [_Beside(path) for path in (old, new)]
     changes = list[Change]()
-    for (_, _), (first, second) in pairwise(((-1, -1), *comparison.alignment.shared)):
+    for first, second in comparison.alignment.shared:
         changes += changes_between(sides[0].until(first), sides[1].until(second))
     changes += changed_comments(old.program.blocks, new.program.blocks)
     return tuple(dict.fromkeys(each for each in changes if each not in told))
-
-
-def _quoted(differences: Iterable[Difference]) -> set[Change]:
-    return {change for each in differences for change in each.changes}
 
 
 class _Beside:
     """What a program says besides its path, from step to step."""
 
     def __init__(self, path: ToolPath) -> None:
-        self.path, self.place, self.lasting = path, 0, Lasting({})
-        self.unfollowed = {each.number for each in path.unfollowed}
+        self.path, self.place, self.lasting = path, 0, dict[str, object]()
+        self.roles = {each.number: BlockRole.UNFOLLOWED for each in path.unfollowed}
+        contours = (each for each in path.steps if isinstance(each, Travel) and each.element)
+        self.roles |= {each.number: BlockRole.CONTOUR for each in contours}
 
     def until(self, step: int) -> list[Said]:
         """What it says behind the step before, up to the block of this one."""
-        path, modes = self.path, self.path.modes
+        path, modes, first = self.path, self.path.modes, self.place
         if modes is None:
             return []
-        is_end = step >= len(path.steps)
-        stop = max(self.place, len(path.blocks) if is_end else path.steps[step].number + 1)
-        blocks = enumerate(path.blocks[self.place : stop], self.place)
-        self.place = stop
-        found = (
-            said
-            for number, block in blocks
-            for said in beside_path(block, modes, is_followed=number not in self.unfollowed)
+        stop = len(path.blocks) if step >= len(path.steps) else path.steps[step].number + 1
+        self.place = max(first, stop)
+        words = (
+            beside_path(block, modes, self.roles.get(number, BlockRole.PLAIN))
+            for number, block in enumerate(path.blocks[first:stop], first)
         )
-        return [*self.lasting.news(found)]
+        return [*news_of(chain.from_iterable(words), self.lasting)]

@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from decimal import Decimal
 from difflib import SequenceMatcher
+from enum import Enum
 
 from msgspec import Struct
 
@@ -12,9 +13,8 @@ from contoursolve.execution import Call
 from contoursolve.gcode import Block, Word, own_comments
 from contoursolve.reading import Bearing, Code, Effect, Modes, codes_of
 
-_BESIDE = frozenset("FSTDHM")
-_IN_CYCLES = frozenset("DH")
-"""Addresses of tools that are numbers of a path where they stand in a cycle."""
+_OF_TOOLS = frozenset("DH")
+"""Addresses of tools that have another meaning in a cycle, and in contours of some controls."""
 _MODAL = frozenset("FSTDH")
 """Addresses whose value stays: to say it once more changes nothing."""
 _NUMBERING = frozenset("NO")
@@ -52,10 +52,10 @@ class Change(Struct, frozen=True):
     @property
     def by(self) -> Decimal | None:
         """By how much a number changes, in its own unit; None where there are not two."""
-        ends = (self.old and self.old.number, self.new and self.new.number)
-        if ends[0] is None or ends[1] is None or (self.old and self.old.kind in _COUNTED):
+        if self.old is None or self.new is None or self.old.kind in _COUNTED:
             return None
-        return ends[1] - ends[0]
+        before, behind = self.old.number, self.new.number
+        return None if before is None or behind is None else behind - before
 
 
 _COUNTED = frozenset("GMTDHNOP")
@@ -109,20 +109,37 @@ def path_words(block: Block, modes: Modes) -> list[Said]:
 
 def is_of_cycle(word: Word, block: Block, modes: Modes) -> bool:
     """Whether a word of a block that is not followed must be the same in another program."""
-    is_beside = word.address in _BESIDE - _IN_CYCLES and word in _beside(block, modes)
+    is_beside = word in _beside(block, modes) and word.address not in ("G", *_OF_TOOLS)
     return not is_beside and word.address not in _NUMBERING
 
 
-def beside_path(block: Block, modes: Modes, *, is_followed: bool) -> Iterator[Said]:
-    """What a block says besides the path. One that is not followed has tools' numbers that count as path."""
+class BlockRole(Enum):
+    """What the path makes of a block."""
+
+    CONTOUR = "contour"
+    """It is a part of a contour."""
+    PLAIN = "plain"
+    """A move by its coordinates, or none."""
+    UNFOLLOWED = "unfollowed"
+
+
+def beside_path(block: Block, modes: Modes, role: BlockRole) -> Iterator[Said]:
+    """What a block says besides the path. D and H of a block that is not followed, or that draws a contour with them,
+    are the path's; a unit may make it the same."""
     codes = [each for each in codes_of(block, modes) if isinstance(each, Code)]
     alone = next((each for each in codes if each.effect is Effect.NO_MOTION), None)
     bare = _BARE.sub("", block.syntax.comment.sub("", block.text)).strip()
-    if alone is not None or (bare and is_followed and not (block.words or block.macro)):
+    is_statement = bare and role is BlockRole.PLAIN and not (block.words or block.macro)
+    if alone is not None or is_statement:
         yield Said(alone.text if alone else bare.split()[0], bare, block.line, block.file)
         return
-    for word in _beside(block, modes):
-        if is_followed or word.address not in _IN_CYCLES:
+    beside, own = _beside(block, modes), modes.lexicon.addresses
+    units = {each.number for each in codes if each.effect is Effect.UNITS}
+    for word in block.words:
+        is_tool = word.address in _OF_TOOLS and (role is BlockRole.PLAIN or word.address not in own)
+        is_other = word.address not in _OF_TOOLS and word in beside
+        is_unit = word.address == "G" and word.number in units
+        if (is_tool and role is not BlockRole.UNFOLLOWED) or is_other or is_unit:
             yield _said(word, block)
 
 
@@ -139,23 +156,18 @@ def _is_beside(word: Word, modes: Modes) -> bool:
     if word.address == "G":
         row = modes.codes.get(int(word.number)) if word.number is not None and word.number % 1 == 0 else None
         return row is not None and row.effect is Effect.NONE
-    if len(word.address) > 1:
-        return word.address not in modes.lasting and modes.lexicon.bearing(word.address) is Bearing.NONE
-    return word.address in _BESIDE and not modes.is_call(word) and word.text.strip().upper() != _FASTEST
+    bearing = modes.lexicon.bearing(word.address) if word.address not in modes.lasting else None
+    is_named = word.address in _NUMBERING or modes.is_call(word) or word.text.strip().upper() == _FASTEST
+    return bearing is Bearing.NONE and not is_named
 
 
 def _said(word: Word, block: Block) -> Said:
     return Said(word.address, word.text.strip(), block.line, block.file, word.number)
 
 
-class Lasting(Struct):
-    """The values in force of one program, so that what says them once more can be left out."""
-
-    values: dict[str, object]
-
-    def news(self, words: Iterable[Said]) -> Iterator[Said]:
-        """The words that change something."""
-        for each in words:
-            if each.kind not in _MODAL or self.values.get(each.kind) != each.key:
-                self.values[each.kind] = each.key
-                yield each
+def news_of(words: Iterable[Said], lasting: dict[str, object]) -> Iterator[Said]:
+    """The words that change something, where some values are in force; these change."""
+    for each in words:
+        if each.kind not in _MODAL or lasting.get(each.kind) != each.key:
+            lasting[each.kind] = each.key
+            yield each

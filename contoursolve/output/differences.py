@@ -45,7 +45,8 @@ def comparison_lines(comparison: Comparison) -> Iterator[str]:
         measured = [each for each in differences if each.distance is not None]
         told = count(len(differences), "difference")
         if measured:
-            told += f", the largest {measured[0].distance:.4f} mm, {_where(measured[0].farthest)}"
+            largest = " the largest" if len(differences) > 1 else ""
+            told += f",{largest} {measured[0].distance:.4f} mm, {_where(measured[0].farthest)}"
         if measured and len(measured) < len(differences):
             told += f"; {len(differences) - len(measured)} of them cannot be measured in mm, and come last"
         yield f"different: {told}"
@@ -65,14 +66,16 @@ def comparison_lines(comparison: Comparison) -> Iterator[str]:
 def _difference_lines(comparison: Comparison, each: Difference, number: int, *, is_whole: bool) -> Iterator[str]:
     """A difference with its number and its words, and both moves with which it begins."""
     is_largest = number == 1 and len(comparison.differences) > 1 and each.distance is not None
-    off = f", {each.distance:.4f} mm" if each.distance is not None else ""
-    lines = ", ".join(_side_lines(comparison, each))
-    yield f"{number}{' (the largest)' if is_largest else ''}. {each.reason}{off}: {lines}"
-    if each.changes:
-        shown = [_change(change) for change in each.changes[:_WORDS]]
-        if len(each.changes) > len(shown):
-            shown.append(f"and {len(each.changes) - len(shown)} more")
-        yield f"  {'; '.join(shown)}"
+    words = [_change(change) for change in each.changes[:_WORDS]]
+    if len(each.changes) > len(words):
+        words.append(f"and {count(len(each.changes) - len(words), 'more change')}")
+    off = f"{each.distance:.4f} mm: " if each.distance is not None else ""
+    yield f"{number}{' (the largest)' if is_largest else ''}. {off}{'; '.join(words) or each.reason}"
+    told = [each.reason] if words else []
+    told += [", ".join(_side_lines(comparison, each))]
+    if each.distance is not None and each.farthest != (each.old and each.old.line, each.new and each.new.line):
+        told.append(f"farthest apart in {_where(each.farthest)}")
+    yield f"  {'; '.join(told)}"
     if is_whole:
         yield from _step_lines("OLD", comparison.old, each.old, has_ended=each.reason == "NEW goes on")
         yield from _step_lines("NEW", comparison.new, each.new, has_ended=each.reason == "OLD goes on")
@@ -99,10 +102,9 @@ def _change(change: Change) -> str:
 def _beside_lines(comparison: Comparison) -> Iterator[str]:
     """What changed besides the path, with both lines."""
     changes = changes_beside(comparison)
-    if changes:
-        yield f"  besides the path, {count(len(changes), 'change')}:"
+    yield f"  besides the path: {count(len(changes), 'change')}"
     for change in changes[:_BESIDE]:
-        lines = change.old and change.old.line, change.new and change.new.line
+        lines = change.old.line if change.old else None, change.new.line if change.new else None
         yield f"    {_cut(_change(change))}: {_where(lines)}"
     if len(changes) > _BESIDE:
         yield f"    and {len(changes) - _BESIDE} more; --format json lists them all"
