@@ -3,6 +3,7 @@
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
+from itertools import takewhile
 from math import hypot, inf
 
 from msgspec import Struct
@@ -216,11 +217,26 @@ def pair_up(
     old: Sequence[Step], new: Sequence[Step], passage: Passage, said: Callable[[int, int], bool]
 ) -> Iterator[Pair]:
     """The steps of a passage in pairs with the least change in all, in order; `said` tells whether the blocks of two
-    steps say the same of the path."""
+    steps say the same of the path. What says the same at both ends is not weighed."""
+    first, second = passage.old, passage.new
+    before = next((n for n, pair in enumerate(zip(first, second, strict=False)) if not said(*pair)), None)
+    if before is None:
+        before = min(len(first), len(second))
+    rest = zip(first[before:][::-1], second[before:][::-1], strict=False)
+    ends = [*takewhile(lambda pair: said(*pair), rest)]
+    yield from zip(first[:before], second[:before], strict=True)
+    middle = (each[before : len(each) - len(ends)] for each in (first, second))
+    yield from _weigh(old, new, Passage(*middle), said)
+    yield from reversed(ends)
+
+
+def _weigh(
+    old: Sequence[Step], new: Sequence[Step], passage: Passage, said: Callable[[int, int], bool]
+) -> Iterator[Pair]:
     rows, columns = len(passage.old), len(passage.new)
     width = max(_BAND, abs(rows - columns) + _BAND)
     if rows * min(columns, 2 * width) > _WIDEST:
-        width = max(columns // max(rows, 1) + 1, _WIDEST // (2 * max(rows, 1)))
+        width = max(columns // rows + 1, _WIDEST // (2 * rows))
     costs = {(0, 0): 0.0}
     ways = dict[tuple[int, int], tuple[int, int]]()
     for row in range(rows + 1):

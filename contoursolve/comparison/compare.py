@@ -1,6 +1,6 @@
 """Compares two paths: every difference with its words, the largest first; and what changed besides."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
 from itertools import chain
 from math import inf, isfinite
@@ -17,9 +17,11 @@ from contoursolve.comparison.words import (
     beside_path,
     changed_comments,
     changes_between,
+    mode_words,
     news_of,
     path_words,
 )
+from contoursolve.gcode import Block
 
 _NEAR = 60
 """Elements of the other path beside which an element without a partner is looked for."""
@@ -75,7 +77,9 @@ def compare(old: ToolPath, new: ToolPath, tolerance: float) -> Comparison:
     It makes no difference into how many collinear lines or arcs of one circle a cut is divided.
     """
     alignment = align(old.steps, new.steps, tolerance)
-    found = [each for passage in alignment.passages for each in _Passage(old, new, passage, tolerance).differences()]
+    modes = cache(lambda: _mode_changes(old, new, alignment))
+    passages = (_Passage(old, new, each, tolerance, modes) for each in alignment.passages)
+    found = [each for passage in passages for each in passage.differences()]
     # Sorting keeps what is equal in the order of the path.
     ordered = sorted(found, key=lambda each: inf if each.distance is None else -each.distance)
     first = found[0] if found else None
@@ -96,9 +100,17 @@ class _Found(Struct, frozen=True):
 class _Passage:
     """One passage where two paths are not the same."""
 
-    def __init__(self, old: ToolPath, new: ToolPath, passage: Passage, tolerance: float) -> None:
-        self.old, self.new, self.passage, self.tolerance = old, new, passage, tolerance
+    def __init__(
+        self,
+        old: ToolPath,
+        new: ToolPath,
+        passage: Passage,
+        tolerance: float,
+        modes: Callable[[], Sequence[tuple[int, Change]]],
+    ) -> None:
+        self.old, self.new, self.passage, self.tolerance, self.modes = old, new, passage, tolerance, modes
         self.words = cache(self._words)
+        self.keys = cache(lambda side, place: frozenset(each.key for each in self.words(side, place)))
         self.is_readable = old.control == new.control
 
     def differences(self) -> Iterator[Difference]:
@@ -147,7 +159,7 @@ class _Passage:
         return tuple(path_words(path.blocks[step.number], path.modes))
 
     def _say_the_same(self, first: int, second: int) -> bool:
-        one, other = ({each.key for each in self.words(side, at)} for side, at in ((0, first), (1, second)))
+        one, other = self.keys(0, first), self.keys(1, second)
         return bool(one) and one == other
 
     def _changes(self, pair: Pair, before: Pair | None) -> tuple[Change, ...]:
@@ -169,6 +181,13 @@ class _Passage:
         behind = path.steps[last].number + 1 if last >= 0 else 0
         for block in path.blocks[behind : path.steps[at].number]:
             yield from path_words(block, path.modes)
+
+    def _quoted(self, group: Sequence[_Found]) -> tuple[Change, ...]:
+        """The words that make a difference: those that change in its blocks, or else the last code before them."""
+        own = dict.fromkeys(change for each in group if None not in each.pair for change in _alike(each.changes))
+        if own or not self.is_readable or any(None in each.pair or each.changes for each in group):
+            return tuple(own)
+        return tuple(change for place, change in self.modes() if place <= self.passage.old.start)[-1:]
 
     # Distances -----------------------------------------------------------------------------------------------
 
@@ -261,7 +280,7 @@ class _Passage:
             old,
             new,
             worst.distance,
-            tuple(dict.fromkeys(change for each in group if None not in each.pair for change in _quoted(each.changes))),
+            self._quoted(group),
             _lines(steps[0]),
             _lines(steps[1]),
             (one.line if one else None, other.line if other else None),
@@ -277,7 +296,7 @@ def _lines(steps: Sequence[Step]) -> tuple[int, int] | None:
     return (steps[0].line, steps[-1].line) if steps else None
 
 
-def _quoted(changes: Sequence[Change]) -> Sequence[Change]:
+def _alike(changes: Sequence[Change]) -> Sequence[Change]:
     """The changes of two blocks that have about the same words; none of blocks that are written in another way."""
     paired = sum(each.old is not None and each.new is not None for each in changes)
     return changes if len(changes) - paired <= max(1, paired) else ()
@@ -303,6 +322,32 @@ def _away(step: Travel, ways: Sequence[Travel | Place]) -> float:
     return max(nearest(step.at(part / step.samples)) for part in range(step.samples + 1))
 
 
+def _mode_changes(old: ToolPath, new: ToolPath, alignment: Alignment) -> list[tuple[int, Change]]:
+    """The codes that change how the blocks behind them are read, by the step of OLD before which they stand."""
+    sides, found = [_Blocks(path) for path in (old, new)], list[tuple[int, Change]]()
+    for first, second in alignment.shared:
+        words = [
+            [word for _, block in side.until(at) if path.modes for word in mode_words(block, path.modes)]
+            for side, path, at in zip(sides, (old, new), (first, second), strict=True)
+        ]
+        found += [(first, each) for each in changes_between(*words)]
+    return found
+
+
+class _Blocks:
+    """The blocks of a program as they run, from step to step, with their places."""
+
+    def __init__(self, path: ToolPath) -> None:
+        self.path, self.place = path, 0
+
+    def until(self, step: int) -> Iterator[tuple[int, Block]]:
+        """Those behind the step before, up to that of this one."""
+        path, first = self.path, self.place
+        stop = len(path.blocks) if step >= len(path.steps) else path.steps[step].number + 1
+        self.place = max(first, stop)
+        return enumerate(path.blocks[first:stop], first)
+
+
 # Besides the path --------------------------------------------------------------------------------------------
 
 
@@ -325,20 +370,15 @@ class _Beside:
     """What a program says besides its path, from step to step."""
 
     def __init__(self, path: ToolPath) -> None:
-        self.path, self.place, self.lasting = path, 0, dict[str, object]()
+        self.modes, self.blocks, self.lasting = path.modes, _Blocks(path), dict[str, object]()
         self.roles = {each.number: BlockRole.UNFOLLOWED for each in path.unfollowed}
         contours = (each for each in path.steps if isinstance(each, Travel) and each.element)
         self.roles |= {each.number: BlockRole.CONTOUR for each in contours}
 
     def until(self, step: int) -> list[Said]:
         """What it says behind the step before, up to the block of this one."""
-        path, modes, first = self.path, self.path.modes, self.place
-        if modes is None:
+        if self.modes is None:
             return []
-        stop = len(path.blocks) if step >= len(path.steps) else path.steps[step].number + 1
-        self.place = max(first, stop)
-        words = (
-            beside_path(block, modes, self.roles.get(number, BlockRole.PLAIN))
-            for number, block in enumerate(path.blocks[first:stop], first)
-        )
+        roles, blocks = self.roles, self.blocks.until(step)
+        words = (beside_path(block, self.modes, roles.get(number, BlockRole.PLAIN)) for number, block in blocks)
         return [*news_of(chain.from_iterable(words), self.lasting)]

@@ -8,6 +8,7 @@ from difflib import SequenceMatcher
 from enum import Enum
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.execution import Call
 from contoursolve.gcode import Block, Word, own_comments
@@ -111,6 +112,17 @@ def is_of_cycle(word: Word, block: Block, modes: Modes) -> bool:
     """Whether a word of a block that is not followed must be the same in another program."""
     is_beside = word in _beside(block, modes) and word.address not in ("G", *_OF_TOOLS)
     return not is_beside and word.address not in _NUMBERING
+
+
+_MODES = frozenset((Effect.PLANE, Effect.UNITS, Effect.ABSOLUTE, Effect.INCREMENTAL, Effect.COMPENSATION))
+
+
+def mode_words(block: Block, modes: Modes) -> Iterator[Said]:
+    """The codes of a block by which the blocks behind it mean another path."""
+    for word in block.words if modes.codes else ():
+        codes = [each for each in codes_of(replace(block, words=(word,)), modes) if isinstance(each, Code)]
+        if any(each.effect in _MODES for each in codes):
+            yield _said(word, block)
 
 
 class BlockRole(Enum):

@@ -102,7 +102,7 @@ def _change(change: Change) -> str:
 def _beside_lines(comparison: Comparison) -> Iterator[str]:
     """What changed besides the path, with both lines."""
     changes = changes_beside(comparison)
-    yield f"  besides the path: {count(len(changes), 'change')}"
+    yield f"  besides the path: {count(len(changes), 'change') if changes else 'nothing changed'}"
     for change in changes[:_BESIDE]:
         lines = change.old.line if change.old else None, change.new.line if change.new else None
         yield f"    {_cut(_change(change))}: {_where(lines)}"
