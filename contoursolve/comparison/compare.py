@@ -195,10 +195,9 @@ class _Passage:
         """What is not the same in a pair; None for one that is."""
         pair, before = pairs[number], pairs[number - 1] if number else None
         one, other = self._steps(pair)
-        is_joined = before is None or None not in before
         changes = self._changes(pair, before)
         if isinstance(one, Travel) and isinstance(other, Travel):
-            reason, off, begins = self._between_travels(one, other, is_joined=is_joined)
+            reason, off, begins = self._between_travels(pairs, number)
             return _Found(pair, reason, off, changes, begins and self._is_changed(changes)) if reason else None
         if one is not None and other is not None:
             is_same = isinstance(one, Unfollowed) and isinstance(other, Unfollowed) and one.words == other.words
@@ -212,30 +211,32 @@ class _Passage:
     def _is_changed(self, changes: Sequence[Change]) -> bool:
         return bool(changes) or not self.is_readable or self.old.modes is None or self.new.modes is None
 
-    def _between_travels(self, one: Travel, other: Travel, *, is_joined: bool) -> tuple[str, float | None, bool]:
+    def _between_travels(self, pairs: Sequence[Pair], number: int) -> tuple[str, float | None, bool]:
         """In what two moves are not the same, how far they are apart, and whether they lead elsewhere than they
         begin."""
+        one, other = self._steps(pairs[number])
+        assert isinstance(one, Travel) and isinstance(other, Travel)  # noqa: PT018
         kind, begin, end = unlike(one, other), distance(one.start, other.start), distance(one.end, other.end)
         if inf in (begin, end):
-            known = [each for each in (begin, end) if isfinite(each)]
-            told = kind or "an axis is known in one program only"
-            return told, max(known) if known and max(known) > self.tolerance else None, True
-        if is_joined:
-            off = deviation(one, other, ((0.0, 1.0), (0.0, 1.0)))
-        else:
+            known = max((each for each in (begin, end) if isfinite(each)), default=0.0)
+            return kind or "an axis is known in one program only", known if known > self.tolerance else None, True
+        if number and None in pairs[number - 1]:
             # Where they begin is no matter: the move before is in one program only.
-            off = max(end, _away(one, [other]), _away(other, [one]))
+            begin, ways = 0.0, [self._nearby(pairs, number, side) for side in (1, 0)]
+            off = max(end, _away(one, ways[0]), _away(other, ways[1]))
+        else:
+            off = deviation(one, other, ((0.0, 1.0), (0.0, 1.0)))
         moved = max((abs(a - b) for a, b in zip(_step(one, other, 1), _step(one, other, 0), strict=True)), default=0.0)
         leads = bool(kind) or off > self.tolerance >= begin or min(moved, end) > self.tolerance
         if off <= self.tolerance:
             return kind, None, leads
-        if kind:
-            return kind, off, leads
-        if end > self.tolerance:
-            return "they end apart", off, leads
-        if begin > self.tolerance and is_joined:
-            return "they start apart", off, leads
-        return "they end at the same point, and run apart between", off, leads
+        ways_apart = {
+            kind: True,
+            "they end apart": end > self.tolerance,
+            "they start apart": begin > self.tolerance,
+            "they end at the same point, and run apart between": True,
+        }
+        return next(told for told, is_so in ways_apart.items() if told and is_so), off, leads
 
     def _alone(self, pair: Pair) -> str:
         name = "OLD" if pair[1] is None else "NEW"
@@ -247,19 +248,25 @@ class _Passage:
 
     def _away(self, pairs: Sequence[Pair], number: int) -> float | None:
         """How far a move that one program has is from the path of the other, mm; None if that is not known."""
-        pair = pairs[number]
-        side = 0 if pair[0] is not None else 1
-        step = self._steps(pair)[side]
+        side = 0 if pairs[number][0] is not None else 1
+        step = self._steps(pairs[number])[side]
         if not isinstance(step, Travel):
             return None
-        near = [each[1 - side] for each in pairs[max(0, number - _NEAR) : number + _NEAR]]
-        steps, span = (self.old.steps, self.passage.old) if side else (self.new.steps, self.passage.new)
-        beside = [steps[at] for at in near if at is not None]
-        ways: list[Travel | Place] = [each for each in beside if isinstance(each, Travel)]
-        ends = (steps[span.start - 1] if span.start else None, steps[span.stop] if span.stop < len(steps) else None)
-        ways += [place for each, place in zip(ends, map(_edge, ends, (1, 0)), strict=True) if each and place]
-        off = _away(step, ways) if ways else inf
+        off = _away(step, self._nearby(pairs, number, 1 - side))
         return off if isfinite(off) else None
+
+    def _nearby(self, pairs: Sequence[Pair], number: int, side: int) -> list[Travel | Place]:
+        """The moves of one program beside a pair, and where the passage begins and ends there."""
+        steps, span = (self.new.steps, self.passage.new) if side else (self.old.steps, self.passage.old)
+        near = [each[side] for each in pairs[max(0, number - _NEAR) : number + _NEAR]]
+        beside = [steps[at] for at in near if at is not None]
+        first = steps[span.start - 1] if span.start else None
+        behind = steps[span.stop] if span.stop < len(steps) else None
+        places = (
+            first.end if isinstance(first, Travel) else None,
+            behind.start if isinstance(behind, Travel) else None,
+        )
+        return [*(each for each in beside if isinstance(each, Travel)), *(each for each in places if each)]
 
     # Groups --------------------------------------------------------------------------------------------------
 
@@ -302,11 +309,6 @@ def _alike(changes: Sequence[Change]) -> Sequence[Change]:
     return changes if len(changes) - paired <= max(1, paired) else ()
 
 
-def _edge(step: Step | None, end: int) -> Place | None:
-    """Where a step begins or ends."""
-    return (step.end if end else step.start) if isinstance(step, Travel) else None
-
-
 def _step(one: Travel, other: Travel, end: int) -> list[float]:
     """From a place on one move to the same on the other, by axes."""
     places = zip(one.at(end), other.at(end), strict=True)
@@ -314,10 +316,10 @@ def _step(one: Travel, other: Travel, end: int) -> list[float]:
 
 
 def _away(step: Travel, ways: Sequence[Travel | Place]) -> float:
-    """The largest distance of a move from some others, point by point, mm."""
+    """The largest distance of a move from some others, point by point, mm; infinite where there are none."""
 
     def nearest(at: Place) -> float:
-        return min(each.away(at) if isinstance(each, Travel) else distance(each, at) for each in ways)
+        return min((each.away(at) if isinstance(each, Travel) else distance(each, at) for each in ways), default=inf)
 
     return max(nearest(step.at(part / step.samples)) for part in range(step.samples + 1))
 
