@@ -9,7 +9,6 @@ from .claims import (
 )
 from .compare import (
     Comparison as Comparison,
-    Difference as Difference,
     changes_beside as changes_beside,
     compare as compare,
 )
@@ -21,6 +20,9 @@ from .follow import (
     bend_of as bend_of,
     follow as follow,
     in_cycle as in_cycle,
+)
+from .passages import (
+    Difference as Difference,
 )
 from .travel import (
     Motion as Motion,

@@ -1,15 +1,16 @@
 """Compares two paths: every difference with its words, the largest first; and what changed besides."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from itertools import chain
-from math import inf, isfinite
+from math import inf
 
 from msgspec import Struct
 
-from contoursolve.comparison.align import Alignment, Pair, Passage, align, pair_up, unlike
+from contoursolve.comparison.align import Alignment, align
 from contoursolve.comparison.follow import ToolPath
-from contoursolve.comparison.travel import Place, Step, Travel, Unfollowed, deviation, distance
+from contoursolve.comparison.passages import Difference, PassageDifferences
+from contoursolve.comparison.travel import Travel
 from contoursolve.comparison.words import (
     BlockRole,
     Change,
@@ -19,33 +20,8 @@ from contoursolve.comparison.words import (
     changes_between,
     mode_words,
     news_of,
-    path_words,
 )
 from contoursolve.gcode import Block
-
-_NEAR = 60
-"""Elements of the other path beside which an element without a partner is looked for."""
-
-
-class Difference(Struct, frozen=True):
-    """Moves in a row that are not the same in two programs, and the words that make them so.
-
-    `old` and `new` are the moves with which it begins, one of them None where only one program has a move. `distance`
-    is how far apart the paths are there at most, mm: ends of moves from the ends in their place, and what is between
-    from what is between; None where it is no distance. The first and the last line are those of all moves.
-    """
-
-    reason: str
-    old: Step | None
-    new: Step | None
-    distance: float | None
-    changes: tuple[Change, ...]
-    old_lines: tuple[int, int] | None
-    new_lines: tuple[int, int] | None
-    farthest: tuple[int | None, int | None]
-    """The lines of OLD and of NEW where they are so far apart."""
-    steps: tuple[tuple[Step, ...], tuple[Step, ...]]
-    """All its moves in OLD and in NEW."""
 
 
 class Comparison(Struct, frozen=True):
@@ -78,250 +54,12 @@ def compare(old: ToolPath, new: ToolPath, tolerance: float) -> Comparison:
     """
     alignment = align(old.steps, new.steps, tolerance)
     modes = cache(lambda: _mode_changes(old, new, alignment))
-    passages = (_Passage(old, new, each, tolerance, modes) for each in alignment.passages)
+    passages = (PassageDifferences(old, new, each, tolerance, modes) for each in alignment.passages)
     found = [each for passage in passages for each in passage.differences()]
     # Sorting keeps what is equal in the order of the path.
     ordered = sorted(found, key=lambda each: inf if each.distance is None else -each.distance)
     first = found[0] if found else None
     return Comparison(old, new, tolerance, tuple(ordered), first, alignment.deviation, alignment.lines, alignment)
-
-
-class _Found(Struct, frozen=True):
-    """A pair of steps that are not the same."""
-
-    pair: Pair
-    reason: str
-    distance: float | None
-    changes: tuple[Change, ...]
-    begins: bool
-    """Whether a difference may begin here: a word changes, and where the path leads with it."""
-
-
-class _Passage:
-    """One passage where two paths are not the same."""
-
-    def __init__(
-        self,
-        old: ToolPath,
-        new: ToolPath,
-        passage: Passage,
-        tolerance: float,
-        modes: Callable[[], Sequence[tuple[int, Change]]],
-    ) -> None:
-        self.old, self.new, self.passage, self.tolerance, self.modes = old, new, passage, tolerance, modes
-        self.words = cache(self._words)
-        self.keys = cache(lambda side, place: frozenset(each.key for each in self.words(side, place)))
-        self.is_readable = old.control == new.control
-
-    def differences(self) -> Iterator[Difference]:
-        """The differences of the passage along the path."""
-        pairs = [*pair_up(self.old.steps, self.new.steps, self.passage, self._say_the_same)]
-        groups = list[list[_Found]]()
-        before: Pair | None = None
-        was_alone = False
-        for number, pair in enumerate(pairs):
-            found = self._found(pairs, number)
-            if found is None:
-                before, was_alone = pair, False
-                continue
-            is_alone = None in pair
-            begins = found.begins and not (is_alone and was_alone) and not self._goes_on(found, groups, before)
-            if not groups or (begins and any(each.begins for each in groups[-1])):
-                groups.append([])
-            groups[-1].append(found)
-            before, was_alone = pair, is_alone
-        for group in groups or [[_Found(pairs[0], "they are divided differently", None, (), begins=True)]]:
-            yield self._difference(group)
-
-    def _goes_on(self, found: _Found, groups: Sequence[Sequence[_Found]], before: Pair | None) -> bool:
-        """Whether a pair is unlike as that before it is, such as by compensation."""
-        return bool(groups and found.reason == groups[-1][-1].reason == self._unlike(found.pair) and before)
-
-    def _unlike(self, pair: Pair) -> str:
-        one, other = self._steps(pair)
-        return unlike(one, other) if isinstance(one, Travel) and isinstance(other, Travel) else ""
-
-    def _steps(self, pair: Pair) -> tuple[Step | None, Step | None]:
-        first, second = pair
-        return (
-            self.old.steps[first] if first is not None else None,
-            self.new.steps[second] if second is not None else None,
-        )
-
-    # Words ---------------------------------------------------------------------------------------------------
-
-    def _words(self, side: int, place: int) -> tuple[Said, ...]:
-        """What the block of a step says of the path."""
-        path = (self.old, self.new)[side]
-        step = path.steps[place]
-        if path.modes is None or step.number >= len(path.blocks):
-            return ()
-        return tuple(path_words(path.blocks[step.number], path.modes))
-
-    def _say_the_same(self, first: int, second: int) -> bool:
-        one, other = self.keys(0, first), self.keys(1, second)
-        return bool(one) and one == other
-
-    def _changes(self, pair: Pair, before: Pair | None) -> tuple[Change, ...]:
-        """The words of two blocks that are not the same, with those of the blocks before them that move nothing."""
-        if not self.is_readable:
-            return ()
-        sides = [
-            [*self._between(side, at, before and before[side]), *(self.words(side, at) if at is not None else ())]
-            for side, at in enumerate(pair)
-        ]
-        return tuple(changes_between(*sides))
-
-    def _between(self, side: int, at: int | None, before: int | None) -> Iterator[Said]:
-        """What the blocks between two steps say of the path."""
-        path = (self.old, self.new)[side]
-        if at is None or path.modes is None:
-            return
-        last = at - 1 if before is None else before
-        behind = path.steps[last].number + 1 if last >= 0 else 0
-        for block in path.blocks[behind : path.steps[at].number]:
-            yield from path_words(block, path.modes)
-
-    def _quoted(self, group: Sequence[_Found]) -> tuple[Change, ...]:
-        """The words that make a difference: those that change in its blocks, or else the last code before them."""
-        own = dict.fromkeys(change for each in group if None not in each.pair for change in _alike(each.changes))
-        if own or not self.is_readable or any(None in each.pair or each.changes for each in group):
-            return tuple(own)
-        return tuple(change for place, change in self.modes() if place <= self.passage.old.start)[-1:]
-
-    # Distances -----------------------------------------------------------------------------------------------
-
-    def _found(self, pairs: Sequence[Pair], number: int) -> _Found | None:
-        """What is not the same in a pair; None for one that is."""
-        pair, before = pairs[number], pairs[number - 1] if number else None
-        one, other = self._steps(pair)
-        changes = self._changes(pair, before)
-        if isinstance(one, Travel) and isinstance(other, Travel):
-            reason, off, begins = self._between_travels(pairs, number)
-            return _Found(pair, reason, off, changes, begins and self._is_changed(changes)) if reason else None
-        if one is not None and other is not None:
-            is_same = isinstance(one, Unfollowed) and isinstance(other, Unfollowed) and one.words == other.words
-            told = "blocks that diff does not follow are not the same"
-            return None if is_same else _Found(pair, told, None, changes, begins=True)
-        off = self._away(pairs, number)
-        return (
-            None if off is not None and off <= self.tolerance else _Found(pair, self._alone(pair), off, changes, True)
-        )
-
-    def _is_changed(self, changes: Sequence[Change]) -> bool:
-        return bool(changes) or not self.is_readable or self.old.modes is None or self.new.modes is None
-
-    def _between_travels(self, pairs: Sequence[Pair], number: int) -> tuple[str, float | None, bool]:
-        """In what two moves are not the same, how far they are apart, and whether they lead elsewhere than they
-        begin."""
-        one, other = self._steps(pairs[number])
-        assert isinstance(one, Travel) and isinstance(other, Travel)  # noqa: PT018
-        kind, begin, end = unlike(one, other), distance(one.start, other.start), distance(one.end, other.end)
-        if inf in (begin, end):
-            known = max((each for each in (begin, end) if isfinite(each)), default=0.0)
-            return kind or "an axis is known in one program only", known if known > self.tolerance else None, True
-        if number and None in pairs[number - 1]:
-            # Where they begin is no matter: the move before is in one program only.
-            begin, ways = 0.0, [self._nearby(pairs, number, side) for side in (1, 0)]
-            off = max(end, _away(one, ways[0]), _away(other, ways[1]))
-        else:
-            off = deviation(one, other, ((0.0, 1.0), (0.0, 1.0)))
-        moved = max((abs(a - b) for a, b in zip(_step(one, other, 1), _step(one, other, 0), strict=True)), default=0.0)
-        leads = bool(kind) or off > self.tolerance >= begin or min(moved, end) > self.tolerance
-        if off <= self.tolerance:
-            return kind, None, leads
-        ways_apart = {
-            kind: True,
-            "they end apart": end > self.tolerance,
-            "they start apart": begin > self.tolerance,
-            "they end at the same point, and run apart between": True,
-        }
-        return next(told for told, is_so in ways_apart.items() if told and is_so), off, leads
-
-    def _alone(self, pair: Pair) -> str:
-        name = "OLD" if pair[1] is None else "NEW"
-        step = next(each for each in self._steps(pair) if each is not None)
-        if isinstance(step, Unfollowed):
-            return f"only {name} has a block that diff does not follow"
-        other, own = (self.new, self.passage.new) if name == "OLD" else (self.old, self.passage.old)
-        return f"{name} goes on" if own.stop == own.start == len(other.steps) else f"only {name} has this move"
-
-    def _away(self, pairs: Sequence[Pair], number: int) -> float | None:
-        """How far a move that one program has is from the path of the other, mm; None if that is not known."""
-        side = 0 if pairs[number][0] is not None else 1
-        step = self._steps(pairs[number])[side]
-        if not isinstance(step, Travel):
-            return None
-        off = _away(step, self._nearby(pairs, number, 1 - side))
-        return off if isfinite(off) else None
-
-    def _nearby(self, pairs: Sequence[Pair], number: int, side: int) -> list[Travel | Place]:
-        """The moves of one program beside a pair, and where the passage begins and ends there."""
-        steps, span = (self.new.steps, self.passage.new) if side else (self.old.steps, self.passage.old)
-        near = [each[side] for each in pairs[max(0, number - _NEAR) : number + _NEAR]]
-        beside = [steps[at] for at in near if at is not None]
-        first = steps[span.start - 1] if span.start else None
-        behind = steps[span.stop] if span.stop < len(steps) else None
-        places = (
-            first.end if isinstance(first, Travel) else None,
-            behind.start if isinstance(behind, Travel) else None,
-        )
-        return [*(each for each in beside if isinstance(each, Travel)), *(each for each in places if each)]
-
-    # Groups --------------------------------------------------------------------------------------------------
-
-    def _difference(self, group: Sequence[_Found]) -> Difference:
-        root = next((each for each in group if each.begins), group[0])
-        known = [each for each in group if each.distance is not None]
-        worst = max(known, key=lambda each: each.distance or 0.0, default=root)
-        if None in root.pair:
-            pair = tuple(_first(each.pair[side] for each in group if None in each.pair) for side in (0, 1))
-            old, new = self._steps((pair[0], pair[1]))
-        else:
-            old, new = self._steps(root.pair)
-        both = [self._steps(each.pair) for each in group]
-        steps = tuple(one for one, _ in both if one), tuple(other for _, other in both if other)
-        one, other = self._steps(worst.pair)
-        return Difference(
-            root.reason,
-            old,
-            new,
-            worst.distance,
-            self._quoted(group),
-            _lines(steps[0]),
-            _lines(steps[1]),
-            (one.line if one else None, other.line if other else None),
-            steps,
-        )
-
-
-def _first(places: Iterable[int | None]) -> int | None:
-    return next((each for each in places if each is not None), None)
-
-
-def _lines(steps: Sequence[Step]) -> tuple[int, int] | None:
-    return (steps[0].line, steps[-1].line) if steps else None
-
-
-def _alike(changes: Sequence[Change]) -> Sequence[Change]:
-    """The changes of two blocks that have about the same words; none of blocks that are written in another way."""
-    paired = sum(each.old is not None and each.new is not None for each in changes)
-    return changes if len(changes) - paired <= max(1, paired) else ()
-
-
-def _step(one: Travel, other: Travel, end: int) -> list[float]:
-    """From a place on one move to the same on the other, by axes."""
-    places = zip(one.at(end), other.at(end), strict=True)
-    return [a - b if a is not None and b is not None else 0.0 for a, b in places]
-
-
-def _away(step: Travel, ways: Sequence[Travel | Place]) -> float:
-    """The largest distance of a move from some others, point by point, mm; infinite where there are none."""
-
-    def nearest(at: Place) -> float:
-        return min((each.away(at) if isinstance(each, Travel) else distance(each, at) for each in ways), default=inf)
-
-    return max(nearest(step.at(part / step.samples)) for part in range(step.samples + 1))
 
 
 def _mode_changes(old: ToolPath, new: ToolPath, alignment: Alignment) -> list[tuple[int, Change]]:
