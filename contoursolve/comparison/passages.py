@@ -33,8 +33,8 @@ class Difference(Struct, frozen=True):
     changes: tuple[Change, ...]
     old_lines: tuple[int, int] | None
     new_lines: tuple[int, int] | None
-    farthest: tuple[int | None, int | None]
-    """The lines of OLD and of NEW where they are so far apart."""
+    farthest: tuple[Step | None, Step | None]
+    """The moves of OLD and of NEW that are so far apart."""
     steps: tuple[tuple[Step, ...], tuple[Step, ...]]
     """All its moves in OLD and in NEW."""
 
@@ -239,7 +239,6 @@ class PassageDifferences:
             old, new = self._steps(root.pair)
         both = [self._steps(each.pair) for each in group]
         steps = tuple(one for one, _ in both if one), tuple(other for _, other in both if other)
-        one, other = self._steps(worst.pair)
         return Difference(
             root.reason,
             old,
@@ -248,7 +247,7 @@ class PassageDifferences:
             self._quoted(group),
             _lines(steps[0]),
             _lines(steps[1]),
-            (one.line if one else None, other.line if other else None),
+            self._steps(worst.pair),
             steps,
         )
 

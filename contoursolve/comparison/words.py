@@ -58,6 +58,15 @@ class Change(Struct, frozen=True):
         before, behind = self.old.number, self.new.number
         return None if before is None or behind is None else behind - before
 
+    @property
+    def text(self) -> str:
+        """Both as they are typed, and by how much."""
+        if self.old is not None and self.new is not None:
+            off = f" (by {self.by.normalize():+f})" if self.by else ""
+            return f"{self.old.text} becomes {self.new.text}{off}"
+        name, said = ("OLD", self.old) if self.new is None else ("NEW", self.new)
+        return f"only {name} has {said.text}" if said is not None else ""
+
 
 _COUNTED = frozenset("GMTDHNOP")
 """Addresses whose numbers are names."""

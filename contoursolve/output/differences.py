@@ -46,7 +46,7 @@ def comparison_lines(comparison: Comparison) -> Iterator[str]:
         told = count(len(differences), "difference")
         if measured:
             largest = " the largest" if len(differences) > 1 else ""
-            told += f",{largest} {measured[0].distance:.4f} mm, {_where(measured[0].farthest)}"
+            told += f",{largest} {measured[0].distance:.4f} mm, {_where(_lines(measured[0].farthest))}"
         if measured and len(measured) < len(differences):
             told += f"; {len(differences) - len(measured)} of them cannot be measured in mm, and come last"
         yield f"different: {told}"
@@ -66,15 +66,16 @@ def comparison_lines(comparison: Comparison) -> Iterator[str]:
 def _difference_lines(comparison: Comparison, each: Difference, number: int, *, is_whole: bool) -> Iterator[str]:
     """A difference with its number and its words, and both moves with which it begins."""
     is_largest = number == 1 and len(comparison.differences) > 1 and each.distance is not None
-    words = [_change(change) for change in each.changes[:_WORDS]]
+    words = [printable(change.text) for change in each.changes[:_WORDS]]
     if len(each.changes) > len(words):
         words.append(f"and {count(len(each.changes) - len(words), 'more change')}")
     off = f"{each.distance:.4f} mm: " if each.distance is not None else ""
     yield f"{number}{' (the largest)' if is_largest else ''}. {off}{'; '.join(words) or each.reason}"
     told = [each.reason] if words else []
     told += [", ".join(_side_lines(comparison, each))]
-    if each.distance is not None and each.farthest != (each.old and each.old.line, each.new and each.new.line):
-        told.append(f"farthest apart in {_where(each.farthest)}")
+    farthest = _lines(each.farthest)
+    if each.distance is not None and farthest != _lines((each.old, each.new)):
+        told.append(f"farthest apart in {_where(farthest)}")
     yield f"  {'; '.join(told)}"
     if is_whole:
         yield from _step_lines("OLD", comparison.old, each.old, has_ended=each.reason == "NEW goes on")
@@ -89,25 +90,20 @@ def _side_lines(comparison: Comparison, each: Difference) -> Iterator[str]:
             yield f"{name} program line {first}" if first == last else f"{name} program lines {first} to {last}"
 
 
-def _change(change: Change) -> str:
-    """What changed, as it is typed, and by how much."""
-    old, new = change.old, change.new
-    if old is not None and new is not None:
-        off = f" (by {change.by.normalize():+f})" if change.by else ""
-        return f"{printable(old.text)} becomes {printable(new.text)}{off}"
-    name, said = ("OLD", old) if new is None else ("NEW", new)
-    return f"only {name} has {printable(said.text)}" if said is not None else ""
-
-
 def _beside_lines(comparison: Comparison) -> Iterator[str]:
     """What changed besides the path, with both lines."""
     changes = changes_beside(comparison)
     yield f"  besides the path: {count(len(changes), 'change') if changes else 'nothing changed'}"
     for change in changes[:_BESIDE]:
         lines = change.old.line if change.old else None, change.new.line if change.new else None
-        yield f"    {_cut(_change(change))}: {_where(lines)}"
+        yield f"    {_cut(change.text)}: {_where(lines)}"
     if len(changes) > _BESIDE:
         yield f"    and {len(changes) - _BESIDE} more; --format json lists them all"
+
+
+def _lines(steps: tuple[Step | None, Step | None]) -> tuple[int | None, int | None]:
+    old, new = steps
+    return old.line if old else None, new.line if new else None
 
 
 def _where(lines: tuple[int | None, int | None]) -> str:
@@ -242,7 +238,7 @@ def _difference(each: Difference) -> dict[str, Any]:
         **_brief(each),
         "changes": [_change_data(change) for change in each.changes],
         **members(each, "old_lines new_lines"),
-        **dict(zip(("old_line", "new_line"), each.farthest, strict=True)),
+        **dict(zip(("old_line", "new_line"), _lines(each.farthest), strict=True)),
     }
 
 
