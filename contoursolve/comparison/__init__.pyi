@@ -35,7 +35,7 @@ from .verify import (
     verify as verify,
 )
 from .words import (
-    COMMENT as COMMENT,
+    KEPT as KEPT,
     Change as Change,
     Said as Said,
 )

@@ -37,11 +37,12 @@ class Said(Struct, frozen=True):
     @property
     def key(self) -> tuple[str, object]:
         """What it says, however it is written."""
-        written = "".join(self.text.split()).upper() if self.kind != COMMENT else self.text
+        written = "".join(self.text.split()).upper() if self.kind not in (COMMENT, KEPT) else self.text
         return self.kind, written if self.number is None else self.number
 
 
-COMMENT = "comment"
+COMMENT, KEPT = "comment", "kept-block"
+"""Kinds of a comment, and of one that keeps a block of the other program."""
 
 
 class Change(Struct, frozen=True):
@@ -97,12 +98,28 @@ def _without(words: Sequence[Said], shared: Counter[tuple[str, object]]) -> list
     return kept
 
 
-def changed_comments(old: Iterable[Block], new: Iterable[Block]) -> Iterator[Change]:
-    """The comments of two programs that are not the same, in the order of their lines."""
+def changed_comments(old: Sequence[Block], new: Sequence[Block]) -> Iterator[Change]:
+    """The comments of two programs that are not the same, in the order of their lines. One that keeps a block of the
+    other program, as `expand` leaves it, stands for no other comment."""
     one, other = ([*_comments(blocks)] for blocks in (old, new))
-    keys = [[each.key for each in side] for side in (one, other)]
+    if [each.key for each in one] == [each.key for each in other]:
+        return
+    sides = _sorted_out(one, new), _sorted_out(other, old)
+    keys = [[each.key for each in side] for side in sides]
     for _, first, last, begin, end in SequenceMatcher(None, keys[0], keys[1], autojunk=False).get_opcodes():
-        yield from changes_between(one[first:last], other[begin:end])
+        yield from changes_between(sides[0][first:last], sides[1][begin:end])
+
+
+def _sorted_out(comments: Iterable[Said], others: Iterable[Block]) -> list[Said]:
+    """Comments, those that keep a block of another program by a kind of their own."""
+    blocks = {_bare(each.syntax.comment.sub("", each.text)) for each in others if each.says_something}
+    inner = ((each, _bare(each.text[1:].removesuffix(")").removesuffix("]"))) for each in comments)
+    return [replace(each, kind=KEPT) if text in blocks else each for each, text in inner]
+
+
+def _bare(text: str) -> str:
+    """A block without its number and its blanks."""
+    return "".join(_BARE.sub("", text).split())
 
 
 def _comments(blocks: Iterable[Block]) -> Iterator[Said]:
@@ -176,7 +193,7 @@ def _beside(block: Block, modes: Modes) -> list[Word]:
 def _is_beside(word: Word, modes: Modes) -> bool:
     if word.address == "G":
         row = modes.codes.get(int(word.number)) if word.number is not None and word.number % 1 == 0 else None
-        return row is not None and row.effect is Effect.NONE
+        return row is not None and row.effect is Effect.NONE and modes.follow is None
     bearing = modes.lexicon.bearing(word.address) if word.address not in modes.lasting else None
     is_named = word.address in _NUMBERING or modes.is_call(word) or word.text.strip().upper() == _FASTEST
     return bearing is Bearing.NONE and not is_named

@@ -7,6 +7,7 @@ from math import degrees
 from typing import Any
 
 from contoursolve.comparison import (
+    KEPT,
     Change,
     Comparison,
     Difference,
@@ -92,8 +93,15 @@ def _side_lines(comparison: Comparison, each: Difference) -> Iterator[str]:
 
 def _beside_lines(comparison: Comparison) -> Iterator[str]:
     """What changed besides the path, with both lines."""
-    changes = changes_beside(comparison)
+    found = changes_beside(comparison)
+    kept = [each for each in found if KEPT in {said.kind for said in (each.old, each.new) if said}]
+    changes = [each for each in found if each not in kept]
     yield f"  besides the path: {count(len(changes), 'change') if changes else 'nothing changed'}"
+    for name, comments in (("OLD", [each.old for each in kept]), ("NEW", [each.new for each in kept])):
+        own = [each.line for each in comments if each is not None]
+        if own:
+            told = f"{count(len(own), 'block')} of the other program in comments, from program line {own[0]} on"
+            yield f"    {name} keeps {told}"
     for change in changes[:_BESIDE]:
         lines = change.old.line if change.old else None, change.new.line if change.new else None
         yield f"    {_cut(change.text)}: {_where(lines)}"
