@@ -12,6 +12,9 @@ from .compare import (
     changes_beside as changes_beside,
     compare as compare,
 )
+from .detours import (
+    Difference as Difference,
+)
 from .follow import (
     FINISHING as FINISHING,
     ROUGHING as ROUGHING,
@@ -20,9 +23,6 @@ from .follow import (
     bend_of as bend_of,
     follow as follow,
     in_cycle as in_cycle,
-)
-from .passages import (
-    Difference as Difference,
 )
 from .travel import (
     Motion as Motion,
@@ -37,5 +37,5 @@ from .verify import (
 from .words import (
     KEPT as KEPT,
     Change as Change,
-    Said as Said,
+    Quote as Quote,
 )

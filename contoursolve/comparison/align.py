@@ -1,4 +1,4 @@
-"""Aligns two paths: what both have, however it is divided, and the passages between where they are not the same."""
+"""Aligns two paths: what both have, however it is divided, and the detours between where they are not the same."""
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Sequence
@@ -13,12 +13,12 @@ from contoursolve.comparison.travel import Motion, Place, Step, Travel, Unfollow
 _ALONG = (1.0, 0.7548776662, 0.5698402910)
 """The direction along which starts are sorted; two that differ on a part seldom lie at one place along it."""
 _WIDEST = 300_000
-"""Pairs of moves that are weighed in one passage at most."""
+"""Pairs of moves that are weighed in one detour at most."""
 _BAND = 32
 _GAP = 1.0
 
 
-class Passage(Struct, frozen=True):
+class Detour(Struct, frozen=True):
     """Steps of either path, from where both begin together to where both go on together."""
 
     old: range
@@ -26,10 +26,10 @@ class Passage(Struct, frozen=True):
 
 
 class Alignment(Struct, frozen=True):
-    """What two paths have in common."""
+    """The parts that two paths have in common, and the detours between."""
 
-    passages: tuple[Passage, ...]
-    """Where they are not the same."""
+    detours: tuple[Detour, ...]
+    """The parts that are not the same."""
     shared: tuple[tuple[int, int], ...]
     """Steps of OLD and of NEW that begin together, in order, and behind them the ends of both."""
     deviation: float
@@ -70,14 +70,14 @@ class _Cursor(Struct):
 
 
 def align(old: Sequence[Step], new: Sequence[Step], tolerance: float) -> Alignment:
-    """Follow both paths, to within a tolerance (mm), over each passage where they are not the same to the nearest
+    """Follow both paths, to within a tolerance (mm), over each detour where they are not the same to the nearest
     place from which they are.
 
     It makes no difference into how many collinear lines or arcs of one circle a cut is divided.
     """
     one, other = _Cursor(old), _Cursor(new)
     index = _Starts(old, new, tolerance)
-    passages, shared, together = list[Passage](), list[tuple[int, int]](), (0, 0)
+    detours, shared, together = list[Detour](), list[tuple[int, int]](), (0, 0)
     largest, lines = 0.0, None
     while one.step is not None or other.step is not None:
         if not (one.done or other.done):
@@ -94,9 +94,9 @@ def align(old: Sequence[Step], new: Sequence[Step], tolerance: float) -> Alignme
                 cursor.go(1.0)
         else:
             first, second = index.nearest(one, other)
-            passages.append(Passage(range(together[0], first), range(together[1], second)))
+            detours.append(Detour(range(together[0], first), range(together[1], second)))
             one, other = _Cursor(old, first), _Cursor(new, second)
-    return Alignment(tuple(passages), (*shared, (len(old), len(new))), largest, lines)
+    return Alignment(tuple(detours), (*shared, (len(old), len(new))), largest, lines)
 
 
 class _Starts:
@@ -133,7 +133,7 @@ class _Starts:
 
 
 def _along(step: Step) -> float:
-    """Where a step begins along one direction; what is not followed stands for its words."""
+    """The start of a step along one direction; infinite for what is not followed."""
     if isinstance(step, Unfollowed):
         return inf
     return sum((at or 0.0) * way for at, way in zip(step.start, _ALONG, strict=False))
@@ -153,7 +153,7 @@ def _negligible(one: _Cursor, other: _Cursor, tolerance: float) -> list[_Cursor]
 
 
 def _match(one: _Cursor, other: _Cursor, tolerance: float) -> _Match | None:
-    """How far both go on together; None if they do not."""
+    """The parts of two elements that are the same from here on; None if they have none."""
     old, new = one.step, other.step
     if not (isinstance(old, Travel) and isinstance(new, Travel)):
         is_same = isinstance(old, Unfollowed) and isinstance(new, Unfollowed) and old.words == new.words
@@ -207,18 +207,18 @@ def _shape(travel: Travel) -> str:
     return "a line" if travel.bend is None else "an arc"
 
 
-# Pairs of a passage ------------------------------------------------------------------------------------------
+# Pairs of a detour ------------------------------------------------------------------------------------------
 
 Pair = tuple[int | None, int | None]
 """A step of OLD and the one of NEW in its place; None where the other path has none."""
 
 
 def pair_up(
-    old: Sequence[Step], new: Sequence[Step], passage: Passage, said: Callable[[int, int], bool]
+    old: Sequence[Step], new: Sequence[Step], detour: Detour, said: Callable[[int, int], bool]
 ) -> Iterator[Pair]:
-    """The steps of a passage in pairs with the least change in all, in order; `said` tells whether the blocks of two
+    """The steps of a detour in pairs with the least change in all, in order; `said` tells whether the blocks of two
     steps say the same of the path. What says the same at both ends is not weighed."""
-    first, second = passage.old, passage.new
+    first, second = detour.old, detour.new
     before = next((n for n, pair in enumerate(zip(first, second, strict=False)) if not said(*pair)), None)
     if before is None:
         before = min(len(first), len(second))
@@ -226,14 +226,14 @@ def pair_up(
     ends = [*takewhile(lambda pair: said(*pair), rest)]
     yield from zip(first[:before], second[:before], strict=True)
     middle = (each[before : len(each) - len(ends)] for each in (first, second))
-    yield from _weigh(old, new, Passage(*middle), said)
+    yield from _weigh(old, new, Detour(*middle), said)
     yield from reversed(ends)
 
 
 def _weigh(
-    old: Sequence[Step], new: Sequence[Step], passage: Passage, said: Callable[[int, int], bool]
+    old: Sequence[Step], new: Sequence[Step], detour: Detour, said: Callable[[int, int], bool]
 ) -> Iterator[Pair]:
-    rows, columns = len(passage.old), len(passage.new)
+    rows, columns = len(detour.old), len(detour.new)
     width = max(_BAND, abs(rows - columns) + _BAND)
     if rows * min(columns, 2 * width) > _WIDEST:
         width = max(columns // rows + 1, _WIDEST // (2 * rows))
@@ -244,7 +244,7 @@ def _weigh(
         for column in range(max(0, middle - width), min(columns, middle + width) + 1):
             best = (inf, (0, 0))
             if row and column and (row - 1, column - 1) in costs:
-                first, second = passage.old[row - 1], passage.new[column - 1]
+                first, second = detour.old[row - 1], detour.new[column - 1]
                 change = _change(old[first], new[second], is_said=said(first, second))
                 best = costs[row - 1, column - 1] + change, (1, 1)
             for step in ((1, 0), (0, 1)):
@@ -256,12 +256,12 @@ def _weigh(
     while at != (0, 0):
         down, right = ways[at]
         at = at[0] - down, at[1] - right
-        pairs.append((passage.old[at[0]] if down else None, passage.new[at[1]] if right else None))
+        pairs.append((detour.old[at[0]] if down else None, detour.new[at[1]] if right else None))
     return reversed(pairs)
 
 
 def _change(old: Step, new: Step, *, is_said: bool) -> float:
-    """How much changes from one step to another, between 0 and more than two gaps."""
+    """The amount of change from one step to another, from 0 to more than two gaps."""
     if not (isinstance(old, Travel) and isinstance(new, Travel)):
         return (0.0 if is_said else _GAP) if type(old) is type(new) else 3 * _GAP
     apart, long = distance(old.end, new.end), max(old.length(), new.length())

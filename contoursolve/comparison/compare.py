@@ -8,13 +8,13 @@ from math import inf
 from msgspec import Struct
 
 from contoursolve.comparison.align import Alignment, align
+from contoursolve.comparison.detours import DetourDifferences, Difference
 from contoursolve.comparison.follow import ToolPath
-from contoursolve.comparison.passages import Difference, PassageDifferences
 from contoursolve.comparison.travel import Travel
 from contoursolve.comparison.words import (
-    BlockRole,
+    BlockUse,
     Change,
-    Said,
+    Quote,
     beside_path,
     changed_comments,
     changes_between,
@@ -54,8 +54,8 @@ def compare(old: ToolPath, new: ToolPath, tolerance: float) -> Comparison:
     """
     alignment = align(old.steps, new.steps, tolerance)
     modes = cache(lambda: _mode_changes(old, new, alignment))
-    passages = (PassageDifferences(old, new, each, tolerance, modes) for each in alignment.passages)
-    found = [each for passage in passages for each in passage.differences()]
+    detours = (DetourDifferences(old, new, each, tolerance, modes) for each in alignment.detours)
+    found = [each for detour in detours for each in detour.differences()]
     # Sorting keeps what is equal in the order of the path.
     ordered = sorted(found, key=lambda each: inf if each.distance is None else -each.distance)
     first = found[0] if found else None
@@ -92,8 +92,8 @@ class _Blocks:
 
 
 def changes_beside(comparison: Comparison) -> tuple[Change, ...]:
-    """What changed besides the path, in the order of the programs: tools, their offsets, feeds, speeds, functions and
-    dwells, as they run, and behind them the comments."""
+    """List what changed besides the path, in the order of the programs: tools, their offsets, feeds, speeds, functions
+    and dwells, as they run, and behind them the comments."""
     old, new = comparison.old, comparison.new
     if old.modes is None or new.modes is None or not old.program or not new.program:
         return ()
@@ -102,23 +102,23 @@ def changes_beside(comparison: Comparison) -> tuple[Change, ...]:
     changes = list[Change]()
     for first, second in comparison.alignment.shared:
         changes += changes_between(sides[0].until(first), sides[1].until(second))
-    changes += changed_comments(old.program.blocks, new.program.blocks)
+    changes += changed_comments(old.program.blocks, new.program.blocks, (old.blocks, new.blocks))
     return tuple(dict.fromkeys(each for each in changes if each not in told))
 
 
 class _Beside:
-    """What a program says besides its path, from step to step."""
+    """The words of a program besides its path, from step to step."""
 
     def __init__(self, path: ToolPath) -> None:
         self.modes, self.blocks, self.lasting = path.modes, _Blocks(path), dict[str, object]()
-        self.roles = {each.number: BlockRole.UNFOLLOWED for each in path.unfollowed}
+        self.roles = {each.number: BlockUse.UNFOLLOWED for each in path.unfollowed}
         contours = (each for each in path.steps if isinstance(each, Travel) and each.element)
-        self.roles |= {each.number: BlockRole.CONTOUR for each in contours}
+        self.roles |= {each.number: BlockUse.CONTOUR for each in contours}
 
-    def until(self, step: int) -> list[Said]:
-        """What it says behind the step before, up to the block of this one."""
+    def until(self, step: int) -> list[Quote]:
+        """The words behind the step before, up to the block of this one."""
         if self.modes is None:
             return []
         roles, blocks = self.roles, self.blocks.until(step)
-        words = (beside_path(block, self.modes, roles.get(number, BlockRole.PLAIN)) for number, block in blocks)
+        words = (beside_path(block, self.modes, roles.get(number, BlockUse.PLAIN)) for number, block in blocks)
         return [*news_of(chain.from_iterable(words), self.lasting)]

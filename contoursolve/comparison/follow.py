@@ -70,7 +70,7 @@ class ToolPath(Struct, frozen=True):
     """Its blocks as they run."""
     program: Program | None = None
     modes: Modes | None = None
-    """How its control reads words."""
+    """The knowledge of its control."""
 
     @property
     def unfollowed(self) -> tuple[Unfollowed, ...]:

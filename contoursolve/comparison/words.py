@@ -1,8 +1,8 @@
-"""What blocks of two programs say differently: of the path, and besides it."""
+"""Finds words and comments that two programs do not have in common: those of the path, and those besides it."""
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from decimal import Decimal
 from difflib import SequenceMatcher
 from enum import Enum
@@ -24,11 +24,11 @@ _FASTEST = "FMAX"
 """The feed of Klartext that is a rapid, and so the path's."""
 
 
-class Said(Struct, frozen=True):
+class Quote(Struct, frozen=True):
     """A word, a comment or a statement as it is typed, and where."""
 
     kind: str
-    """What it is compared with: its address, `comment`, or the code of a block that is one statement."""
+    """Only the same kind can stand for it: an address, `comment`, or the code of a block that is one statement."""
     text: str
     line: int
     file: str = ""
@@ -36,7 +36,7 @@ class Said(Struct, frozen=True):
 
     @property
     def key(self) -> tuple[str, object]:
-        """What it says, however it is written."""
+        """Its kind and its value, however it is written."""
         written = "".join(self.text.split()).upper() if self.kind not in (COMMENT, KEPT) else self.text
         return self.kind, written if self.number is None else self.number
 
@@ -46,10 +46,10 @@ COMMENT, KEPT = "comment", "kept-block"
 
 
 class Change(Struct, frozen=True):
-    """What OLD says and what NEW says in its place; None where it says nothing."""
+    """A word of OLD and the one of NEW in its place; None where a program has none."""
 
-    old: Said | None
-    new: Said | None
+    old: Quote | None
+    new: Quote | None
 
     @property
     def by(self) -> Decimal | None:
@@ -73,8 +73,8 @@ _COUNTED = frozenset("GMTDHNOP")
 """Addresses whose numbers are names."""
 
 
-def changes_between(old: Iterable[Said], new: Iterable[Said]) -> Iterator[Change]:
-    """What changes from some words to others, whatever their order: the same address in pairs."""
+def changes_between(old: Iterable[Quote], new: Iterable[Quote]) -> Iterator[Change]:
+    """List what changes from some words to others, whatever their order: the same kinds in pairs."""
     olds, news = [*old], [*new]
     shared = Counter(each.key for each in olds) & Counter(each.key for each in news)
     rest = [_without(olds, shared), _without(news, shared)]
@@ -88,8 +88,8 @@ def changes_between(old: Iterable[Said], new: Iterable[Said]) -> Iterator[Change
         yield Change(None, said)
 
 
-def _without(words: Sequence[Said], shared: Counter[tuple[str, object]]) -> list[Said]:
-    left, kept = shared.copy(), list[Said]()
+def _without(words: Sequence[Quote], shared: Counter[tuple[str, object]]) -> list[Quote]:
+    left, kept = shared.copy(), list[Quote]()
     for each in words:
         if left[each.key] > 0:
             left[each.key] -= 1
@@ -98,19 +98,21 @@ def _without(words: Sequence[Said], shared: Counter[tuple[str, object]]) -> list
     return kept
 
 
-def changed_comments(old: Sequence[Block], new: Sequence[Block]) -> Iterator[Change]:
+def changed_comments(
+    old: Sequence[Block], new: Sequence[Block], ran: tuple[Sequence[Block], Sequence[Block]]
+) -> Iterator[Change]:
     """The comments of two programs that are not the same, in the order of their lines. One that keeps a block of the
-    other program, as `expand` leaves it, stands for no other comment."""
+    other program, as it is typed or as it `ran`, stands for no other comment."""
     one, other = ([*_comments(blocks)] for blocks in (old, new))
     if [each.key for each in one] == [each.key for each in other]:
         return
-    sides = _sorted_out(one, new), _sorted_out(other, old)
+    sides = _sorted_out(one, (*new, *ran[1])), _sorted_out(other, (*old, *ran[0]))
     keys = [[each.key for each in side] for side in sides]
     for _, first, last, begin, end in SequenceMatcher(None, keys[0], keys[1], autojunk=False).get_opcodes():
         yield from changes_between(sides[0][first:last], sides[1][begin:end])
 
 
-def _sorted_out(comments: Iterable[Said], others: Iterable[Block]) -> list[Said]:
+def _sorted_out(comments: Iterable[Quote], others: Iterable[Block]) -> list[Quote]:
     """Comments, those that keep a block of another program by a kind of their own."""
     blocks = {_bare(each.syntax.comment.sub("", each.text)) for each in others if each.says_something}
     inner = ((each, _bare(each.text[1:].removesuffix(")").removesuffix("]"))) for each in comments)
@@ -122,13 +124,13 @@ def _bare(text: str) -> str:
     return "".join(_BARE.sub("", text).split())
 
 
-def _comments(blocks: Iterable[Block]) -> Iterator[Said]:
+def _comments(blocks: Iterable[Block]) -> Iterator[Quote]:
     for block in blocks:
         for text in own_comments(block):
-            yield Said(COMMENT, text.strip(), block.line, block.file)
+            yield Quote(COMMENT, text.strip(), block.line, block.file)
 
 
-def path_words(block: Block, modes: Modes) -> list[Said]:
+def path_words(block: Block, modes: Modes) -> list[Quote]:
     """The words of a block that may say something of the path."""
     beside = _beside(block, modes)
     return [_said(each, block) for each in block.words if each not in beside and each.address not in _NUMBERING]
@@ -143,16 +145,20 @@ def is_of_cycle(word: Word, block: Block, modes: Modes) -> bool:
 _MODES = frozenset((Effect.PLANE, Effect.UNITS, Effect.ABSOLUTE, Effect.INCREMENTAL, Effect.COMPENSATION))
 
 
-def mode_words(block: Block, modes: Modes) -> Iterator[Said]:
+def mode_words(block: Block, modes: Modes) -> Iterator[Quote]:
     """The codes of a block by which the blocks behind it mean another path."""
-    for word in block.words if modes.codes else ():
-        codes = [each for each in codes_of(replace(block, words=(word,)), modes) if isinstance(each, Code)]
-        if any(each.effect in _MODES for each in codes):
-            yield _said(word, block)
+    return (_said(word, block) for word in _codes_with(block, modes, _MODES))
 
 
-class BlockRole(Enum):
-    """What the path makes of a block."""
+def _codes_with(block: Block, modes: Modes, effects: Container[Effect]) -> list[Word]:
+    """The words of codes with one of some effects."""
+    words = [word for word in block.words if word.address == "G"]
+    rows = zip(words, codes_of(block, modes), strict=True)
+    return [word for word, code in rows if isinstance(code, Code) and code.effect in effects]
+
+
+class BlockUse(Enum):
+    """Part that a block has in a path."""
 
     CONTOUR = "contour"
     """It is a part of a contour."""
@@ -161,23 +167,19 @@ class BlockRole(Enum):
     UNFOLLOWED = "unfollowed"
 
 
-def beside_path(block: Block, modes: Modes, role: BlockRole) -> Iterator[Said]:
-    """What a block says besides the path. D and H of a block that is not followed, or that draws a contour with them,
-    are the path's; a unit may make it the same."""
-    codes = [each for each in codes_of(block, modes) if isinstance(each, Code)]
-    alone = next((each for each in codes if each.effect is Effect.NO_MOTION), None)
+def beside_path(block: Block, modes: Modes, use: BlockUse) -> Iterator[Quote]:
+    """The words of a block besides the path. D and H of a block that is not followed, or that draws a contour by them,
+    are the path's. A unit is none that changes it where it is told here alone."""
     bare = _BARE.sub("", block.syntax.comment.sub("", block.text)).strip()
-    is_statement = bare and role is BlockRole.PLAIN and not (block.words or block.macro)
-    if alone is not None or is_statement:
-        yield Said(alone.text if alone else bare.split()[0], bare, block.line, block.file)
+    alone = _codes_with(block, modes, (Effect.NO_MOTION,))
+    is_statement = bare and use is BlockUse.PLAIN and not (block.words or block.macro)
+    if alone or is_statement:
+        yield Quote(alone[0].text.strip() if alone else bare.split()[0], bare, block.line, block.file)
         return
-    beside, own = _beside(block, modes), modes.lexicon.addresses
-    units = {each.number for each in codes if each.effect is Effect.UNITS}
+    told, own = [*_beside(block, modes), *_codes_with(block, modes, (Effect.UNITS,))], modes.lexicon.addresses
     for word in block.words:
-        is_tool = word.address in _OF_TOOLS and (role is BlockRole.PLAIN or word.address not in own)
-        is_other = word.address not in _OF_TOOLS and word in beside
-        is_unit = word.address == "G" and word.number in units
-        if (is_tool and role is not BlockRole.UNFOLLOWED) or is_other or is_unit:
+        is_shape = use is BlockUse.UNFOLLOWED or (use is BlockUse.CONTOUR and word.address in own)
+        if not is_shape if word.address in _OF_TOOLS else word in told:
             yield _said(word, block)
 
 
@@ -187,23 +189,21 @@ def _beside(block: Block, modes: Modes) -> list[Word]:
     said = language.read(block.text).statements if language is not None and language.may_say(block.text) else ()
     if any(isinstance(each, Call) for each in said):
         return []
-    return [word for word in block.words if _is_beside(word, modes)]
+    neutral = _codes_with(block, modes, (Effect.NONE,)) if modes.follow is None else []
+    return [word for word in block.words if word in neutral or _is_beside(word, modes)]
 
 
 def _is_beside(word: Word, modes: Modes) -> bool:
-    if word.address == "G":
-        row = modes.codes.get(int(word.number)) if word.number is not None and word.number % 1 == 0 else None
-        return row is not None and row.effect is Effect.NONE and modes.follow is None
     bearing = modes.lexicon.bearing(word.address) if word.address not in modes.lasting else None
     is_named = word.address in _NUMBERING or modes.is_call(word) or word.text.strip().upper() == _FASTEST
     return bearing is Bearing.NONE and not is_named
 
 
-def _said(word: Word, block: Block) -> Said:
-    return Said(word.address, word.text.strip(), block.line, block.file, word.number)
+def _said(word: Word, block: Block) -> Quote:
+    return Quote(word.address, word.text.strip(), block.line, block.file, word.number)
 
 
-def news_of(words: Iterable[Said], lasting: dict[str, object]) -> Iterator[Said]:
+def news_of(words: Iterable[Quote], lasting: dict[str, object]) -> Iterator[Quote]:
     """The words that change something, where some values are in force; these change."""
     for each in words:
         if each.kind not in _MODAL or lasting.get(each.kind) != each.key:

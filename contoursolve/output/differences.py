@@ -12,7 +12,7 @@ from contoursolve.comparison import (
     Comparison,
     Difference,
     Place,
-    Said,
+    Quote,
     Step,
     ToolPath,
     Travel,
@@ -85,14 +85,16 @@ def _difference_lines(comparison: Comparison, each: Difference, number: int, *, 
 
 def _side_lines(comparison: Comparison, each: Difference) -> Iterator[str]:
     """The lines of a difference in either program, as far as it has any there."""
-    for (name, _), lines in zip(_sides(comparison), (each.old_lines, each.new_lines), strict=True):
-        if lines is not None:
-            first, last = lines
-            yield f"{name} program line {first}" if first == last else f"{name} program lines {first} to {last}"
+    for (name, _), steps in zip(_sides(comparison), each.steps, strict=True):
+        if steps:
+            first, last = steps[0].line, steps[-1].line
+            file = f"{printable(steps[0].file)} " if steps[0].file else ""
+            is_one = first == last or steps[0].file != steps[-1].file
+            yield f"{name} {file}program line{f' {first}' if is_one else f's {first} to {last}'}"
 
 
 def _beside_lines(comparison: Comparison) -> Iterator[str]:
-    """What changed besides the path, with both lines."""
+    """The changes besides the path, with both lines."""
     found = changes_beside(comparison)
     kept = [each for each in found if KEPT in {said.kind for said in (each.old, each.new) if said}]
     changes = [each for each in found if each not in kept]
@@ -251,7 +253,7 @@ def _difference(each: Difference) -> dict[str, Any]:
 
 
 def _change_data(change: Change) -> dict[str, Any]:
-    """What changed, and by how much in the unit of the word."""
+    """A change, with the amount in the unit of the word."""
     told = change.old or change.new
     return {
         "kind": told.kind if told is not None else None,
@@ -260,7 +262,7 @@ def _change_data(change: Change) -> dict[str, Any]:
     }
 
 
-def _said(said: Said | None) -> dict[str, Any] | None:
+def _said(said: Quote | None) -> dict[str, Any] | None:
     if said is None:
         return None
     return {**({"file": said.file} if said.file else {}), "line": said.line, "text": said.text}

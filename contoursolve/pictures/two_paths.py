@@ -39,7 +39,7 @@ def compose_comparison(comparison: Comparison, title: str | None = None) -> list
 
 
 def _verdict(comparison: Comparison) -> str:
-    """How many differences there are, and how large the largest is."""
+    """The number of differences, and the size of the largest."""
     told = comparison.differences
     if not told:
         return f"the same path to within {comparison.tolerance:g} mm"
@@ -52,7 +52,7 @@ def _plane_of_cut(step: Step) -> Plane | None:
 
 
 def _scene(comparison: Comparison, plane: Plane) -> Scene:
-    """What both programs cut in a plane."""
+    """The scene of both programs in a plane."""
     axes = comparison.old.axes
     numbered = [(number, each) for number, each in enumerate(comparison.differences, 1) if _is_in(each, plane)]
     sides = tuple({id(step) for each in comparison.differences for step in each.steps[side]} for side in (0, 1))
@@ -107,7 +107,7 @@ def _trails(steps: Iterable[Step], axes: tuple[str, ...], plane: Plane, role: Ro
 
 
 def _farthest(difference: Difference, axes: tuple[str, ...], plane: Plane) -> tuple[Point, Point] | None:
-    """Where OLD and NEW are as far apart as anywhere in a difference, as it is seen in a plane."""
+    """The places of OLD and NEW that are farthest apart in a difference, as it is seen in a plane."""
     found = [each for each in difference.farthest if isinstance(each, Travel)]
     if not found:
         return None

@@ -1,4 +1,4 @@
-"""The differences in one passage of two paths: their moves, the words that make them, and how large they are."""
+"""The differences in one detour of two paths: their moves, the words that make them, and how large they are."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
@@ -7,10 +7,10 @@ from math import inf, isfinite
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.comparison.align import Pair, Passage, pair_up, unlike
+from contoursolve.comparison.align import Detour, Pair, pair_up, unlike
 from contoursolve.comparison.follow import ToolPath
 from contoursolve.comparison.travel import Place, Step, Travel, Unfollowed, deviation, distance
-from contoursolve.comparison.words import Change, Said, changes_between, path_words
+from contoursolve.comparison.words import Change, Quote, changes_between, path_words
 
 _LATER = 0.5
 """The fraction of an arc from which on where it begins is no matter."""
@@ -47,52 +47,46 @@ class _Found(Struct, frozen=True):
     distance: float | None
     changes: tuple[Change, ...]
     begins: bool
-    """Whether a difference may begin here: a word changes, and where the path leads with it."""
+    """A difference may begin here: a word changes, and where the path leads with it."""
 
 
-class PassageDifferences:
-    """The differences in one passage; `modes` lists the codes that changed before steps of OLD."""
+class DetourDifferences:
+    """The differences in one detour; `modes` lists the codes that changed before steps of OLD."""
 
     def __init__(
         self,
         old: ToolPath,
         new: ToolPath,
-        passage: Passage,
+        detour: Detour,
         tolerance: float,
         modes: Callable[[], Sequence[tuple[int, Change]]],
     ) -> None:
-        self.old, self.new, self.passage, self.tolerance, self.modes = old, new, passage, tolerance, modes
+        self.old, self.new, self.detour, self.tolerance, self.modes = old, new, detour, tolerance, modes
         self.words = cache(self._words)
         self.keys = cache(lambda side, place: frozenset(each.key for each in self.words(side, place)))
         self.is_readable = old.control == new.control
 
     def differences(self) -> Iterator[Difference]:
-        """The differences of the passage along the path."""
-        pairs = [*pair_up(self.old.steps, self.new.steps, self.passage, self._say_the_same)]
+        """The differences of the detour along the path."""
+        pairs = [*pair_up(self.old.steps, self.new.steps, self.detour, self._say_the_same)]
         groups = list[list[_Found]]()
-        before: Pair | None = None
-        was_alone = False
-        for number, pair in enumerate(pairs):
+        for number in range(len(pairs)):
             found = self._found(pairs, number)
             if found is None:
-                before, was_alone = pair, False
                 continue
-            is_alone = None in pair
-            begins = found.begins and not (is_alone and was_alone) and not self._goes_on(found, groups, before)
-            if not groups or (begins and any(each.begins for each in groups[-1])):
+            if not groups or (self._begins(found, groups[-1][-1]) and any(each.begins for each in groups[-1])):
                 groups.append([])
             groups[-1].append(found)
-            before, was_alone = pair, is_alone
         for group in groups or [[_Found(pairs[0], "they are divided differently", None, (), begins=True)]]:
             yield self._difference(group)
 
-    def _goes_on(self, found: _Found, groups: Sequence[Sequence[_Found]], before: Pair | None) -> bool:
-        """Whether a pair is unlike as that before it is, such as by compensation."""
-        return bool(groups and found.reason == groups[-1][-1].reason == self._unlike(found.pair) and before)
-
-    def _unlike(self, pair: Pair) -> str:
-        one, other = self._steps(pair)
-        return unlike(one, other) if isinstance(one, Travel) and isinstance(other, Travel) else ""
+    def _begins(self, found: _Found, before: _Found) -> bool:
+        """Whether a difference begins with a pair: not with further moves that one program has, and not with one that
+        is unlike as that before it is, such as by compensation."""
+        one, other = self._steps(found.pair)
+        if isinstance(one, Travel) and isinstance(other, Travel):
+            return found.begins and not found.reason == before.reason == unlike(one, other)
+        return found.begins and not (None in found.pair and None in before.pair)
 
     def _steps(self, pair: Pair) -> tuple[Step | None, Step | None]:
         first, second = pair
@@ -103,8 +97,8 @@ class PassageDifferences:
 
     # Words ---------------------------------------------------------------------------------------------------
 
-    def _words(self, side: int, place: int) -> tuple[Said, ...]:
-        """What the block of a step says of the path."""
+    def _words(self, side: int, place: int) -> tuple[Quote, ...]:
+        """The words of the block of a step that say something of the path."""
         path = (self.old, self.new)[side]
         step = path.steps[place]
         if path.modes is None or step.number >= len(path.blocks):
@@ -125,8 +119,8 @@ class PassageDifferences:
         ]
         return tuple(changes_between(*sides))
 
-    def _between(self, side: int, at: int | None, before: int | None) -> Iterator[Said]:
-        """What the blocks between two steps say of the path."""
+    def _between(self, side: int, at: int | None, before: int | None) -> Iterator[Quote]:
+        """The same of the blocks between two steps."""
         path = (self.old, self.new)[side]
         if at is None or path.modes is None:
             return
@@ -140,12 +134,12 @@ class PassageDifferences:
         own = dict.fromkeys(change for each in group if None not in each.pair for change in _alike(each.changes))
         if own or not self.is_readable or any(None in each.pair or each.changes for each in group):
             return tuple(own)
-        return tuple(change for place, change in self.modes() if place <= self.passage.old.start)[-1:]
+        return tuple(change for place, change in self.modes() if place <= self.detour.old.start)[-1:]
 
     # Distances -----------------------------------------------------------------------------------------------
 
     def _found(self, pairs: Sequence[Pair], number: int) -> _Found | None:
-        """What is not the same in a pair; None for one that is."""
+        """The difference in a pair; None for two that are the same."""
         pair, before = pairs[number], pairs[number - 1] if number else None
         one, other = self._steps(pair)
         changes = self._changes(pair, before)
@@ -157,9 +151,9 @@ class PassageDifferences:
             told = "blocks that diff does not follow are not the same"
             return None if is_same else _Found(pair, told, None, changes, begins=True)
         off = self._away(pairs, number)
-        return (
-            None if off is not None and off <= self.tolerance else _Found(pair, self._alone(pair), off, changes, True)
-        )
+        if off is not None and off <= self.tolerance:
+            return None
+        return _Found(pair, self._alone(pair), off, changes, begins=True)
 
     def _is_changed(self, changes: Sequence[Change]) -> bool:
         return bool(changes) or not self.is_readable or self.old.modes is None or self.new.modes is None
@@ -201,11 +195,11 @@ class PassageDifferences:
         step = next(each for each in self._steps(pair) if each is not None)
         if isinstance(step, Unfollowed):
             return f"only {name} has a block that diff does not follow"
-        other, own = (self.new, self.passage.new) if name == "OLD" else (self.old, self.passage.old)
+        other, own = (self.new, self.detour.new) if name == "OLD" else (self.old, self.detour.old)
         return f"{name} goes on" if own.stop == own.start == len(other.steps) else f"only {name} has this move"
 
     def _away(self, pairs: Sequence[Pair], number: int) -> float | None:
-        """How far a move that one program has is from the path of the other, mm; None if that is not known."""
+        """The distance of a move that one program has from the path of the other, mm; None if that is not known."""
         side = 0 if pairs[number][0] is not None else 1
         step = self._steps(pairs[number])[side]
         if not isinstance(step, Travel):
@@ -214,8 +208,8 @@ class PassageDifferences:
         return off if isfinite(off) else None
 
     def _nearby(self, pairs: Sequence[Pair], number: int, side: int) -> list[Travel | Place]:
-        """The moves of one program beside a pair, and where the passage begins and ends there."""
-        steps, span = (self.new.steps, self.passage.new) if side else (self.old.steps, self.passage.old)
+        """The moves of one program beside a pair, and where the detour begins and ends there."""
+        steps, span = (self.new.steps, self.detour.new) if side else (self.old.steps, self.detour.old)
         near = [each[side] for each in pairs[max(0, number - _NEAR) : number + _NEAR]]
         beside = [steps[at] for at in near if at is not None]
         first = steps[span.start - 1] if span.start else None
