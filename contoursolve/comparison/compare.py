@@ -8,7 +8,7 @@ from math import inf
 from msgspec import Struct
 
 from contoursolve.comparison.align import Alignment, align
-from contoursolve.comparison.detours import DetourDifferences, Difference
+from contoursolve.comparison.detours import DetourDifferences, Difference, joined
 from contoursolve.comparison.follow import ToolPath
 from contoursolve.comparison.travel import Travel
 from contoursolve.comparison.words import (
@@ -55,7 +55,7 @@ def compare(old: ToolPath, new: ToolPath, tolerance: float) -> Comparison:
     alignment = align(old.steps, new.steps, tolerance)
     modes = cache(lambda: _mode_changes(old, new, alignment))
     detours = (DetourDifferences(old, new, each, tolerance, modes) for each in alignment.detours)
-    found = [each for detour in detours for each in detour.differences()]
+    found = joined(each for detour in detours for each in detour.differences())
     # Sorting keeps what is equal in the order of the path.
     ordered = sorted(found, key=lambda each: inf if each.distance is None else -each.distance)
     first = found[0] if found else None

@@ -74,19 +74,27 @@ class DetourDifferences:
             found = self._found(pairs, number)
             if found is None:
                 continue
-            if not groups or (self._begins(found, groups[-1][-1]) and any(each.begins for each in groups[-1])):
+            if not groups or self._begins(found, groups[-1]):
                 groups.append([])
             groups[-1].append(found)
         for group in groups or [[_Found(pairs[0], "they are divided differently", None, (), begins=True)]]:
             yield self._difference(group)
 
-    def _begins(self, found: _Found, before: _Found) -> bool:
-        """Whether a difference begins with a pair: not with further moves that one program has, and not with one that
-        is unlike as that before it is, such as by compensation."""
+    def _begins(self, found: _Found, group: Sequence[_Found]) -> bool:
+        """Whether another difference begins with a pair: not by words that are told, with further moves that one
+        program has, or in the way in which that before it is unlike, such as by compensation."""
+        told = {change for each in group for change in each.changes}
         one, other = self._steps(found.pair)
+        if not found.begins or (found.changes and told.issuperset(found.changes)):
+            return False
         if isinstance(one, Travel) and isinstance(other, Travel):
-            return found.begins and not found.reason == before.reason == unlike(one, other)
-        return found.begins and not (None in found.pair and None in before.pair)
+            is_as_before = found.reason == group[-1].reason == unlike(one, other)
+        else:
+            is_as_before = None in found.pair and None in group[-1].pair
+        # A word may move the end of the element before it in its contour.
+        begun = self._steps(group[0].pair)[0]
+        is_led_by_it = isinstance(begun, Travel) and begun.element and not any(each.begins for each in group)
+        return not is_as_before and not is_led_by_it
 
     def _steps(self, pair: Pair) -> tuple[Step | None, Step | None]:
         first, second = pair
@@ -188,6 +196,8 @@ class DetourDifferences:
             "they end at the same point, and run apart between": off > self.tolerance,
         }
         reason = next((told for told, is_so in reasons.items() if told and is_so), "")
+        if reason and one.unit is not other.unit:
+            reason += f"; OLD is in {one.unit.value}, NEW in {other.unit.value}"
         return _Found(pairs[number], reason, off if off > self.tolerance else None, (), begins) if reason else None
 
     def _alone(self, pair: Pair) -> str:
@@ -246,12 +256,30 @@ class DetourDifferences:
         )
 
 
+def joined(differences: Iterable[Difference]) -> list[Difference]:
+    """The differences along the path, those that the same words make as one: a line may run several times."""
+    found = dict[object, Difference]()
+    for place, each in enumerate(differences):
+        key = each.changes or place
+        one = found.get(key)
+        if one is None:
+            found[key] = each
+            continue
+        farthest = max((one, each), key=lambda this: this.distance or 0.0)
+        steps = (*one.steps[0], *each.steps[0]), (*one.steps[1], *each.steps[1])
+        lines = _lines(steps[0]), _lines(steps[1])
+        told = {"steps": steps, "old_lines": lines[0], "new_lines": lines[1]}
+        found[key] = replace(one, distance=farthest.distance, farthest=farthest.farthest, **told)
+    return [*found.values()]
+
+
 def _first(places: Iterable[int | None]) -> int | None:
     return next((each for each in places if each is not None), None)
 
 
 def _lines(steps: Sequence[Step]) -> tuple[int, int] | None:
-    return (steps[0].line, steps[-1].line) if steps else None
+    lines = [step.line for step in steps]
+    return (min(lines), max(lines)) if lines else None
 
 
 def _alike(changes: Sequence[Change]) -> Sequence[Change]:

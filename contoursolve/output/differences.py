@@ -87,10 +87,10 @@ def _side_lines(comparison: Comparison, each: Difference) -> Iterator[str]:
     """The lines of a difference in either program, as far as it has any there."""
     for (name, _), steps in zip(_sides(comparison), each.steps, strict=True):
         if steps:
-            first, last = steps[0].line, steps[-1].line
+            lines = [step.line for step in steps if step.file == steps[0].file]
             file = f"{printable(steps[0].file)} " if steps[0].file else ""
-            is_one = first == last or steps[0].file != steps[-1].file
-            yield f"{name} {file}program line{f' {first}' if is_one else f's {first} to {last}'}"
+            first, last = min(lines), max(lines)
+            yield f"{name} {file}program line{f' {first}' if first == last else f's {first} to {last}'}"
 
 
 def _beside_lines(comparison: Comparison) -> Iterator[str]:
