@@ -135,12 +135,13 @@ class DetourDifferences:
         last = at - 1 if before is None else before
         behind = path.steps[last].number + 1 if last >= 0 else 0
         for block in path.blocks[behind : path.steps[at].number]:
-            yield from path_words(block, path.modes)
+            yield from path_words(block, path.modes) if block.words else ()
 
     def _quoted(self, group: Sequence[_Found]) -> tuple[Change, ...]:
         """The words that make a difference: those that change in its blocks, or else the last code before them."""
         own = dict.fromkeys(change for each in group if None not in each.pair for change in _alike(each.changes))
-        if own or not self.is_readable or any(None in each.pair or each.changes for each in group):
+        is_moved = all(isinstance(step, Travel) for each in group for step in self._steps(each.pair))
+        if own or not self.is_readable or not is_moved or any(each.changes for each in group):
             return tuple(own)
         return tuple(change for place, change in self.modes() if place <= self.detour.old.start)[-1:]
 

@@ -10,7 +10,7 @@ from enum import Enum
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.execution import Call
+from contoursolve.execution import Call, CallKind
 from contoursolve.gcode import Block, Word, own_comments
 from contoursolve.reading import Bearing, Code, Effect, Modes, codes_of
 
@@ -131,7 +131,9 @@ def _comments(blocks: Iterable[Block]) -> Iterator[Quote]:
 
 
 def path_words(block: Block, modes: Modes) -> list[Quote]:
-    """The words of a block that may say something of the path."""
+    """The words of a block that may say something of the path; of one without words, what it states."""
+    if not block.words:
+        return [*_statement(block)]
     beside = _beside(block, modes)
     return [_said(each, block) for each in block.words if each not in beside and each.address not in _NUMBERING]
 
@@ -170,11 +172,8 @@ class BlockUse(Enum):
 def beside_path(block: Block, modes: Modes, use: BlockUse) -> Iterator[Quote]:
     """The words of a block besides the path. D and H of a block that is not followed, or that draws a contour by them,
     are the path's. A unit is none that changes it where it is told here alone."""
-    bare = _BARE.sub("", block.syntax.comment.sub("", block.text)).strip()
-    alone = _codes_with(block, modes, (Effect.NO_MOTION,))
-    is_statement = bare and use is BlockUse.PLAIN and not (block.words or block.macro)
-    if alone or is_statement:
-        yield Quote(alone[0].text.strip() if alone else bare.split()[0], bare, block.line, block.file)
+    if _codes_with(block, modes, (Effect.NO_MOTION,)) or not block.words:
+        yield from _statement(block) if use is BlockUse.PLAIN else ()
         return
     told, own = [*_beside(block, modes), *_codes_with(block, modes, (Effect.UNITS,))], modes.lexicon.addresses
     for word in block.words:
@@ -183,11 +182,18 @@ def beside_path(block: Block, modes: Modes, use: BlockUse) -> Iterator[Quote]:
             yield _said(word, block)
 
 
+def _statement(block: Block) -> Iterator[Quote]:
+    """A block without its number and its comments, if that is anything, by its first word."""
+    bare = _BARE.sub("", block.syntax.comment.sub("", block.text)).strip()
+    if bare:
+        yield Quote(bare.split()[0], bare, block.line, block.file)
+
+
 def _beside(block: Block, modes: Modes) -> list[Word]:
     """The words of a block that say nothing of the path: the arguments of a call may be anything."""
     language = modes.language
     said = language.read(block.text).statements if language is not None and language.may_say(block.text) else ()
-    if any(isinstance(each, Call) for each in said):
+    if any(isinstance(each, Call) and each.kind is not CallKind.PROFILE for each in said):
         return []
     neutral = _codes_with(block, modes, (Effect.NONE,)) if modes.follow is None else []
     return [word for word in block.words if word in neutral or _is_beside(word, modes)]

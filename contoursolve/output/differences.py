@@ -49,7 +49,7 @@ def comparison_lines(comparison: Comparison) -> Iterator[str]:
             largest = " the largest" if len(differences) > 1 else ""
             told += f",{largest} {measured[0].distance:.4f} mm, {_where(_lines(measured[0].farthest))}"
         if measured and len(measured) < len(differences):
-            told += f"; {len(differences) - len(measured)} of them cannot be measured in mm, and come last"
+            told += f"; without a distance, at the end: {len(differences) - len(measured)}"
         yield f"different: {told}"
     for number, each in enumerate(differences, 1):
         yield ""

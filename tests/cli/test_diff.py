@@ -369,13 +369,13 @@ def polygon(points, more=()):
 def test_each_change_is_told_by_its_amount_behind_inserted_and_deleted_moves(diff, points, data):
     _, places = polygon(points)
     kinds = data.draw(st.lists(st.sampled_from(("same", "moved", "added")), min_size=len(points), max_size=len(points)))
-    amounts = data.draw(st.lists(st.integers(2, 2_000), min_size=len(points), max_size=len(points), unique=True))
+    amounts = data.draw(st.lists(st.integers(1, 1_000), min_size=len(points), max_size=len(points), unique=True))
     more, moved, expected = {}, list(points), []
     used, before = -9, ""
     for number, (kind, off) in enumerate(zip(kinds, amounts, strict=True), 1):
         if kind == "same" or number < used + (1 if kind == "moved" == before else 3):
             continue
-        used, away, before = number, off / 1000, kind
+        used, away, before = number, off / 500, kind
         (x, y), (u, v) = places[number - 1], places[number]
         if kind == "moved":
             moved[number - 1] = (u + away, v - y)
