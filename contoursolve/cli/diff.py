@@ -1,6 +1,7 @@
 """The command that compares two programs."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -23,10 +24,12 @@ from contoursolve.cli.options import (
     tool_options,
     units_option,
 )
+from contoursolve.cli.pictures import bytes_of, check_picture, theme_option
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS, PLAIN
-from contoursolve.gcode import Program
+from contoursolve.gcode import Program, write_whole
 from contoursolve.geometry import Length
+from contoursolve.pictures import Theme
 from contoursolve.program import CONTROL, Request, Result, SolveOptions, choose_alike, configure, run
 from contoursolve.reading import Dialect, ReadIssue
 
@@ -62,6 +65,15 @@ _ANY_CONTROL = (*DIALECTS, *PLAIN)
 @rules_option
 @settings_option
 @tool_options
+@click.option(
+    "--plot",
+    "picture",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="Where to draw both paths, with their differences marked: FILE.svg or FILE.png.",
+)
+@theme_option
+@click.option("--force", "is_forced", is_flag=True, help="Replace the picture if it exists.")
 @format_option
 @click.pass_context
 def diff(
@@ -80,14 +92,20 @@ def diff(
     assignments: tuple[str, ...],
     format_: str,
     tool: str | None,
+    picture: Path | None,
+    theme: str,
+    is_forced: bool,
     **stated: Any,
 ) -> None:
-    """Tell whether OLD and NEW describe the same path, and if not, where they differ first.
+    """Tell whether OLD and NEW describe the same path, and if not, every difference, the largest first.
 
     diff solves the contours and follows all moves by G0 to G3, and the path functions of Klartext. It follows calls,
     jumps and variables, too. It reads either program as its own control does. Either program may divide a line or an
-    arc. Cycles and other blocks that diff does not follow must be the same word by word. diff lists them. It does not
-    compare feeds, leads, speeds, tools, offsets, dwells and M functions.
+    arc. Cycles and other blocks that diff does not follow must be the same word by word. diff lists them.
+
+    Each difference is told with its lines, the words that changed, and how far apart the paths are there at most. A
+    move that only one program has shifts nothing behind it. Compensation, work offset and plane count as path. What
+    changed besides the path is listed apart: tools, D, H, feeds, leads, speeds, dwells, M functions and comments.
 
     With --tool, a program with G41 or G42 (RL or RR) stands for the path of the tool beside it. A program without
     them is the path of the tool itself. With --side, OLD is a contour, too.
@@ -98,6 +116,7 @@ def diff(
     contoursolve diff shaft.nc shaft_by_hand.nc
     contoursolve diff shaft.nc shaft.ngc --new-control linuxcnc --tolerance 0.002
     contoursolve diff shaft.nc by_hand.nc --tool R0.8 --tip 3
+    contoursolve diff shaft.nc shaft_b.nc --plot differences.svg
     """
     from contoursolve.comparison import compare, follow  # noqa: PLC0415 - only here
     from contoursolve.output import differences  # noqa: PLC0415 - only here
@@ -106,6 +125,8 @@ def diff(
         raise click.UsageError("only one of OLD and NEW can be standard input")
     if tool is None:
         check_toolless(stated)
+    if picture is not None:
+        check_picture(picture, is_forced=is_forced)
     sides: list[tuple[Result, Dialect, Request]] = []
     for path, own, unit in ((old, control, units), (new, new_control, new_units or units)):
         program = read_program(path)
@@ -134,6 +155,12 @@ def diff(
         click.echo(differences.to_json(comparison))
     else:
         print_lines(differences.comparison_lines(comparison))
+    if picture is not None:
+        from contoursolve.pictures import draw_comparison  # noqa: PLC0415 - only here
+
+        drawn = bytes_of(draw_comparison(comparison, theme=Theme(theme)), picture)
+        write_whole(picture, [drawn], keeps_backup=False)
+        say(f"{picture} written", err=True)
     context.exit(0 if comparison.is_equal else FOUND_ERRORS)
 
 

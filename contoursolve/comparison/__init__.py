@@ -1,6 +1,6 @@
 """Comparison of two programs by their paths, and of a claimed result with its program.
 
-Two programs come in, their first difference goes out: begin with `compare`. A program and a result come in, a receipt
+Two programs come in, their differences go out: begin with `compare`. A program and a result come in, a receipt
 goes out: begin with `verify`.
 """
 

@@ -9,8 +9,11 @@ from .claims import (
 )
 from .compare import (
     Comparison as Comparison,
-    Difference as Difference,
+    changes_beside as changes_beside,
     compare as compare,
+)
+from .detours import (
+    Difference as Difference,
 )
 from .follow import (
     FINISHING as FINISHING,
@@ -30,4 +33,9 @@ from .travel import (
 )
 from .verify import (
     verify as verify,
+)
+from .words import (
+    KEPT as KEPT,
+    Change as Change,
+    Quote as Quote,
 )

@@ -1,36 +1,45 @@
-"""Compares two paths from their starts: each element, or the part of it that the other path has in one piece."""
+"""Compares two paths: every difference with its words, the largest first; and what changed besides."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from functools import cache
+from itertools import chain
 from math import inf
 
 from msgspec import Struct
 
+from contoursolve.comparison.align import Alignment, align
+from contoursolve.comparison.detours import DetourDifferences, Difference, joined
 from contoursolve.comparison.follow import ToolPath
-from contoursolve.comparison.travel import Motion, Place, Step, Travel, Unfollowed, deviation, distance
-
-
-class Difference(Struct, frozen=True):
-    """The first place where two paths are not the same, and how far apart, mm; None where that is no distance.
-
-    `old` or `new` is None where that path has ended.
-    """
-
-    reason: str
-    old: Step | None
-    new: Step | None
-    distance: float | None
+from contoursolve.comparison.travel import Travel
+from contoursolve.comparison.words import (
+    BlockUse,
+    Change,
+    Quote,
+    beside_path,
+    changed_comments,
+    changes_between,
+    mode_words,
+    news_of,
+)
+from contoursolve.gcode import Block
 
 
 class Comparison(Struct, frozen=True):
-    """Two paths that are the same to within `deviation` mm, at most at these lines, up to the difference if any."""
+    """Two paths, and all their differences, the largest first; those that are no distance come last, as they run.
+
+    Where they are the same, they are so to within `deviation` mm, at most at these lines.
+    """
 
     old: ToolPath
     new: ToolPath
     tolerance: float
+    differences: tuple[Difference, ...]
     difference: Difference | None
+    """The first one along the path."""
     deviation: float
     lines: tuple[int, int] | None
     """The lines of OLD and of NEW where the deviation is largest."""
+    alignment: Alignment
 
     @property
     def is_equal(self) -> bool:
@@ -38,164 +47,78 @@ class Comparison(Struct, frozen=True):
         return self.difference is None
 
 
-class _Match(Struct, frozen=True):
-    """Up to which fraction of its way each element was found to be the same, and how far apart they are, mm."""
-
-    old: float
-    new: float
-    deviation: float
-
-
-class _Mismatch(Struct, frozen=True):
-    reason: str
-    distance: float | None = None
-
-
-class _Cursor(Struct):
-    """A place on a path: an element, and the fraction of its way that is done."""
-
-    steps: Sequence[Step]
-    index: int = 0
-    done: float = 0.0
-
-    @property
-    def step(self) -> Step | None:
-        return self.steps[self.index] if self.index < len(self.steps) else None
-
-    def go(self, done: float) -> None:
-        self.index, self.done = (self.index + 1, 0.0) if done >= 1 else (self.index, done)
-
-    def place(self) -> Place | None:
-        """The position of the tool; None if it is not known."""
-        step = self.step
-        if isinstance(step, Travel):
-            return step.at(self.done)
-        before = self.steps[self.index - 1] if self.index else None
-        return before.end if isinstance(before, Travel) else None
-
-
 def compare(old: ToolPath, new: ToolPath, tolerance: float) -> Comparison:
-    """Follow both paths as far as they are the same to within a tolerance, mm.
+    """Compare two paths to within a tolerance, mm. A move that only one of them has shifts nothing behind it.
 
     It makes no difference into how many collinear lines or arcs of one circle a cut is divided.
     """
-    one, other = _Cursor(old.steps), _Cursor(new.steps)
-    largest, lines = 0.0, None
-    while one.step is not None and other.step is not None:
-        found = _match(one, other, tolerance)
-        if isinstance(found, _Mismatch):
-            short = _negligible(one, other, tolerance)
-            if not short:
-                difference = _blame(one, other, found)
-                return Comparison(old, new, tolerance, difference, largest, lines)
-            for cursor in short:
-                cursor.go(1.0)
-            continue
-        if lines is None or found.deviation > largest:
-            largest, lines = found.deviation, (one.step.line, other.step.line)
-        one.go(found.old)
-        other.go(found.new)
-    while short := _negligible(one, other, tolerance):
-        for cursor in short:
-            cursor.go(1.0)
-    if one.step is None and other.step is None:
-        return Comparison(old, new, tolerance, None, largest, lines)
-    difference = _blame(one, other, _Mismatch(f"{'OLD' if other.step is None else 'NEW'} goes on"))
-    return Comparison(old, new, tolerance, difference, largest, lines)
+    alignment = align(old.steps, new.steps, tolerance)
+    modes = cache(lambda: _mode_changes(old, new, alignment))
+    detours = (DetourDifferences(old, new, each, tolerance, modes) for each in alignment.detours)
+    found = joined(each for detour in detours for each in detour.differences())
+    # Sorting keeps what is equal in the order of the path.
+    ordered = sorted(found, key=lambda each: inf if each.distance is None else -each.distance)
+    first = found[0] if found else None
+    return Comparison(old, new, tolerance, tuple(ordered), first, alignment.deviation, alignment.lines, alignment)
 
 
-def _negligible(one: _Cursor, other: _Cursor, tolerance: float) -> list[_Cursor]:
-    """The elements that need not be in the other path: what is left of them is too short to tell, and leads to where
-    the other path is."""
-    found = []
-    for cursor, beside in ((one, other.place()), (other, one.place())):
-        step = cursor.step
-        if isinstance(step, Travel) and step.is_bounded and step.motion is not Motion.PRESET and beside is not None:
-            is_short = step.length(cursor.done) <= tolerance
-            if is_short and max(distance(step.end, beside), distance(step.at(cursor.done), beside)) <= tolerance:
-                found.append(cursor)
+def _mode_changes(old: ToolPath, new: ToolPath, alignment: Alignment) -> list[tuple[int, Change]]:
+    """The codes that change how the blocks behind them are read, by the step of OLD before which they stand."""
+    sides, found = [_Blocks(path) for path in (old, new)], list[tuple[int, Change]]()
+    for first, second in alignment.shared:
+        words = [
+            [word for _, block in side.until(at) if path.modes for word in mode_words(block, path.modes)]
+            for side, path, at in zip(sides, (old, new), (first, second), strict=True)
+        ]
+        found += [(first, each) for each in changes_between(*words)]
     return found
 
 
-def _match(one: _Cursor, other: _Cursor, tolerance: float) -> _Match | _Mismatch:
-    old, new = one.step, other.step
-    if not (isinstance(old, Travel) and isinstance(new, Travel)):
-        if not (isinstance(old, Unfollowed) and isinstance(new, Unfollowed)):
-            return _Mismatch(
-                f"only {'OLD' if isinstance(old, Unfollowed) else 'NEW'} has a block that diff does not follow"
-            )
-        return (
-            _Match(1, 1, 0)
-            if old.words == new.words
-            else _Mismatch("blocks that diff does not follow are not the same")
-        )
-    reason = _unlike(old, new)
-    if reason:
-        return _Mismatch(reason)
-    begin = distance(old.at(one.done), new.at(other.done))
-    if begin > tolerance:
-        return _Mismatch("they start apart" if begin < inf else "an axis is known in one program only", begin)
-    apart = distance(old.end, new.end)
-    is_whole = not (old.is_divisible and new.is_divisible)
-    if apart <= tolerance:
-        # The whole of both comes first: what is left of one of them would be shorter than the tolerance.
-        off = max(begin, apart) if is_whole else deviation(old, new, ((one.done, 1.0), (other.done, 1.0)))
-        if off <= tolerance:
-            return _Match(1, 1, off)
-    found = [] if is_whole else list(_parts(one, other, old, new))
-    best = min(found, key=lambda each: each.deviation, default=None)
-    if best is not None and best.deviation <= tolerance:
-        return best
-    if apart == inf:
-        return _Mismatch("an axis is known in one program only", apart)
-    if apart <= tolerance:
-        off = deviation(old, new, ((one.done, 1.0), (other.done, 1.0)))
-        return _Mismatch("they end at the same point, and run apart between", off)
-    return _Mismatch("they end apart", apart)
+class _Blocks:
+    """The blocks of a program as they run, from step to step, with their places."""
+
+    def __init__(self, path: ToolPath) -> None:
+        self.path, self.place = path, 0
+
+    def until(self, step: int) -> Iterator[tuple[int, Block]]:
+        """Those behind the step before, up to that of this one."""
+        path, first = self.path, self.place
+        stop = len(path.blocks) if step >= len(path.steps) else path.steps[step].number + 1
+        self.place = max(first, stop)
+        return enumerate(path.blocks[first:stop], first)
 
 
-def _parts(one: _Cursor, other: _Cursor, old: Travel, new: Travel) -> Iterator[_Match]:
-    """One element up to its end, and of the other what lies beside it."""
-    for first, second in ((1.0, new.fraction(old.end)), (old.fraction(new.end), 1.0)):
-        if one.done < first <= 1 and other.done < second <= 1:
-            yield _Match(first, second, deviation(old, new, ((one.done, first), (other.done, second))))
+# Besides the path --------------------------------------------------------------------------------------------
 
 
-def _unlike(old: Travel, new: Travel) -> str:
-    """In what two elements are of another kind; empty if in nothing."""
-    if old.motion is not new.motion:
-        return f"OLD is a {old.motion.value}, NEW is a {new.motion.value}"
-    if old.free != new.free:
-        return f"where it is on {' and '.join(sorted({*old.free} ^ {*new.free}))} is known in one program only"
-    if old.is_skippable != new.is_skippable:
-        return f"only {'OLD' if old.is_skippable else 'NEW'} can be skipped with /"
-    if old.compensation != new.compensation:
-        return f"OLD is compensated by G{old.compensation}, NEW by G{new.compensation}"
-    if (old.bend is None) != (new.bend is None):
-        return f"OLD is {_shape(old)}, NEW is {_shape(new)}"
-    if old.bend and new.bend:
-        if old.bend.axes != new.bend.axes:
-            return "the arcs lie in different planes"
-        if (old.bend.sweep > 0) != (new.bend.sweep > 0):
-            return "the arcs turn in opposite directions"
-    return ""
+def changes_beside(comparison: Comparison) -> tuple[Change, ...]:
+    """List what changed besides the path, in the order of the programs: tools, their offsets, feeds, speeds, functions
+    and dwells, as they run, and behind them the comments."""
+    old, new = comparison.old, comparison.new
+    if old.modes is None or new.modes is None or not old.program or not new.program:
+        return ()
+    told = {change for each in comparison.differences for change in each.changes}
+    sides = [_Beside(path) for path in (old, new)]
+    changes = list[Change]()
+    for first, second in comparison.alignment.shared:
+        changes += changes_between(sides[0].until(first), sides[1].until(second))
+    changes += changed_comments(old.program.blocks, new.program.blocks, (old.blocks, new.blocks))
+    return tuple(dict.fromkeys(each for each in changes if each not in told))
 
 
-def _shape(travel: Travel) -> str:
-    return "a line" if travel.bend is None else "an arc"
+class _Beside:
+    """The words of a program besides its path, from step to step."""
 
+    def __init__(self, path: ToolPath) -> None:
+        self.modes, self.blocks, self.lasting = path.modes, _Blocks(path), dict[str, object]()
+        self.roles = {each.number: BlockUse.UNFOLLOWED for each in path.unfollowed}
+        contours = (each for each in path.steps if isinstance(each, Travel) and each.element)
+        self.roles |= {each.number: BlockUse.CONTOUR for each in contours}
 
-def _blame(one: _Cursor, other: _Cursor, found: _Mismatch) -> Difference:
-    """The elements that differ. Where one of them has begun before, its end may belong to the element before the
-    other one: that whose end is nearer is named."""
-    old, new = one.step, other.step
-    for begun, fresh in ((one, other), (other, one)):
-        step, before = begun.step, fresh.steps[fresh.index - 1] if fresh.index else None
-        if not (begun.done and isinstance(step, Travel) and isinstance(before, Travel)):
-            continue
-        apart = distance(before.end, step.end)
-        now = fresh.step
-        if not isinstance(now, Travel) or apart < distance(now.end, step.end):
-            pair = (step, before) if begun is one else (before, step)
-            return Difference("they end apart", *pair, apart)
-    return Difference(found.reason, old, new, found.distance)
+    def until(self, step: int) -> list[Quote]:
+        """The words behind the step before, up to the block of this one."""
+        if self.modes is None:
+            return []
+        roles, blocks = self.roles, self.blocks.until(step)
+        words = (beside_path(block, self.modes, roles.get(number, BlockUse.PLAIN)) for number, block in blocks)
+        return [*news_of(chain.from_iterable(words), self.lasting)]

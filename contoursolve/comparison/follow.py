@@ -11,6 +11,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison.travel import Bend, Motion, Place, Step, Travel, Unfollowed
+from contoursolve.comparison.words import is_of_cycle
 from contoursolve.controls import CENTERS, Centers
 from contoursolve.diagnosis import Answer, Depth
 from contoursolve.gcode import Block, Macro, Program, Word
@@ -25,6 +26,7 @@ from contoursolve.reading import (
     Dialect,
     Effect,
     Lexicon,
+    Modes,
     Plain,
     Position,
     Reliance,
@@ -66,6 +68,9 @@ class ToolPath(Struct, frozen=True):
     steps: tuple[Step, ...]
     blocks: tuple[Block, ...] = ()
     """Its blocks as they run."""
+    program: Program | None = None
+    modes: Modes | None = None
+    """The knowledge of its control."""
 
     @property
     def unfollowed(self) -> tuple[Unfollowed, ...]:
@@ -81,7 +86,7 @@ def _with_place(step: Step) -> Step:
     if isinstance(step, Unfollowed) or step.plane is None or {*step.plane.axes}.isdisjoint(step.free):
         return step
     reason = "where it begins is not known; state that with --start"
-    return Unfollowed(step.line, step.text, (f"step {step.text}",), reason, step.file)
+    return Unfollowed(step.line, step.text, (f"step {step.text}",), reason, step.file, step.number)
 
 
 def follow(
@@ -98,7 +103,8 @@ def follow(
     else:
         asked, machine.finishes = Request(dialect, unit, result.policy, Depth.VERDICT, result.start), finishes
         steps = follower.run(walk((), asked, machine=machine, is_whole=True), finishes=finishes)
-    return ToolPath(result.program.name, dialect.name, axes, tuple(steps), tuple(follower.ran))
+    program, ran = result.program, tuple(steps)  # which fills `follower.ran`
+    return ToolPath(program.name, dialect.name, axes, ran, tuple(follower.ran), program, dialect.modes)
 
 
 def in_cycle(block: Block, cycles: Sequence[str]) -> bool:
@@ -438,8 +444,9 @@ class _Follower:
             modes += [f"G{motion.number}", *([] if motion.number in _LINES else [state.plane.code])]
             own = [word for word in block.words if word.address == "G" and word.number == motion.number]
             block = replace(block, words=tuple(word for word in block.words if word not in own))
-        words = sorted(self._canonical(word) for word in block.words if word.address not in "NO")
-        return Unfollowed(block.line, block.text.strip(), (*modes, *words), reason, block.file)
+        words = sorted(self._canonical(word) for word in block.words if is_of_cycle(word, block, self.modes))
+        place = max(len(self.ran) - 1, 0)
+        return Unfollowed(block.line, block.text.strip(), (*modes, *words), reason, block.file, place)
 
     def _motion(self, block: Block, state: State) -> Code | None:
         """The motion that a block states, or that is in force and that the block relies on."""

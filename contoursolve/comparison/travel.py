@@ -16,6 +16,7 @@ Place = tuple[float | None, ...]
 
 _SAMPLES = radians(10)
 """Radians of an arc from one point that is compared to the next."""
+_PARTS = 8
 
 
 class Motion(Enum):
@@ -118,15 +119,28 @@ class Travel(Struct, frozen=True):
                 square += (end - start) ** 2
         return along / square if square else inf
 
+    def away(self, place: Place) -> float:
+        """The distance from a point to the nearest one of the way, mm; infinite if the same axes are not known."""
+        near = self.fraction(place)
+        points = (self.start, self.end, *([self.at(near)] if 0 < near < 1 else []))
+        return min(distance(each, place) for each in points)
+
+    @property
+    def samples(self) -> int:
+        """Into how many parts its way is divided where it is compared point by point."""
+        return max(_PARTS, ceil(abs(self.bend.sweep) / _SAMPLES)) if self.bend else _PARTS
+
 
 class Unfollowed(Struct, frozen=True):
-    """A block whose effect on the path is not followed, and why; `words` are what it says, for comparison."""
+    """A block whose effect on the path is not followed, and why; `words` are what it says of the path."""
 
     line: int
     text: str
     words: tuple[str, ...]
     reason: str
     file: str = ""
+    number: int = 0
+    """The place of its block among those that run, from 0."""
 
 
 Step = Travel | Unfollowed

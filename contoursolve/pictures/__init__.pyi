@@ -7,6 +7,7 @@ from .drawing import (
     Drawable as Drawable,
     draw as draw,
     draw_answer as draw_answer,
+    draw_comparison as draw_comparison,
     draw_drawings as draw_drawings,
     draw_family_fan as draw_family_fan,
     draw_family_map as draw_family_map,

@@ -20,6 +20,7 @@ from contoursolve.pictures.theme import Role, Theme
 from contoursolve.program import Result
 
 if TYPE_CHECKING:
+    from contoursolve.comparison import Comparison
     from contoursolve.families import CompiledSweep, Family, Feasible, Region
     from contoursolve.solving import Drawings, Drawn, Sketch
 
@@ -126,6 +127,14 @@ def draw_result(
         theme,
         " ".join((describe_overview(result), *told_of(beside))),
     )
+
+
+def draw_comparison(comparison: Comparison, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of two programs' paths, one drawing for each plane: what both have, what one of them has, and each
+    difference by its number, enlarged where it is small."""
+    from contoursolve.pictures.two_paths import compose_comparison  # noqa: PLC0415 - not needed for one contour
+
+    return finish(stack_sheets([*map(lay_out, compose_comparison(comparison, title))]), theme)
 
 
 def draw_family_fan(

@@ -296,7 +296,7 @@ def _moves(result: Result) -> list[PlaneMove]:
             if owner is None or not isinstance(step, Travel):
                 continue
             is_rapid = motion is Motion.RAPID
-            segment = _flat(step, axes, owner.plane.axes)
+            segment = flat_segment(step, axes, owner.plane.axes)
             if segment is not None:
                 reached[number] += owner.contour is not None and not is_rapid
                 is_between = reached[number] > 1  # from both sides
@@ -314,7 +314,7 @@ def plain_trail(result: Result, like: Answer) -> list[Trail]:
     axes = like.plane.axes
     steps = follow(result, dialect.configure(result.settings), like.unit, axes).steps
     moves = [step for step in steps if isinstance(step, Travel) and step.motion is Motion.FEED]
-    segments = [_flat(step, axes, axes) for step in moves if like.lines[0] <= step.line <= like.lines[-1]]
+    segments = [flat_segment(step, axes, axes) for step in moves if like.lines[0] <= step.line <= like.lines[-1]]
     found = tuple(segment for segment in segments if segment is not None)
     return [Trail(found, Role.INK)] if found else []
 
@@ -331,7 +331,7 @@ def _move_trails(moves: Sequence[PlaneMove]) -> Iterator[Trail]:
         yield Trail((move.segment,), role, weight)
 
 
-def _flat(travel: Travel, axes: tuple[str, ...], plane: tuple[str, str]) -> Segment | None:
+def flat_segment(travel: Travel, axes: tuple[str, ...], plane: tuple[str, str]) -> Segment | None:
     """A move as it is seen in a plane, if it is a line or an arc there."""
     first, second = (axes.index(axis) for axis in plane)
     (x, y), (u, v) = ((place[first], place[second]) for place in (travel.start, travel.end))

@@ -247,6 +247,166 @@ def test_an_arc_the_other_way_round_is_found(diff, drawing, data):
         assert found["difference"]["reason"] == "the arcs turn in opposite directions"
 
 
+# --- All differences -------------------------------------------------------------------------------
+
+TURNED = """O1 (STUB SHAFT)
+G21 G40 G99
+T0101
+G50 S2500
+G00 X16. Z3. M08
+G42 G01 Z0. F0.15
+X20. ,C1.
+Z-25. ,R3.
+X30. ,C1.
+Z-40.
+X40. ,A150.
+Z-60.
+G02 X60. Z-70. R10.
+G01 Z-85.
+X72.
+G40 G00 X150. Z100. M09
+M30"""
+
+
+def quoted(changes):
+    return [tuple(each[name] and each[name]["text"] for name in ("old", "new")) for each in changes]
+
+
+def test_a_harmless_difference_hides_no_other_one(diff):
+    changed = [("T0101", "T0202"), ("F0.15", "F0.25"), ("X30. ", "X30.01 "), ("Z-70. R10.", "Z-70.2 R10.")]
+    new = TURNED
+    for before, behind in changed:
+        new = new.replace(before, behind)
+    found = diff(TURNED, new.replace("SHAFT", "SHAFT B"), "--control", "fanuc-lathe")
+    assert [quoted(each["changes"]) for each in found["differences"]] == [
+        [("Z-70.", "Z-70.2")],
+        [("X30.", "X30.01")],
+    ]
+    assert [each["changes"][0]["by"] for each in found["differences"]] == [-0.2, 0.01]
+    assert [each["old_lines"] for each in found["differences"]] == [[13, 14], [9, 12]]
+    # The line of 150 degrees begins 0.005 mm higher, and ends on X40. so much farther along Z.
+    assert [each["distance_mm"] for each in found["differences"]] == [0.2, pytest.approx(0.005 * 3**0.5, abs=1e-6)]
+    assert found["difference"]["old"]["line"] == 9
+    assert quoted(found["besides"]) == [
+        ("T0101", "T0202"),
+        ("F0.15", "F0.25"),
+        ("(STUB SHAFT)", "(STUB SHAFT B)"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("before", "behind", "besides"),
+    [
+        ("T0101", "T0101 (NEW)\nM01", [(None, "M01"), (None, "(NEW)")]),
+        ("S2500", "S3000", [("S2500", "S3000")]),
+        ("M08", "M07", [("M08", "M07")]),
+        ("G01 Z-85.", "G01 Z-85. F0.15", []),
+        ("G01 Z-85.", "G01 Z-85. F.1", [(None, "F.1")]),
+        ("G00 X16. Z3.", "N7 G0 Z3.00 X16.", []),
+        ("Z-25. ,R3.", "W-25. ,R3.", []),
+        ("G02 X60. Z-70. R10.", "G02 X60. Z-70. I10. K0.", []),
+        ("Z-85.", "Z-77.\nZ-85.", []),
+        ("M09", "M09\nG04 X1.5", [(None, "G04 X1.5")]),
+        ("G40 G99", "G40 G98", [("G99", "G98")]),
+    ],
+)
+def test_what_changes_no_path_is_told_apart(diff, before, behind, besides):
+    new = TURNED.replace(before, behind, 1)
+    for pair, told in (((TURNED, new), besides), ((new, TURNED), [each[::-1] for each in besides])):
+        found = diff(*pair, "--control", "fanuc-lathe")
+        assert (found["verdict"], found["differences"], quoted(found["besides"])) == ("equal", [], told)
+
+
+@pytest.mark.parametrize(
+    ("before", "behind"),
+    [("G42", "G41"), ("G54", "G55"), ("G17", "G18"), ("G21", "G20"), ("G90", "G91")],
+)
+def test_a_code_that_the_path_hangs_on_is_the_path(diff, before, behind):
+    program = "G17 G21 G90\nG54\nG0 X1. Y1. Z5.\nG42 D1 G1 X5. F100\nY7.\nX9.\nG40 G0 Y20."
+    found = diff(program, program.replace(before, behind), "--control", "fanuc-mill")
+    assert found["verdict"] == "different"
+    assert (before, behind) in [pair for each in found["differences"] for pair in quoted(each["changes"])]
+    assert found["besides"] == []
+
+
+def test_a_picture_shows_both_paths_and_marks_their_differences(tmp_path):
+    names = [tmp_path / name for name in ("old.nc", "new.nc", "both.svg")]
+    names[0].write_text(TURNED)
+    names[1].write_text(TURNED.replace("X30. ", "X30.01 ").replace("Z-70. R10.", "Z-70.2 R10."))
+    status, output = invoke(*names[:2], "--control", "fanuc-lathe", "--plot", names[2])
+    assert (status, output.splitlines()[-1]) == (1, f"{names[2]} written")
+    drawn = names[2].read_text(encoding="utf-8")
+    for told in ("OLD alone", "NEW alone", "both programs", "Z-70. becomes Z-70.2", "X30. becomes X30.01"):
+        assert told in drawn
+    # The smaller one is shown enlarged.
+    assert "1000 times as large" in drawn
+    status, output = invoke(*names[:2], "--control", "fanuc-lathe", "--plot", names[2])
+    assert (status, "--force" in output) == (2, True)
+
+
+corners = st.lists(
+    st.tuples(st.integers(-40_000, 40_000), st.integers(5_000, 40_000)).map(lambda at: (at[0] / 1000, at[1] / 1000)),
+    min_size=4,
+    max_size=9,
+)
+
+
+def polygon(points, more=()):
+    """Lines that go up from point to point; some have a further point before them."""
+    y, blocks = 0.0, ["G17 G21 G90", "G0 X0 Y0"]
+    places = [(0.0, 0.0)]
+    for x, up in points:
+        y += up
+        places.append((x, y))
+    for number, (x, y) in enumerate(places[1:], 1):
+        if number in more:
+            blocks.append(f"G1 X{more[number][0]:.6f} Y{more[number][1]:.6f}")
+        blocks.append(f"G1 X{x:.3f} Y{y:.3f}")
+    return "\n".join(blocks), places
+
+
+@law(corners, st.data(), derandomize=False, many=60)
+def test_each_change_is_told_by_its_amount_behind_inserted_and_deleted_moves(diff, points, data):
+    _, places = polygon(points)
+    kinds = data.draw(st.lists(st.sampled_from(("same", "moved", "added")), min_size=len(points), max_size=len(points)))
+    amounts = data.draw(st.lists(st.integers(1, 1_000), min_size=len(points), max_size=len(points), unique=True))
+    more, moved, expected = {}, list(points), []
+    used, before = -9, ""
+    for number, (kind, off) in enumerate(zip(kinds, amounts, strict=True), 1):
+        if kind == "same" or number < used + (1 if kind == "moved" == before else 3):
+            continue
+        used, away, before = number, off / 500, kind
+        (x, y), (u, v) = places[number - 1], places[number]
+        if kind == "moved":
+            moved[number - 1] = (u + away, v - y)
+        else:
+            # Beside the middle of a line, at a right angle to it.
+            long = dist((x, y), (u, v))
+            more[number] = (x + u) / 2 - away * (v - y) / long, (y + v) / 2 + away * (u - x) / long
+        expected.append((away, kind))
+    pair = polygon(points)[0], polygon(moved, more)[0]
+    is_back = data.draw(st.booleans())
+    found = diff(*pair[:: -1 if is_back else 1], *PLAIN)["differences"]
+    expected.sort(reverse=True)
+    assert [each["distance_mm"] for each in found] == pytest.approx([away for away, _ in expected], abs=2e-6)
+    for each, (away, kind) in zip(found, expected, strict=True):
+        if kind == "moved":
+            assert [abs(change["by"]) for change in each["changes"]] == [pytest.approx(away)]
+        else:
+            assert (each["old"] is None, each["new"] is None) == (not is_back, is_back)
+            assert each["reason"] == f"only {'OLD' if is_back else 'NEW'} has this move"
+
+
+@law(st.integers(20, 60), st.integers(100, 160), st.integers(1, 8), st.integers(1, 8))
+def test_a_program_and_itself_written_out_are_equal(diff, deep, angle, first, second):
+    program = f"G00 X40. Z0. M08\nG111 X120. A180. K-{deep}. B{angle}. P{first}. Q{second}. F0.2\nG00 X130. M09"
+    written = call("expand", "--control", "yasnac-lx3", "-", stdin=program)
+    assert written.exit_code == 0, written.output
+    found = diff(program, written.stdout, "--control", "yasnac-lx3", "--tolerance", "0.002")
+    assert (found["verdict"], found["differences"]) == ("equal", []), found["differences"]
+    assert {each["kind"] for each in found["besides"]} == {"kept-block"}
+
+
 MILL = "G17 G21 G90 G91.1\nG0 X0 Y0 Z0\n"
 TINY = "".join(f"G1 X{x / 10_000:.4f}\n" for x in (*range(8, 900, 8), *range(900, 8, -8)))
 
