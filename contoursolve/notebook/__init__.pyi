@@ -1,8 +1,8 @@
 from . import mime_bundle as mime_bundle
 from .conversation import Conversation as Conversation
 from .exercises import (
-    Choice as Choice,
     Exercise as Exercise,
+    OfferedAnswer as OfferedAnswer,
     exercise as exercise,
 )
 from .exploration import begin as begin

@@ -25,7 +25,7 @@ _RIGHT_ANGLE, _FEW_DEGREES, _SMALL = 90, 5, 10
 """Degrees along an axis, and steps of other angles; mm below which a length has steps of 0.5, else of 1."""
 
 
-class Choice(Struct, frozen=True):
+class OfferedAnswer(Struct, frozen=True):
     """One answer of an exercise: its value as the control writes it, mm, whether it is right, and why it is not."""
 
     value: float
@@ -40,11 +40,11 @@ class Exercise(Shown, Struct, frozen=True):
     block: str
     start: str
     question: str
-    choices: tuple[Choice, ...]
+    choices: tuple[OfferedAnswer, ...]
     answer: Answer
 
     @property
-    def letters(self) -> tuple[tuple[str, Choice], ...]:
+    def letters(self) -> tuple[tuple[str, OfferedAnswer], ...]:
         """The choices, each with its letter."""
         return tuple(zip("ABCDEFGH", self.choices, strict=False))
 
@@ -95,7 +95,7 @@ def exercise(
         value = _value(answer, place)
         wrong = [] if value is None else [*islice(_wrong(answer, place, value, asked), most)]
         if value is not None and wrong:
-            choices = [Choice(value, is_right=True, why=""), *wrong]
+            choices = [OfferedAnswer(value, is_right=True, why=""), *wrong]
             draw.shuffle(choices)
             return Exercise(text, start, _question(answer, place), tuple(choices), answer)
     raise ValueError("no numbers around those of the block make a contour with a wrong answer")
@@ -145,7 +145,7 @@ def _value(answer: Answer, place: tuple[str, int]) -> float | None:
     return None if at is None else at[axis] * (2 if answer.plane.diameters[axis] else 1)
 
 
-def _wrong(answer: Answer, place: tuple[str, int], value: float, asked: Mapping[str, Any]) -> Iterator[Choice]:
+def _wrong(answer: Answer, place: tuple[str, int], value: float, asked: Mapping[str, Any]) -> Iterator[OfferedAnswer]:
     """The values that come out if one word is misread, each once, the likeliest first."""
     seen = [value]
     for word, text, sentence in _misread(answer):
@@ -153,7 +153,7 @@ def _wrong(answer: Answer, place: tuple[str, int], value: float, asked: Mapping[
         found = None if other is None else _value(other, place)
         if found is not None and all(abs(found - each) > _APART for each in seen):
             seen.append(found)
-            yield Choice(found, is_right=False, why=f"{text} in place of {word.text.strip()}: {sentence}")
+            yield OfferedAnswer(found, is_right=False, why=f"{text} in place of {word.text.strip()}: {sentence}")
 
 
 def _misread(answer: Answer) -> Iterator[tuple[Word, str, str]]:
