@@ -15,7 +15,7 @@ from .api import (
     system as system,
 )
 from .controls import (
-    DIALECTS as DIALECTS,
+    CONTROLS as CONTROLS,
 )
 from .diagnosis import (
     Addition as Addition,
@@ -23,8 +23,8 @@ from .diagnosis import (
     Depth as Depth,
     EquationSystem as EquationSystem,
     LegalBlock as LegalBlock,
-    Listing as Listing,
     Policy as Policy,
+    Solutions as Solutions,
     called_in_program as called_in_program,
     legal_blocks as legal_blocks,
     list_solutions as list_solutions,
@@ -43,12 +43,12 @@ from .diagnostics import (
 from .families import (
     Family as Family,
     FamilyError as FamilyError,
-    Feasible as Feasible,
-    Found as Found,
-    Region as Region,
+    FeasibleRange as FeasibleRange,
+    FeasibleRegion as FeasibleRegion,
+    FoundValues as FoundValues,
     Sensitivity as Sensitivity,
+    ToleranceRange as ToleranceRange,
     Tolerances as Tolerances,
-    WordTolerance as WordTolerance,
     family as family,
     feasible as feasible,
     find_word as find_word,
@@ -92,13 +92,13 @@ from .postprocess import (
     Conversion as Conversion,
     Expansion as Expansion,
     NumberGround as NumberGround,
-    Written as Written,
     WrittenBlock as WrittenBlock,
     WrittenContour as WrittenContour,
+    WrittenContours as WrittenContours,
     WrittenWord as WrittenWord,
 )
 from .program import (
-    Mended as Mended,
+    FixedProgram as FixedProgram,
     OpenContour as OpenContour,
     OpenProgram as OpenProgram,
     Result as Result,
@@ -112,7 +112,7 @@ from .program import (
     safe_fixes as safe_fixes,
 )
 from .reading import (
-    Dialect as Dialect,
+    Control as Control,
 )
 from .sketches import (
     ContourSketch as ContourSketch,
@@ -133,8 +133,8 @@ from .sketches import (
 from .solving import (
     ArcSegment as ArcSegment,
     Contour as Contour,
+    Drawing as Drawing,
     Drawings as Drawings,
-    Drawn as Drawn,
     LineSegment as LineSegment,
     Sketch as Sketch,
     Status as Status,

@@ -35,7 +35,7 @@ from contoursolve.program import (
     stated_settings,
     takes,
 )
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 if TYPE_CHECKING:
     from contoursolve import postprocess, tool_radius
@@ -188,7 +188,7 @@ def apply_fixes(
     unsafe: bool = False,
     name: str = "<program>",
     **options: Unpack[CheckKeywords],
-) -> programs.Mended:
+) -> programs.FixedProgram:
     """The program with all fixes that keep the contour applied, one after the other, until none is left.
 
     With `unsafe`, the first fix of each finding is applied, too, where it changes the contour. The program is examined
@@ -377,7 +377,7 @@ def expand(
         writer = formulas_for(text, post, scratch, told.variables or {}, asked.policy)
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
     wish = ExpansionOptions(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
-    stated = {} if isinstance(told.control, Dialect) else stated_settings(gcode.split_lines(text))
+    stated = {} if isinstance(told.control, Control) else stated_settings(gcode.split_lines(text))
     own = stated | dict(told.settings or {})
     source = file_in_memory(text, name)
     rewritten = rewrite(source, BytesIO(), wish, asked, control=told.control, settings=own, writer=writer)
@@ -389,7 +389,7 @@ def expand(
 @takes(ReadingKeywords)
 def convert(
     text: str,
-    to: ControlName | Dialect,
+    to: ControlName | Control,
     *,
     comments: bool = True,
     name: str = "<program>",
@@ -427,7 +427,7 @@ def convert(
     )
 
     told = SolveOptions(**options)
-    target = to if isinstance(to, Dialect) else configure(find_dialect(to), told.settings)
+    target = to if isinstance(to, Control) else configure(find_dialect(to), told.settings)
     if language_of(target) is None:
         raise ConversionError(
             f"contours cannot be written in the words of {target.title} ({target.name}): its blocks are of another kind"

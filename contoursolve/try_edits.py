@@ -10,12 +10,12 @@ from msgspec import Struct
 
 from contoursolve import gcode
 from contoursolve.api import follow_program, parse, solve
-from contoursolve.controls import DIALECTS, ControlName
+from contoursolve.controls import CONTROLS, ControlName
 from contoursolve.diagnosis import Edit, EditKind, change, drop, edited, find_repairs
 from contoursolve.diagnostics import checked
 from contoursolve.gcode import Program
 from contoursolve.program import Result, Rules, Units, choose
-from contoursolve.reading import THIS_CONTROL, Dialect, Rule
+from contoursolve.reading import THIS_CONTROL, Control, Rule
 from contoursolve.solving import Contour
 
 
@@ -40,7 +40,7 @@ def what_if(
     drop: Iterable[str] = (),
     add: Iterable[str] = (),
     change: Mapping[str, str] | None = None,
-    control: ControlName | Dialect | None = None,
+    control: ControlName | Control | None = None,
     start: str | Mapping[str, float] | None = None,
     units: Units = "mm",
     rules: Rules = "enforce",
@@ -83,7 +83,7 @@ def _edit(program: Program, address: str, text: str) -> Edit:
 def completions(
     block: str,
     *,
-    control: ControlName | Dialect | None = None,
+    control: ControlName | Control | None = None,
     start: str | Mapping[str, float] | None = None,
     units: Units = "mm",
 ) -> tuple[Completion, ...]:
@@ -108,7 +108,7 @@ def completions(
 _KEYWORDS = {"--start": "start", "--rules": "rules", "--units": "units"}
 
 
-def try_example(dialect: Dialect, rule: Rule, program: str, depth: str = "full") -> Result:
+def try_example(dialect: Control, rule: Rule, program: str, depth: str = "full") -> Result:
     """The result of an example of a rule of a control, with the findings about every line; `depth` as for `solve`."""
     words = shlex.split(rule.options.replace(THIS_CONTROL, dialect.name))
     options: dict[str, Any] = {"depth": depth} | {
@@ -121,5 +121,5 @@ def try_example(dialect: Dialect, rule: Rule, program: str, depth: str = "full")
         if name:
             (Path(folder) / name).write_text(text, encoding="utf-8")
         # A name: what is concluded of a program on a control is concluded then.
-        control = next((each for each in DIALECTS if each == dialect.name and DIALECTS[each] is dialect), dialect)
+        control = next((each for each in CONTROLS if each == dialect.name and CONTROLS[each] is dialect), dialect)
         return follow_program(parse(program), control=control, strict=True, folders=[folder], **options).collect()

@@ -23,9 +23,9 @@ from contoursolve.diagnosis import count
 from contoursolve.diagnostics import members
 from contoursolve.gcode import STANDARD_INPUT, write_whole
 from contoursolve.output import Style
-from contoursolve.postprocess import NumberGround, Written, WrittenContour, WrittenWord
+from contoursolve.postprocess import NumberGround, WrittenContour, WrittenContours, WrittenWord
 from contoursolve.program import find_settings, read_setting
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.sketches import (
     ContourSketch,
     UnfinishedError,
@@ -51,7 +51,7 @@ def write(
     context: click.Context,
     /,
     sketch: str,
-    to: ControlName | Dialect | None,
+    to: ControlName | Control | None,
     assignments: tuple[str, ...],
     shows_all: bool,
     output: str | None,
@@ -112,7 +112,7 @@ def write(
         _report(found)
 
 
-def _report(found: Written) -> None:
+def _report(found: WrittenContours) -> None:
     """Print on standard error how good the first candidate is."""
     first, *others = _candidate_lines(found.candidates[0])
     said = [line.strip() for line in others if not line.startswith("    ")]
@@ -165,7 +165,7 @@ def _told(word: WrittenWord) -> str:
     return f"{word.text} (off by {word.off:.1g} {word.unit.value})" if word.off else word.text
 
 
-def _table_lines(several: Sequence[Written]) -> Iterator[str]:
+def _table_lines(several: Sequence[WrittenContours]) -> Iterator[str]:
     """The first candidate for each control, a line for each block."""
     width = max(len(each.control) for each in several)
     for each in several:
@@ -175,7 +175,7 @@ def _table_lines(several: Sequence[Written]) -> Iterator[str]:
         yield from (f"{'':{width}}    {line}" for line in said)
 
 
-def _data(found: Written) -> dict[str, Any]:
+def _data(found: WrittenContours) -> dict[str, Any]:
     return {
         **members(found, "control title reason"),
         "candidates": [

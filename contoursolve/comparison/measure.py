@@ -157,11 +157,11 @@ def unit(a: complex) -> complex:
 
 # --- Elements, corners and sides ---------------------------------------------------------------------
 
-Found = Iterator[tuple[str, float]]
+FoundValues = Iterator[tuple[str, float]]
 """Names of measurements, each with its error, mm; for a wrong sense, the amount by which it is wrong."""
 
 
-def check_element(place: Place, element: Line | Arc, move: Move) -> Found:
+def check_element(place: Place, element: Line | Arc, move: Move) -> FoundValues:
     """A claimed element runs in its direction or sense, from its first point to its last one."""
     tail, head, name = place.point(element.tail), place.point(element.head), element.name
     if isinstance(element, Line):

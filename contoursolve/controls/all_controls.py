@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from importlib import import_module
 from typing import Any, Literal, TypeVar, get_args, overload
 
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 T = TypeVar("T")
 
@@ -48,23 +48,23 @@ _PARTS = [
 """The first part and the others of each of these texts, and the controls that they may show."""
 
 
-class _Controls(Mapping[ControlName, Dialect]):
+class _Controls(Mapping[ControlName, Control]):
     """The controls by name. Most programs are for one of them, and show no other."""
 
     def __init__(self) -> None:
-        self._read: dict[str, Dialect] = {}
+        self._read: dict[str, Control] = {}
 
-    def __getitem__(self, name: str) -> Dialect:
+    def __getitem__(self, name: str) -> Control:
         if name not in self._read:
             module = import_module(self.home_of(name))
             self._read[name] = getattr(module, name.upper().replace("-", "_"))
         return self._read[name]
 
     @overload
-    def get(self, name: str, default: None = None, /) -> Dialect | None: ...
+    def get(self, name: str, default: None = None, /) -> Control | None: ...
 
     @overload
-    def get(self, name: str, default: Dialect | T, /) -> Dialect | T: ...
+    def get(self, name: str, default: Control | T, /) -> Control | T: ...
 
     def get(self, name: str, default: Any = None, /) -> Any:
         """A control by its name, which may be any text; else the default."""
@@ -76,14 +76,14 @@ class _Controls(Mapping[ControlName, Dialect]):
     def __len__(self) -> int:
         return len(_CONTROLS)
 
-    def __or__(self, others: Mapping[str, Dialect]) -> dict[str, Dialect]:
+    def __or__(self, others: Mapping[str, Control]) -> dict[str, Control]:
         return {name: self[name] for name in self} | dict(others)
 
     def home_of(self, name: str) -> str:
         """The module that has the record of a control."""
         return f"contoursolve.controls.{_CONTROLS[name][0]}"
 
-    def showing(self, line: str) -> list[Dialect]:
+    def showing(self, line: str) -> list[Control]:
         """The controls that a line may show, in order; their `signs` say whether it does."""
         text, shown = line.upper(), set[str]()
         for first, others, names in _PARTS:
@@ -92,4 +92,4 @@ class _Controls(Mapping[ControlName, Dialect]):
         return [self[name] for name in _CONTROLS if name in shown] if shown else []
 
 
-DIALECTS = _Controls()
+CONTROLS = _Controls()

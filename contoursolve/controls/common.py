@@ -9,7 +9,7 @@ from contoursolve.controls.control_settings import own_source
 from contoursolve.controls.rule_rows import EVENTS, row
 from contoursolve.diagnostics import Severity
 from contoursolve.gcode import Syntax
-from contoursolve.reading import Assumption, ContourForm, Dialect, Lexicon, Modes, ReadIssue, Rule, Setting
+from contoursolve.reading import Assumption, ContourForm, Control, Lexicon, Modes, ReadIssue, Rule, Setting
 
 _GEOMETRY, _READING = own_source("the original equations"), own_source("modal state of a program")
 
@@ -105,5 +105,5 @@ def _reduced(table: Any) -> Any:
     return reduced(table)
 
 
-for _kind in (Dialect, Modes, Lexicon, Syntax, ContourForm, Assumption, Setting, Rule):
+for _kind in (Control, Modes, Lexicon, Syntax, ContourForm, Assumption, Setting, Rule):
     copyreg.pickle(_kind, _reduced)

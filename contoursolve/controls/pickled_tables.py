@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.controls.all_controls import DIALECTS
+from contoursolve.controls.all_controls import CONTROLS
 
 
 class TablePlace(Struct, frozen=True):
@@ -19,7 +19,7 @@ class TablePlace(Struct, frozen=True):
 
     def table(self) -> Any:
         """The table."""
-        return reduce(_step, self.steps, DIALECTS[self.control])
+        return reduce(_step, self.steps, CONTROLS[self.control])
 
 
 def _step(part: Any, step: Any) -> Any:
@@ -42,8 +42,8 @@ def _made(kind: Callable[..., Any], own: Mapping[str, Any]) -> Any:
 
 def _place_of(part: Any) -> TablePlace | None:
     """The place of a part of a built-in control; only one that has been read has parts."""
-    for name in DIALECTS:
-        steps = _places(name).get(id(part)) if DIALECTS.home_of(name) in sys.modules else None
+    for name in CONTROLS:
+        steps = _places(name).get(id(part)) if CONTROLS.home_of(name) in sys.modules else None
         if steps is not None:
             return TablePlace(name, steps)
     return None
@@ -53,7 +53,7 @@ def _place_of(part: Any) -> TablePlace | None:
 def _places(control: str) -> Mapping[int, tuple[Any, ...]]:
     """The steps that lead to the records of a control and to its own fields, by their ids: it keeps them for ever."""
     found: dict[int, tuple[Any, ...]] = {}
-    waiting: list[tuple[Any, tuple[Any, ...]]] = [(DIALECTS[control], ())]
+    waiting: list[tuple[Any, tuple[Any, ...]]] = [(CONTROLS[control], ())]
     for part, steps in waiting:
         if id(part) not in found:
             parts = [*_parts(part)]

@@ -96,8 +96,8 @@ from .slip_kinds import (
     mistyped_codes as mistyped_codes,
 )
 from .solutions import (
-    Listed as Listed,
-    Listing as Listing,
+    Solution as Solution,
+    Solutions as Solutions,
     certificate_text as certificate_text,
     decimals_of as decimals_of,
     list_solutions as list_solutions,

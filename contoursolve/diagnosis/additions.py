@@ -13,7 +13,7 @@ from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.subsets import smallest_sets
 from contoursolve.diagnostics import checked
 from contoursolve.geometry import assemble
-from contoursolve.reading import Dialect, ParsedContour, check, read, stating
+from contoursolve.reading import Control, ParsedContour, check, read, stating
 from contoursolve.solving import Contour, analyse
 
 MOST_ADDED = 3
@@ -60,7 +60,7 @@ class LegalBlock(Struct, frozen=True):
 
 
 @checked
-def words_to_add(answer: Answer, dialect: Dialect) -> tuple[Addition, ...]:
+def words_to_add(answer: Answer, dialect: Control) -> tuple[Addition, ...]:
     """Every word that the blocks of a contour may still take: no rule refuses it beside the others, and they do not say
     already what it says.
 
@@ -91,7 +91,7 @@ def words_to_add(answer: Answer, dialect: Dialect) -> tuple[Addition, ...]:
 
 
 @checked
-def ways_to_complete(answer: Answer, dialect: Dialect) -> tuple[tuple[str, ...], ...]:
+def ways_to_complete(answer: Answer, dialect: Control) -> tuple[tuple[str, ...], ...]:
     """The smallest sets of addresses that complete the blocks of a contour, each refused by no rule; nothing for one
     that is complete.
 
@@ -108,7 +108,7 @@ def ways_to_complete(answer: Answer, dialect: Dialect) -> tuple[tuple[str, ...],
 
 
 @checked
-def legal_blocks(dialect: Dialect) -> tuple[LegalBlock, ...]:
+def legal_blocks(dialect: Control) -> tuple[LegalBlock, ...]:
     """Examples of all forms of a control; the smallest sets of words of each."""
     return tuple(
         LegalBlock(form.name, form.title, row.addresses, text)
@@ -118,7 +118,7 @@ def legal_blocks(dialect: Dialect) -> tuple[LegalBlock, ...]:
     )
 
 
-def _completing(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, ...]]:
+def _completing(claim: ParsedContour, dialect: Control) -> Iterator[tuple[str, ...]]:
     """The smallest sets of names that complete a contour."""
     if _is_complete(claim, dialect, ()):
         return
@@ -126,14 +126,14 @@ def _completing(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, .
     yield from smallest_sets(possible, MOST_ADDED, lambda names: _is_complete(claim, dialect, names))
 
 
-def _is_complete(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...]) -> bool:
+def _is_complete(claim: ParsedContour, dialect: Control, names: tuple[str, ...]) -> bool:
     """Whether the words of a contour and some more are legal and determine it."""
     if _refusals(claim, dialect, names):
         return False
     return analyse(assemble(read(stating(claim, names), frozenset()))).is_determined
 
 
-def _possible(claim: ParsedContour, dialect: Dialect) -> Iterator[str]:
+def _possible(claim: ParsedContour, dialect: Control) -> Iterator[str]:
     """The names that may be stated besides."""
     refused = _refusals(claim, dialect, ())
     for name, (address, index) in claim.vocabulary.items():
@@ -147,7 +147,7 @@ def _possible(claim: ParsedContour, dialect: Dialect) -> Iterator[str]:
                 yield name
 
 
-def _refusals(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...]) -> set[str]:
+def _refusals(claim: ParsedContour, dialect: Control, names: tuple[str, ...]) -> set[str]:
     """The rules that refuse the words of a contour and some more, or ignore one of them."""
     stated = {**claim.stated(), **dict.fromkeys(names)}
     return {offence.rule.code for offence in check(dialect.rules, claim.form.roles, stated)}

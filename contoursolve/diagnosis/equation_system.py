@@ -44,7 +44,7 @@ from contoursolve.geometry import (
     scalar,
 )
 from contoursolve.numeric import COSINE, SINE, Array, Expression, angle, symbol
-from contoursolve.reading import Dialect, ParsedContour
+from contoursolve.reading import Control, ParsedContour
 from contoursolve.solving import (
     Alternatives,
     ConstructionStep,
@@ -127,7 +127,7 @@ class Rereading(Protocol):
     """The control of a contour, which reads its blocks again."""
 
     @property
-    def dialect(self) -> Dialect:
+    def dialect(self) -> Control:
         """Its tables."""
         ...
 
@@ -166,7 +166,7 @@ class EquationSystem(Shown):
         return EquationSystem, self._made_of()
 
     @property
-    def dialect(self) -> Dialect:
+    def dialect(self) -> Control:
         """The control that reads it, as tables."""
         return self._read_by.dialect
 

@@ -49,7 +49,7 @@ from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, 
 from contoursolve.reading import (
     AT_ITS_LIMIT,
     Assumption,
-    Dialect,
+    Control,
     ParsedContour,
     Premises,
     ReadIssue,
@@ -65,8 +65,8 @@ from contoursolve.solving import (
     Note,
     NoteKind,
     Refusal,
-    Solution,
     Status,
+    SystemSolution,
     Topic,
     analyse,
     is_closed,
@@ -102,7 +102,7 @@ class Policy(Enum):
 class ReadBy:
     """The control that reads a contour, and what its rules do; with it the contour can be read again."""
 
-    dialect: Dialect
+    dialect: Control
     policy: Policy
 
     def __repr__(self) -> str:
@@ -298,7 +298,7 @@ class _Notebook:
 
 def examine(
     claim: ParsedContour,
-    dialect: Dialect,
+    dialect: Control,
     policy: Policy,
     next_place: Callable[[], tuple[Decimal, Decimal] | None] = lambda: None,
     depth: Depth = Depth.FULL,
@@ -349,7 +349,7 @@ def examine(
             profile = _without_cuts(context, profile, claim, analyse(assemble(profile)).free, notebook)
         profile, solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
     else:
-        solution, alternatives = Solution(Status.REJECTED), None
+        solution, alternatives = SystemSolution(Status.REJECTED), None
     for offence in ignoring:
         finding = explain_ignored(context, offence, profile, solution)
         notebook.add(finding if is_strict else replace(finding, severity=Severity.WARNING), Status.REJECTED)
@@ -536,7 +536,7 @@ SUSPICIONS = "suspicions"
 """The name of the setting by which suspicions are told, or not."""
 
 
-def answer_question(question: Question, profile: Profile, solution: Solution) -> AskedValue:
+def answer_question(question: Question, profile: Profile, solution: SystemSolution) -> AskedValue:
     """The value of what is asked for, at the points of a solution."""
     if not solution.points:
         return AskedValue(question, None)
@@ -573,7 +573,7 @@ def _says_where(claim: ParsedContour) -> bool:
 
 def _examine_geometry(
     context: Context, claim: ParsedContour, profile: Profile, notebook: _Notebook, depth: Depth
-) -> tuple[Profile, Solution, Alternatives | None]:
+) -> tuple[Profile, SystemSolution, Alternatives | None]:
     """The system for all values, then its solution at the values of the block.
 
     A block that is refused is not solved; but whether its words agree is told. Where something is missing, so is what
@@ -601,9 +601,9 @@ def _examine_geometry(
     if is_open and not is_long:
         # Which contours the missing word could choose is worth knowing.
         profile, _, alternatives = _solve(profile, context, claim, notebook, depth)
-        return profile, Solution(Status.UNDERDETERMINED), alternatives
+        return profile, SystemSolution(Status.UNDERDETERMINED), alternatives
     if not is_solvable or is_long:
-        return profile, Solution(Status.UNDERDETERMINED), None
+        return profile, SystemSolution(Status.UNDERDETERMINED), None
     profile, solution, alternatives = _solve(profile, context, claim, notebook, depth)
     for event in _each_word_once([*solution.refusals, *solution.remarks]):
         # A rule about the angles of the block has said that it has no vertex.
@@ -611,7 +611,7 @@ def _examine_geometry(
         if not is_refused or (event.kind in _ABOUT_WORDS and not is_said):
             notebook.add(explain_result(context, event, profile, alternatives))
             notebook.statuses.add(solution.status)
-    return (profile, Solution(solution.status), None) if is_refused else (profile, solution, alternatives)
+    return (profile, SystemSolution(solution.status), None) if is_refused else (profile, solution, alternatives)
 
 
 def _each_word_once(events: Sequence[Refusal | Note]) -> list[Refusal | Note]:
@@ -657,7 +657,7 @@ def _without_cuts(
 
 def _solve(
     profile: Profile, context: Context, claim: ParsedContour, notebook: _Notebook, depth: Depth
-) -> tuple[Profile, Solution, Alternatives | None]:
+) -> tuple[Profile, SystemSolution, Alternatives | None]:
     """The contour that the control makes, or the only one that there is; and the profile that it is one of."""
     is_chosen = not profile.is_extended and not _has_choice(profile)
     solution = solve(profile, is_proven=depth.is_proven) if is_chosen else None
@@ -684,7 +684,7 @@ def _solve(
         # Where a circle is cut in two, its point has no place of its own; what contradicts itself beside it is wrong.
         against = tuple(each for each in said_twice(profile) if isinstance(each, Refusal))
         if against:
-            return profile, Solution(Status.CONFLICTING, refusals=against), None
+            return profile, SystemSolution(Status.CONFLICTING, refusals=against), None
     if settlement.singular and Status.REJECTED not in notebook.statuses:
         finding = explain_singular(context, settlement.singular, settlement.loose, profile)
         notebook.add(finding, Status.UNDERDETERMINED)

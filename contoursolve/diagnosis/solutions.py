@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from contoursolve.solving import Alternative, Alternatives
 
 
-class Listed(Struct, frozen=True):
+class Solution(Struct, frozen=True):
     """One solution: its name, its path (None if the control cannot make it, with the reasons), what selects it,
     and whether it is the contour that was solved."""
 
@@ -48,7 +48,7 @@ class Listed(Struct, frozen=True):
     """The numbers that choose it, where the control has a word for these."""
 
 
-class Listing(Struct, frozen=True):
+class Solutions(Struct, frozen=True):
     """All solutions of a contour that were found, and whether these are proven to be all.
 
     Attributes:
@@ -61,7 +61,7 @@ class Listing(Struct, frozen=True):
             where a closed form gives them.
     """
 
-    solutions: tuple[Listed, ...]
+    solutions: tuple[Solution, ...]
     is_complete: bool
     method: str
     doubts: tuple[str, ...]
@@ -79,7 +79,7 @@ class Listing(Struct, frozen=True):
         return len(self.solutions) == 1 and self.is_complete
 
 
-def list_solutions(answer: Answer) -> Listing | None:
+def list_solutions(answer: Answer) -> Solutions | None:
     """Every solution of a contour, each with what selects it and how sure it is.
 
     Args:
@@ -100,11 +100,11 @@ def list_solutions(answer: Answer) -> Listing | None:
     if alternatives is None:
         if answer.contour is None or answer.certificate is None:
             return None
-        only = Listed("", answer.contour, answer.answers, (), (), is_chosen=True, certificate=answer.certificate)
+        only = Solution("", answer.contour, answer.answers, (), (), is_chosen=True, certificate=answer.certificate)
         choices = count_choices(answer.profile)
         why = "a half circle is one within the least increments" if is_rounded(answer) else "too many to list"
         doubts = (f"the other sides of {choices} points: {why}",) if choices else ()
-        return Listing((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
+        return Solutions((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
     from contoursolve.solving import choose, pick  # noqa: PLC0415 - most contours need no choice
 
     eligible = choose(alternatives, answer.profile.choices)
@@ -118,7 +118,7 @@ def list_solutions(answer: Answer) -> Listing | None:
         from contoursolve.solving import SMALLEST  # noqa: PLC0415 - most contours need no search
 
         method = f"search within {alternatives.reach:.0f} mm of the start point, for elements of at least {SMALLEST} mm"
-    return Listing(
+    return Solutions(
         solutions=tuple(_listed(item, item is chosen, alternatives, answer) for item in alternatives.items),
         is_complete=alternatives.is_complete,
         method=method,
@@ -128,7 +128,7 @@ def list_solutions(answer: Answer) -> Listing | None:
     )
 
 
-def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Listed:
+def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Solution:
     profile = answer.profile
     contour = trace(profile, item.solution) if item.is_path else None
     asked = tuple(answer_question(question, profile, item.solution) for question in profile.questions)
@@ -137,7 +137,7 @@ def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answ
         if given.word is not None and given.word.address == FACT:
             # A side that a fact leaves open is told by the fact.
             name = name.replace(f"{key} ", f"{given.word.text.partition(' [')[0].partition(' (')[0]} ")
-    return Listed(
+    return Solution(
         name=name,
         contour=contour,
         asked=asked,

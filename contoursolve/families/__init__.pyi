@@ -48,7 +48,7 @@ from .export import (
 )
 from .feasible_ranges import (
     End as End,
-    Feasible as Feasible,
+    FeasibleRange as FeasibleRange,
     Interval as Interval,
     Reason as Reason,
     Way as Way,
@@ -63,7 +63,7 @@ from .goals import (
     Goal as Goal,
 )
 from .inverse import (
-    Found as Found,
+    FoundValues as FoundValues,
     Hit as Hit,
     find_word as find_word,
 )
@@ -78,7 +78,7 @@ from .range_pieces import (
     LEAST_GAP as LEAST_GAP,
 )
 from .regions import (
-    Region as Region,
+    FeasibleRegion as FeasibleRegion,
     region as region,
 )
 from .sampled_lines import (
@@ -100,7 +100,7 @@ from .variables import (
     with_numbers as with_numbers,
 )
 from .word_tolerance import (
-    WordTolerance as WordTolerance,
+    ToleranceRange as ToleranceRange,
     tolerance_for as tolerance_for,
 )
 from .word_values import (

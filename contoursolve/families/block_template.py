@@ -11,7 +11,6 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve import gcode
-from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Depth, join, named_in_program, typed_text, with_value
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
@@ -27,7 +26,7 @@ from contoursolve.program import (
     run,
     start_text,
 )
-from contoursolve.reading import Dialect, ReadIssue
+from contoursolve.reading import Control, ReadIssue
 from contoursolve.solving import Point
 
 
@@ -331,7 +330,7 @@ class SweepSpec(Struct, frozen=True):
     block: str
     names: tuple[str, ...]
     start: str | None
-    control: str | Dialect | None
+    control: str | Control | None
     facts: tuple[str, ...]
     units: str
     rules: str
@@ -374,7 +373,7 @@ def spec_of(  # noqa: PLR0913 - what `family` takes
     names: Iterable[str] = (),
     *,
     start: str | Mapping[str, float] | None = None,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
     facts: Iterable[str] = (),
     units: str = "mm",
     rules: str = "enforce",

@@ -36,7 +36,7 @@ from contoursolve.families.solutions_of_rows import names_of_solutions, without_
 from contoursolve.families.word_values import TOOL, Ranges, ranges_of, stretches
 from contoursolve.numeric import Array
 from contoursolve.program import Rules, Units
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.solving import REASONS, Status, StatusCode
 
 STRETCH = 65_536
@@ -127,7 +127,7 @@ def family(
     *,
     vary: Mapping[str, ArrayLike],
     start: str | Mapping[str, float] | None = None,
-    control: ControlName | Dialect | None = None,
+    control: ControlName | Control | None = None,
     facts: Iterable[str] = (),
     paired: bool = False,
     units: Units = "mm",

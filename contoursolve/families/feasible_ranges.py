@@ -113,7 +113,7 @@ class Interval(Struct, frozen=True):
         return self.low.value < value < self.high.value
 
 
-class Feasible(Shown, Struct, frozen=True):
+class FeasibleRange(Shown, Struct, frozen=True):
     """All values of a word, within a range, with which its block has a contour.
 
     All values are as the word is written. Without `doubts`, it is proven that nothing wider than `LEAST_GAP` is
@@ -169,7 +169,7 @@ def feasible(
     *,
     within: tuple[float, float] | None = None,
     **options: Unpack[BlockOptions],
-) -> Feasible:
+) -> FeasibleRange:
     """Every range of a word's values, as it is written, in which the contour is solved.
 
     Args:
@@ -208,7 +208,7 @@ def feasible(
     refusal = "" if is_open else first_error(search.answer)
     about = (search.word, search.unit, search.stated, (low, high))
     doubts = tuple(search.doubts)
-    return Feasible(*about, tuple(intervals), doubts, refusal, search.diameters[0], is_open, search.premises)
+    return FeasibleRange(*about, tuple(intervals), doubts, refusal, search.diameters[0], is_open, search.premises)
 
 
 def end_of_range(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:

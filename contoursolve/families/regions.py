@@ -51,7 +51,7 @@ PICTURE, BY_ROW = Lattice(305, 201, 4), Lattice(65, 41, 2)
 UNKNOWN = -1
 
 
-class Region(Shown, Struct, frozen=True, eq=False):
+class FeasibleRegion(Shown, Struct, frozen=True, eq=False):
     """Values of two words, within a box, with which a block has a contour: the lines that bound them.
 
     Nothing here is a proof: the values were sampled. All values are as the words are written; a pair of them is a value
@@ -86,7 +86,7 @@ class Region(Shown, Struct, frozen=True, eq=False):
     premises: Premises = Premises()
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Region) and are_same(asdict(self), asdict(other))
+        return isinstance(other, FeasibleRegion) and are_same(asdict(self), asdict(other))
 
     def __hash__(self) -> int:
         return hash((self.words, self.within, self.stated))
@@ -124,7 +124,7 @@ def region(
     words: tuple[str, str],
     within: tuple[Point, Point],
     **options: Unpack[BlockOptions],
-) -> Region:
+) -> FeasibleRegion:
     """The region of two words' values, as they are written, in which the contour is solved.
 
     Args:
@@ -179,12 +179,12 @@ class _RegionSearch(FreeWords):
             return True
         return False
 
-    def run(self) -> Region:
+    def run(self) -> FeasibleRegion:
         """The region."""
         outcomes = self._sample()
         crossings = crossings_of(self.axes, outcomes, self._outcomes)
         cell, seen = ([float(each[step] - each[0]) for each in self.axes] for step in (1, self.lattice.coarse))
-        return Region(
+        return FeasibleRegion(
             words=_two(self.names),
             units=_two(self.units),
             diameters=_two(self.diameters),

@@ -54,7 +54,7 @@ PROBE, CLOSEST = 1e-4, 1e-11
 """Shares of a value (at least of 1): how far beside it the derivative is taken, and how closely an end is found."""
 
 
-class WordTolerance(Shown, Struct, frozen=True):
+class ToleranceRange(Shown, Struct, frozen=True):
     """The values of a word around its own with which a result moves by `most` or less.
 
     X of a lathe counts as diameter; a point without an axis moves as it does on the drawing. Without `doubts`, nothing
@@ -121,7 +121,7 @@ def tolerance_for(
     keep: str,
     within: float,
     **options: Unpack[BlockOptions],
-) -> WordTolerance:
+) -> ToleranceRange:
     """The values of a word around its own with which a result moves by at most `within`.
 
     Args:
@@ -170,7 +170,7 @@ def tolerance_for(
         low, high = found.ends()
     about = (search.word, search.unit, search.stated, kept.text, kept.unit, float(within))
     doubts = tuple(dict.fromkeys((*search.doubts, *found.doubts)))
-    return WordTolerance(*about, low, high, found.linear, doubts, search.diameters[0], search.premises)
+    return ToleranceRange(*about, low, high, found.linear, doubts, search.diameters[0], search.premises)
 
 
 class _Kept(Struct, frozen=True):

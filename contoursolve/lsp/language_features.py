@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from lsprotocol import types
 
 from contoursolve import (
-    DIALECTS,
+    CONTROLS,
     Answer,
     Block,
-    Dialect,
+    Control,
     LegalBlock,
     StatedWord,
     Status,
@@ -212,16 +212,16 @@ class Completer:
                 yield from self._words(answer, dialect)
         elif begun is not None:
             self.begin = begun.start("code") + 1
-            for each in DIALECTS.values() if dialect is None else (dialect,):
+            for each in CONTROLS.values() if dialect is None else (dialect,):
                 yield from self._blocks(each)
 
-    def _words(self, answer: Answer, dialect: Dialect) -> Iterator[types.CompletionItem]:
+    def _words(self, answer: Answer, dialect: Control) -> Iterator[types.CompletionItem]:
         found = [each for each in words_to_add(answer, dialect) if each.line == self.line]
         for number, each in enumerate(sorted(found, key=lambda each: each.contour is None)):
             detail = "fixed by the other words" if each.contour is not None else ""
             yield self._item(each.text, each.text.replace("?", "${1}"), each.meaning, detail, each.address, number)
 
-    def _blocks(self, dialect: Dialect) -> Iterator[types.CompletionItem]:
+    def _blocks(self, dialect: Control) -> Iterator[types.CompletionItem]:
         key = dialect.name, *sorted(dialect.modes.settings.items())
         if key not in _LEGAL:
             _LEGAL[key] = legal_blocks(dialect)
@@ -331,7 +331,7 @@ def folds_of(opened: Opened) -> Iterator[types.FoldingRange]:
     """Contours of several lines, and comments."""
     for contour in opened.program.contours:
         if contour.last > contour.first:
-            yield types.FoldingRange(contour.first - 1, contour.last - 1, kind=types.FoldingRangeKind.Region)
+            yield types.FoldingRange(contour.first - 1, contour.last - 1, kind=types.FoldingRangeKind.FeasibleRegion)
     first, lines = 0, len(opened.program.blocks)
     for line in range(1, lines + 2):
         is_comment = line <= lines and _is_comment(opened, line)

@@ -17,7 +17,7 @@ class Pages:
 
     def uri(self, code: str, dialect: "contoursolve.Dialect | None") -> str:
         """The address of the page about a rule; empty if there is none."""
-        controls = [dialect] if dialect is not None else [*contoursolve.DIALECTS.values()]
+        controls = [dialect] if dialect is not None else [*contoursolve.CONTROLS.values()]
         name = f"{controls[0].name}-{code}.md" if dialect is not None else f"{code}.md"
         path = Path(self._folder.name) / name
         try:

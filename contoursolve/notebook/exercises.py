@@ -13,7 +13,7 @@ from contoursolve.diagnosis import Answer, Derivation, change, edited, misreadin
 from contoursolve.diagnostics import Shown
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Unit
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _TRIES = 30
 """Draws of numbers until the block is a contour."""
@@ -66,7 +66,7 @@ def exercise(
     seed: int = 1,
     most: int = 3,
     start: str,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
 ) -> Exercise:
     """An exercise of a block: its numbers are drawn around those that it has, and a coordinate is asked for.
 

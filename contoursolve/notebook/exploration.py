@@ -15,7 +15,7 @@ from contoursolve.diagnosis import (
     Answer,
     Edit,
     EditKind,
-    Listed,
+    Solution,
     apply_edits,
     join,
     list_solutions,
@@ -28,7 +28,7 @@ from contoursolve.geometry import Pick, Unit
 from contoursolve.notebook.block_place import BlockPlace
 from contoursolve.output import stated_words
 from contoursolve.program import Changes, Result, UnknownControlError, changed, changes_of
-from contoursolve.reading import Dialect, Lexicon
+from contoursolve.reading import Control, Lexicon
 from contoursolve.solving import Status
 from contoursolve.tool_radius import SideName, Tool, ToolReport, make_tool, radius_in, read_tool, tool_in
 
@@ -124,7 +124,7 @@ def begin(
         place = BlockPlace(lines[0] - 1, len(result.program.blocks) - lines[-1])
     # A reader may take out the word by which the control is recognised.
     is_recognised = options.get("control") is None
-    kept = {**options, "control": options["control"] if isinstance(options.get("control"), Dialect) else result.control}
+    kept = {**options, "control": options["control"] if isinstance(options.get("control"), Control) else result.control}
     now = Exploration(text, kept, result, (text, place), place, {}, is_recognised, side, report, examine)
     _check_single(now)
     if tool is not None:
@@ -396,7 +396,7 @@ def _picking(answer: Answer, picks: Sequence[Pick]) -> Iterator[Edit]:
         yield Edit(EditKind.ADD, word, text="\n" + claim.lexicon.spell(word, str(wanted[element])), line=line)
 
 
-def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iterator[Sequence[Edit]]:
+def _selecting(exploration: Exploration, answer: Answer, wanted: Solution) -> Iterator[Sequence[Edit]]:
     """The edits that write what selects a solution, for every block in which that can be written."""
     ways = []
     for text in wanted.selects:
@@ -479,7 +479,7 @@ def _signed(text: str, address: str, like: str, lexicon: Lexicon) -> str:
     return lexicon.spell(address, f"+{number}") if "+" in like and number[:1] not in ("-", "+") else text
 
 
-def _without_echoes(exploration: Exploration, wanted: Listed) -> Exploration:
+def _without_echoes(exploration: Exploration, wanted: Solution) -> Exploration:
     """The contour without the facts that only say what its words say: those by which a word was asked for, now that its
     value is written. It moves no farther than values that are filled in may move it."""
     blocks = [block for block in exploration.result.program.blocks if exploration.has(block.line)]
@@ -493,7 +493,7 @@ def _without_echoes(exploration: Exploration, wanted: Listed) -> Exploration:
     return exploration
 
 
-def _is_chosen(exploration: Exploration, wanted: Listed, within: float) -> bool:
+def _is_chosen(exploration: Exploration, wanted: Solution, within: float) -> bool:
     """Whether the contour is now the one that was wanted, to a distance in mm."""
     contour = exploration.answer.contour if exploration.answer else None
     if contour is None or wanted.contour is None or contour.points.keys() != wanted.contour.points.keys():

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 
 from contoursolve.controls import ControlName
 from contoursolve.diagnostics import LateModule, check_type, importing
-from contoursolve.families import Family, Region, with_numbers
+from contoursolve.families import Family, FeasibleRegion, with_numbers
 from contoursolve.notebook.exploration import begin, rewrite_block
 from contoursolve.program import Rules, Units
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.tool_radius import SideName
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     *,
     line: int | None = None,
     start: str | None = None,
-    control: ControlName | Dialect | None = None,
+    control: ControlName | Control | None = None,
     units: Units = "mm",
     rules: Rules = "enforce",
     facts: Iterable[str] = (),
@@ -61,7 +61,7 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     return Explorer(begin(block, facts, line, tool, side, **options))
 
 
-def explore_map(found: Family | Region, result: str | None = None) -> "map_explorer.MapExplorer":
+def explore_map(found: Family | FeasibleRegion, result: str | None = None) -> "map_explorer.MapExplorer":
     """The map of a family over two words, or of a region, in a notebook: point at it, or press arrow keys, and the
     contour of these values is drawn beside it. A click opens the contour below, as `explore` does.
 

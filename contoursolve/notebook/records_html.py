@@ -9,7 +9,15 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
-from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
+from contoursolve.families import (
+    Family,
+    FeasibleRange,
+    FeasibleRegion,
+    FoundValues,
+    Sensitivity,
+    ToleranceRange,
+    Tolerances,
+)
 from contoursolve.gcode import Block
 from contoursolve.notebook.exercises import Exercise
 from contoursolve.notebook.records import (
@@ -59,7 +67,7 @@ from contoursolve.output import (
 )
 from contoursolve.program import Result
 from contoursolve.reading import Rule
-from contoursolve.solving import Contour, Drawings, Drawn, Sketch
+from contoursolve.solving import Contour, Drawing, Drawings, Sketch
 
 MOST_ITEMS = 20
 """Contours and findings that one output shows."""
@@ -166,7 +174,7 @@ def _family(family: Family) -> Iterator[h.Node]:
     yield from (h.p[short(note)] for note in (*filter(None, [family.remark]), *rest_lines(family)))
 
 
-def _range(found: Feasible) -> Iterator[h.Node]:
+def _range(found: FeasibleRange) -> Iterator[h.Node]:
     yield figure(found)
     yield h.p[short(range_title(found))]
     if found.intervals:
@@ -174,7 +182,7 @@ def _range(found: Feasible) -> Iterator[h.Node]:
     yield from (h.p[short(note)] for note in range_notes(found))
 
 
-def _region(found: Region) -> Iterator[h.Node]:
+def _region(found: FeasibleRegion) -> Iterator[h.Node]:
     yield figure(found)
     yield h.p[short(region_title(found))]
     if found.boundaries:
@@ -182,7 +190,7 @@ def _region(found: Region) -> Iterator[h.Node]:
     yield from (h.p[short(note)] for note in region_notes(found))
 
 
-def _found(found: Found) -> Iterator[h.Node]:
+def _found(found: FoundValues) -> Iterator[h.Node]:
     yield h.p[short(found_title(found))]
     if found.remark:
         yield h.p[short(f"{found.remark}.")]
@@ -197,13 +205,13 @@ def _tolerances(found: Tolerances) -> Iterator[h.Node]:
     yield from (h.p[short(f"{line}.")] for line in spread_lines(found))
 
 
-def _word_tolerance(found: WordTolerance) -> Iterator[h.Node]:
+def _word_tolerance(found: ToleranceRange) -> Iterator[h.Node]:
     yield h.p[short(word_tolerance_title(found))]
     yield table_of(word_tolerance_table(found))
     yield from (h.p[short(f"{note}.")] for note in word_tolerance_notes(found))
 
 
-def _sketch(record: Sketch | Drawings | Drawn) -> Iterator[h.Node]:
+def _sketch(record: Sketch | Drawings | Drawing) -> Iterator[h.Node]:
     yield figure(record)
     yield from _text(record)
 
@@ -232,7 +240,7 @@ def _exercise(made: Exercise) -> Iterator[h.Node]:
     yield h.ul[(h.li[f"{letter}: {choice.value:.3f}"] for letter, choice in made.letters)]
     wrong = [(letter, f"{choice.value:.3f}", choice.why) for letter, choice in made.letters if choice.why]
     told = table("Why the others come out", ("answer", "value", "because"), wrong, numbers=(1,))
-    yield h.details[h.summary["Solution"], h.p[f"{made.right} is right."], _derivation(made.solution), told]
+    yield h.details[h.summary["SystemSolution"], h.p[f"{made.right} is right."], _derivation(made.solution), told]
 
 
 _PARTS: dict[type, Callable[[Any], h.Node]] = {
@@ -244,15 +252,15 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Block: _block,
     Rule: _rule,
     Family: _family,
-    Feasible: _range,
-    Region: _region,
-    Found: _found,
+    FeasibleRange: _range,
+    FeasibleRegion: _region,
+    FoundValues: _found,
     Tolerances: _tolerances,
-    WordTolerance: _word_tolerance,
+    ToleranceRange: _word_tolerance,
     Sensitivity: _sensitivity,
     Sketch: _sketch,
     Drawings: _sketch,
-    Drawn: _sketch,
+    Drawing: _sketch,
     EquationSystem: _system,
     Derivation: _derivation,
     Exercise: _exercise,

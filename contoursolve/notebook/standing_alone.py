@@ -10,7 +10,7 @@ from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import checked
 from contoursolve.output import start_text
 from contoursolve.program import Rules, Units, configure, find_dialect
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _ABSOLUTE, _ON_THE_PATH = 90, 40
 
@@ -24,7 +24,7 @@ _ROUNDED = 0.005
 def standing_alone(
     answer: Answer,
     *,
-    control: ControlName | Dialect,
+    control: ControlName | Control,
     units: Units = "mm",
     rules: Rules = "enforce",
     settings: Mapping[str, str] | None = None,
@@ -48,7 +48,7 @@ def standing_alone(
     """
     if not answer.start.is_known or answer.start.is_relative:
         return ""
-    dialect = control if isinstance(control, Dialect) else configure(find_dialect(control), settings)
+    dialect = control if isinstance(control, Control) else configure(find_dialect(control), settings)
     state, codes = answer.claim.before, dialect.modes.codes
     selected = [code.text for code in codes.values() if code.plane is not None and code.plane.code == state.plane.code]
     is_switched = _ABSOLUTE in codes and codes[_ABSOLUTE].effect.value == "absolute"

@@ -9,8 +9,8 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import (
     Answer,
     AskedValue,
-    Listed,
-    Listing,
+    Solution,
+    Solutions,
     axis_labels,
     called_in_program,
     certificate_text,
@@ -159,7 +159,7 @@ def _solution_lines(answer: Answer) -> list[str]:
     return lines
 
 
-def count_text(listing: Listing) -> str:
+def count_text(listing: Solutions) -> str:
     """The count of solutions as text, and whether the list is complete."""
     number, shown = len(listing.solutions), f"by {listing.method}"
     told = "this is the only one" if number == 1 else "these are all"
@@ -167,7 +167,7 @@ def count_text(listing: Listing) -> str:
     return f"{'' if listing.is_complete else 'at least '}{count(number, 'solution')}; {known}"
 
 
-def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[str, str, str, str, str]]]:
+def solution_rows(answer: Answer, listing: Solutions) -> list[tuple[Solution, tuple[str, str, str, str, str]]]:
     """Each solution with its name, whether it is no contour, where it differs from the others or why there is none,
     what selects it, and its certificate if it is not the usual one."""
     contours, called = [each.contour for each in listing.solutions if each.contour], called_in_program(answer.profile)

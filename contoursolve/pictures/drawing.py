@@ -21,8 +21,8 @@ from contoursolve.program import Result
 
 if TYPE_CHECKING:
     from contoursolve.comparison import Comparison
-    from contoursolve.families import CompiledSweep, Family, Feasible, Region
-    from contoursolve.solving import Drawings, Drawn, Sketch
+    from contoursolve.families import CompiledSweep, Family, FeasibleRange, FeasibleRegion
+    from contoursolve.solving import Drawing, Drawings, Sketch
 
 Drawable: TypeAlias = "Answer | EquationSystem | Result | Family | Feasible | Region | Sketch | Drawings | Drawn"
 """Types that `draw` accepts."""
@@ -37,18 +37,18 @@ def draw(
 
     Raises ValueError for a family that is no grid of two words, and for a sketch whose facts make no sense.
     """
-    from contoursolve.families import Family, Feasible, Region  # noqa: PLC0415 - not needed for one contour
-    from contoursolve.solving import Drawings, Drawn, Sketch  # noqa: PLC0415 - as above
+    from contoursolve.families import Family, FeasibleRange, FeasibleRegion  # noqa: PLC0415 - not needed for one contour
+    from contoursolve.solving import Drawing, Drawings, Sketch  # noqa: PLC0415 - as above
 
     if isinstance(record, Result):
         return draw_result(record, theme=theme, is_whole=is_whole, beside=beside)
     if isinstance(record, Family):
         return draw_family_map(record, theme=theme)
-    if isinstance(record, Feasible):
+    if isinstance(record, FeasibleRange):
         return draw_range(record, theme=theme)
-    if isinstance(record, Sketch | Drawings | Drawn):
+    if isinstance(record, Sketch | Drawings | Drawing):
         return draw_drawings(record.solve() if isinstance(record, Sketch) else record, theme=theme)
-    if isinstance(record, Region):
+    if isinstance(record, FeasibleRegion):
         return draw_region(record, theme=theme)
     if isinstance(record, EquationSystem):
         return draw_matrix(record, theme=theme)
@@ -174,7 +174,7 @@ def draw_family_map(
     return finish(lay_out_map(family, words, title, result=result), theme)
 
 
-def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_range(found: FeasibleRange, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of a word with which a block has a contour: a bar with what ends each range."""
     from contoursolve.pictures.value_axes import lay_out_range  # noqa: PLC0415 - as above
 
@@ -182,7 +182,7 @@ def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None
 
 
 def draw_region(
-    region: Region, *, result: str | None = None, theme: Theme = Theme.LIGHT, title: str | None = None
+    region: FeasibleRegion, *, result: str | None = None, theme: Theme = Theme.LIGHT, title: str | None = None
 ) -> Picture:
     """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
     what fails beyond it, and a field for each status, as they were sampled; with a `result`, as `draw_family_map`."""
@@ -199,13 +199,13 @@ def draw_matrix(system: EquationSystem, *, theme: Theme = Theme.LIGHT, title: st
     return finish(lay_out_matrix(system, title), theme, describe_matrix(system))
 
 
-def draw_drawings(drawings: Drawings | Drawn, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_drawings(drawings: Drawings | Drawing, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of every way to draw a sketch, or of one: what is given, the facts as dimensions, and each drawing by
     its number, with what tells it from the others below."""
     from contoursolve.pictures.sketches import compose_drawings, compose_drawn  # noqa: PLC0415 - as above
-    from contoursolve.solving import Drawn  # noqa: PLC0415 - as above
+    from contoursolve.solving import Drawing  # noqa: PLC0415 - as above
 
-    scene = compose_drawn(drawings, title) if isinstance(drawings, Drawn) else compose_drawings(drawings, title)
+    scene = compose_drawn(drawings, title) if isinstance(drawings, Drawing) else compose_drawings(drawings, title)
     return finish(lay_out(scene), theme, str(drawings))
 
 

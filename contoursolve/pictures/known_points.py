@@ -26,7 +26,7 @@ from contoursolve.solving import (
     CornerSolution,
     Point,
     Refusal,
-    Solution,
+    SystemSolution,
     affine_facts,
     analyse,
     basis_of,
@@ -55,7 +55,7 @@ class Known(Struct, frozen=True):
     corners: Mapping[str, CornerSolution] = field(default_factory=dict)
     refusals: tuple[Refusal, ...] = ()
     placed: frozenset[str] = frozenset()
-    others: tuple[Solution, ...] = ()
+    others: tuple[SystemSolution, ...] = ()
     ways: Mapping[str, Point | None] = field(default_factory=dict)
     """The directions in which points can still slide; None for one that lies anywhere."""
     scalars: Mapping[str, float] = field(default_factory=dict)
@@ -98,7 +98,7 @@ def _is_at(one: CornerSolution, other: CornerSolution) -> bool:
     return max(distance(one.begin, other.begin), distance(one.end, other.end)) <= SAME
 
 
-def known_of(solution: Solution) -> Known:
+def known_of(solution: SystemSolution) -> Known:
     """All that a solution says."""
     corners = {name: each for name, each in solution.corners.items() if each.begin != each.end}
     return Known(solution.points, solution.radii, corners)
@@ -224,7 +224,7 @@ def complete(profile: Profile) -> Known:
             break
     else:
         return in_part(profile)
-    others = list[Solution]()
+    others = list[SystemSolution]()
     for each in (each for each in drawing.beside() if drawing.goes_back or not each.goes_back):
         other = drawn_at(profile, each.scalars)
         if not other.refusals:

@@ -26,7 +26,7 @@ from contoursolve.postprocess.wordings import (
     said,
 )
 from contoursolve.program import for_kind
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.solving import Point
 
 MOST_CANDIDATES = 8
@@ -85,7 +85,7 @@ class WrittenContour(Struct, frozen=True):
         return tuple(word for block in self.blocks for word in block.words if word.ground is ground)
 
 
-class Written(Struct, frozen=True):
+class WrittenContours(Struct, frozen=True):
     """A contour in the words of a control.
 
     Attributes:
@@ -101,7 +101,7 @@ class Written(Struct, frozen=True):
     reason: str = ""
 
 
-def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATES) -> Written:
+def write_contour(answer: Answer, target: Control, *, most: int = MOST_CANDIDATES) -> WrittenContours:
     """The wordings of a solved contour for a control. Raises ConversionError if it has no path, or one of no length."""
     drawn = draw(answer)
     if not drawn.elements:
@@ -111,10 +111,10 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
     if machine_of(target) is not kind:
         made = {MachineKind.LATHE: "turned", MachineKind.MILL: "milled"}[kind]
         reason = f"the contour is {made}, and this control is for {machine_of(target).value}s"
-        return Written(target.name, target.title, (), reason)
+        return WrittenContours(target.name, target.title, (), reason)
     if not says_unit(target, drawn.unit):
         reason = "the contour is in inch, and no word of this control says so: write it in mm"
-        return Written(target.name, target.title, (), reason)
+        return WrittenContours(target.name, target.title, (), reason)
     rounded, found = with_roundings(drawn), list[WrittenContour]()
     search = _Search([drawn] if rounded == drawn else [drawn, rounded], target, answer)
     share = min(1.0, _SHORT / len(drawn.elements))
@@ -126,7 +126,7 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
         plain = _Search([drawn], target, answer, is_plain=True).first()
         found += [plain.written] if plain else []
     found.sort(key=lambda each: (each.cost, each.lines))
-    return Written(target.name, target.title, tuple(found), _reason(found, search))
+    return WrittenContours(target.name, target.title, tuple(found), _reason(found, search))
 
 
 def _reason(found: Sequence[WrittenContour], search: "_Search") -> str:
@@ -153,7 +153,7 @@ Moves = Mapping[str, tuple[MotionBlock, ...]]
 """The moves for each element of a contour, by its name."""
 
 
-def translate(answer: Answer, target: Dialect, here: Point, form: Format, *, is_rapid: bool) -> Moves | None:
+def translate(answer: Answer, target: Control, here: Point, form: Format, *, is_rapid: bool) -> Moves | None:
     """The moves of a solved contour in the words of a target that writes lines and arcs in a row, in a program where
     the tool is really `here`; None if the target refuses it, has no words for any of it, or it has no length."""
     if language_of(target) is None or answer.contour is None:
@@ -205,7 +205,7 @@ class _Search:
     def __init__(
         self,
         drawings: Sequence[ContourDrawing],
-        target: Dialect,
+        target: Control,
         answer: Answer,
         around: HostProgram | None = None,
         *,

@@ -16,7 +16,7 @@ from contoursolve.tolerance import AGREEMENT
 Changes = Mapping[int, str | None]
 """Texts by the lines in whose place they go, with a line feed between several; None drops a line."""
 
-Found = tuple[Diagnostic, tuple[int, ...]]
+FoundValues = tuple[Diagnostic, tuple[int, ...]]
 """A finding, and the lines that its fixes replace."""
 
 
@@ -82,7 +82,7 @@ class Examined(Struct, frozen=True):
     not solved."""
 
     text: str
-    found: tuple[Found, ...]
+    found: tuple[FoundValues, ...]
     contours: Mapping[int, Contour | None]
 
     def mends(self, wanted: "Wanted") -> Iterator[list[Mend]]:
@@ -136,7 +136,7 @@ def likely_fixes(finding: Diagnostic) -> list[Fix]:
     return [*first, *(fix for fix in safe_fixes(finding) if fix not in first)]
 
 
-class Mended(Struct, frozen=True):
+class FixedProgram(Struct, frozen=True):
     """A program with its fixes applied.
 
     Attributes:
@@ -163,7 +163,7 @@ def mend(
     examine: Callable[[str], Examined],
     wanted: Wanted = safe_fixes,
     agrees: Callable[[Mend], bool] = lambda _: True,
-) -> Mended:
+) -> FixedProgram:
     """Apply all wanted fixes to a program, and then those that are wanted of the program that this makes, until none is
     left. One that changes the contour is applied only if `agrees` says so.
 
@@ -190,7 +190,7 @@ def mend(
         applied += batch
         left = {(_moved(line, changes), code, new): each for (line, code, new), each in left.items()}
         now = after
-    return Mended(now.text, tuple(applied), tuple(left.values()), now)
+    return FixedProgram(now.text, tuple(applied), tuple(left.values()), now)
 
 
 _AT_ONCE = 1 << 16
@@ -198,7 +198,7 @@ _AT_ONCE = 1 << 16
 
 
 @checked
-def mend_open(program: OpenProgram, wanted: Wanted = safe_fixes) -> Mended:
+def mend_open(program: OpenProgram, wanted: Wanted = safe_fixes) -> FixedProgram:
     """The same of a program that is open in an editor, which stays as it is."""
     copy = program.copy()
 

@@ -41,7 +41,7 @@ from .dialect import (
     SEMICOLON_COMMENT as SEMICOLON_COMMENT,
     Y_AXIS as Y_AXIS,
     Behind as Behind,
-    Dialect as Dialect,
+    Control as Control,
     Taken as Taken,
 )
 from .doubtful_words import doubtful_words as doubtful_words

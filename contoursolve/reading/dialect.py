@@ -55,7 +55,7 @@ Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, NAMED_FILE = "Y", "polar words", "commen
 
 
 @dataclass(frozen=True, slots=True)
-class Dialect:
+class Control:
     """One control, as tables. It need not be built in: every function takes one as `control`.
 
     A relative of a control has a name of its own and the tables in which it differs:
@@ -132,7 +132,7 @@ class Dialect:
         """The things that it is taken to accept, in any of its forms."""
         return tuple(dict.fromkeys(each for form in self.forms for each in form.assumptions))
 
-    def configure(self, values: Mapping[str, str]) -> "Dialect":
+    def configure(self, values: Mapping[str, str]) -> "Control":
         """The control with other values of its settings.
 
         Raises ValueError, naming what there is, if there is no such setting or no such value.

@@ -15,7 +15,7 @@ from contoursolve.geometry import Arc, Unit, assemble
 from contoursolve.program import Run, SolveOptions
 from contoursolve.sketches.as_program import Field, SketchProgram, as_program
 from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchElement, Value
-from contoursolve.solving import Drawing, Point, Status, analyse
+from contoursolve.solving import NaturalDrawing, Point, Status, analyse
 
 
 class SketchEntry(Struct, frozen=True):
@@ -65,7 +65,7 @@ def asked_values(program: SketchProgram, answer: Answer) -> dict[Field, Decimal 
     return found
 
 
-def sketch_exactly(answer: Answer, sketch: ContourSketch, loose: Drawing) -> ContourSketch:
+def sketch_exactly(answer: Answer, sketch: ContourSketch, loose: NaturalDrawing) -> ContourSketch:
     """A sketch with each end, and each centre, where it is in a loose drawing, and nothing else but its corners."""
     elements = list[SketchElement]()
     for given, element in zip(sketch.elements, answer.profile.figure.path, strict=False):
@@ -82,7 +82,7 @@ _EXACT = 10
 """Decimals of a number that stands for one of a drawing."""
 
 
-def missing_fields(answer: Answer, loose: Drawing | None) -> tuple[int, Sequence[Field]]:
+def missing_fields(answer: Answer, loose: NaturalDrawing | None) -> tuple[int, Sequence[Field]]:
     """The number of entries that are missing, and the fields that help."""
     claim, profile = answer.claim, answer.profile
     system = assemble(profile)
@@ -134,7 +134,7 @@ def _entry(sketch: ContourSketch, number: int, field: str, numbers: Sequence[Ope
 
 
 def with_examples(
-    sketch: ContourSketch, answer: Answer, loose: Drawing, entries: Iterable[SketchEntry]
+    sketch: ContourSketch, answer: Answer, loose: NaturalDrawing, entries: Iterable[SketchEntry]
 ) -> tuple[SketchEntry, ...]:
     """The same with a number near the loose drawing for each field that has none yet, where it makes a contour."""
     whole = sketch_exactly(answer, sketch, loose)

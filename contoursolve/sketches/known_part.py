@@ -39,7 +39,7 @@ from contoursolve.sketches.terms import on_drawing
 from contoursolve.solving import (
     ArcSegment,
     Contour,
-    Drawing,
+    NaturalDrawing,
     Point,
     RefusalKind,
     Segment,
@@ -226,7 +226,7 @@ class _Reading:
         # What a guess may be about: ends, then centres.
         self.points = {(number, ""): head for number, head in self.heads.items()}
         self.points |= {(number, "CC"): each.center for number, each in enumerate(path, 1) if isinstance(each, Arc)}
-        self.loose: Drawing | None = None
+        self.loose: NaturalDrawing | None = None
         self.gap: SketchFinding | None = None
 
     def result(self, *, with_ranges: bool) -> SketchAnswer:
@@ -309,7 +309,7 @@ class _Reading:
                 if isinstance(finding.about, RefusalKind):
                     yield f"corner {number}" if name == "corner" else self.sketch.name_of(number), _amount(finding)
 
-    def _loosely(self) -> Drawing | None:
+    def _loosely(self) -> NaturalDrawing | None:
         spans = {label.span for finding in self.errors for label in finding.labels} if self.blamed else set()
         givens = self.answer.profile.givens.items()
         doubted = [name for name, given in givens if given.word is not None and given.word.span in spans]
@@ -343,11 +343,11 @@ class _Reading:
             ways = self._ways(part, number, loose) if loose and state is PartState.SLIDING else ()
             yield SketchPart(part, number, state, segment if is_placed else None, off, ways)
 
-    def _ways(self, part: str, number: int, loose: Drawing) -> tuple[tuple[Point, ...], ...]:
+    def _ways(self, part: str, number: int, loose: NaturalDrawing) -> tuple[tuple[Point, ...], ...]:
         way = loose.ways.get(self.heads.get(number, ""))
         return (way,) if way and not part.startswith("corner") else ()
 
-    def _state(self, part: str, number: int, loose: Drawing, drawn: Mapping[str, Segment]) -> PartState:
+    def _state(self, part: str, number: int, loose: NaturalDrawing, drawn: Mapping[str, Segment]) -> PartState:
         """The state of an element, or of the corner after it, of a sketch that has no contour."""
         path = self.answer.profile.figure.path
         is_corner = part.startswith("corner")
@@ -362,7 +362,7 @@ class _Reading:
         freedom = freedom or (0 if self.sure.issuperset(ends) else 2)
         return (PartState.KNOWN, PartState.SLIDING, PartState.UNKNOWN)[min(freedom, 2)]
 
-    def _completed(self, loose: Drawing, drawn: Mapping[str, Segment]) -> dict[str, Segment]:
+    def _completed(self, loose: NaturalDrawing, drawn: Mapping[str, Segment]) -> dict[str, Segment]:
         """The lines and arcs of a loose drawing, with its corners where they fit."""
         trails = list_trails(self.answer, Known(loose.points, loose.radii))
         plain = {each.name: each for trail in trails for each in trail.segments}
@@ -478,7 +478,7 @@ class _Reading:
         return f"{change} -> {moved}" if moved else change
 
 
-def _off_of(number: int, loose: Drawing) -> float | None:
+def _off_of(number: int, loose: NaturalDrawing) -> float | None:
     """The largest amount, mm, by which a fact of an element is off; None where all are true."""
     most = max((off for given, off in loose.off_mm.items() if given.startswith(f"{number}:")), default=0.0)
     return most if most > NOTHING else None

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS
 from contoursolve.diagnostics import UserError, hash_of
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 VERSION = 1
 """The version of a sketch's file."""
@@ -86,7 +86,7 @@ class ContourSketch(Struct, frozen=True):
     __hash__ = hash_of
 
     @property
-    def control(self) -> Dialect:
+    def control(self) -> Control:
         """The tables by which it is read."""
         return DRAWINGS[self.part]
 

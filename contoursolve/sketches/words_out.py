@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 
-from contoursolve.controls import DIALECTS, ControlName
+from contoursolve.controls import CONTROLS, ControlName
 from contoursolve.diagnosis import Answer, status_text
 from contoursolve.diagnostics import UserError, check_type, checked
-from contoursolve.postprocess import Written, write_contour
+from contoursolve.postprocess import WrittenContours, write_contour
 from contoursolve.program import Result, configure, find_dialect
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.sketches.known_part import solve_sketch
 from contoursolve.sketches.sketch import ContourSketch
 
@@ -18,10 +18,10 @@ class UnfinishedError(UserError, ValueError):
 
 def write(
     contour: Answer | Result | ContourSketch,
-    control: ControlName | Dialect,
+    control: ControlName | Control,
     *,
     settings: Mapping[str, str] | None = None,
-) -> Written:
+) -> WrittenContours:
     """A contour in the words of a control: those first that have the drawing's own numbers, and are few.
 
     Args:
@@ -42,17 +42,17 @@ def write(
     ('G01 Z-30. ,R5.', 'X100. ,A120.')
     """
     check_type("contour", contour, Answer | Result | ContourSketch)
-    target = control if isinstance(control, Dialect) else configure(find_dialect(control), settings)
+    target = control if isinstance(control, Control) else configure(find_dialect(control), settings)
     return write_contour(_answer_of(contour), target)
 
 
 @checked
 def write_for_all(
     contour: Answer | Result | ContourSketch, *, settings: Mapping[str, str] | None = None
-) -> tuple[Written, ...]:
+) -> tuple[WrittenContours, ...]:
     """The same for every control: the first candidate of each, or the reason why there is none."""
     answer = _answer_of(contour)
-    return tuple(write_contour(answer, configure(DIALECTS[name], settings), most=1) for name in DIALECTS)
+    return tuple(write_contour(answer, configure(CONTROLS[name], settings), most=1) for name in CONTROLS)
 
 
 def _answer_of(contour: Answer | Result | ContourSketch) -> Answer:

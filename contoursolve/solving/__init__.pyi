@@ -107,8 +107,8 @@ from .determinacy import (
     survey as survey,
 )
 from .drawn import (
+    Drawing as Drawing,
     Drawings as Drawings,
-    Drawn as Drawn,
     Stated as Stated,
 )
 from .enumerate import (
@@ -151,7 +151,7 @@ from .inputs import (
     symbolic_values as symbolic_values,
 )
 from .motions import (
-    Drawing as Drawing,
+    NaturalDrawing as NaturalDrawing,
     NullMotion as NullMotion,
     drawings as drawings,
     open_at_values as open_at_values,
@@ -205,7 +205,7 @@ from .solution import (
     Point as Point,
     Proof as Proof,
     Refusal as Refusal,
-    Solution as Solution,
+    SystemSolution as SystemSolution,
     up_to_one_digit as up_to_one_digit,
 )
 from .solve import (

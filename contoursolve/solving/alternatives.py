@@ -46,7 +46,7 @@ from contoursolve.solving.solution import (
     Point,
     Proof,
     Refusal,
-    Solution,
+    SystemSolution,
 )
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
@@ -201,15 +201,15 @@ class _Path(Struct, frozen=True):
 
         return MeasuredPath(profile, figure, self.sizes, resized)
 
-    def solution(self, scalars: Mapping[str, float], refusals: list[Refusal], remarks: list[Note]) -> Solution:
+    def solution(self, scalars: Mapping[str, float], refusals: list[Refusal], remarks: list[Note]) -> SystemSolution:
         """The contour, or what speaks against it."""
         figure, starts = self.system.figure, [float(value or 0) for value in self.profile.start.values]
         status = _status(refusals, remarks)
         if refusals:
-            return Solution(status, refusals=tuple(refusals), remarks=tuple(remarks))
+            return SystemSolution(status, refusals=tuple(refusals), remarks=tuple(remarks))
         points = {name: (scalars[scalar(name, FIRST)], scalars[scalar(name, SECOND)]) for name in figure.points}
         points[figure.start] = starts[FIRST], starts[SECOND]
-        return Solution(
+        return SystemSolution(
             status,
             points=points,
             radii={name: scalars[name] for name in figure.radii},
@@ -219,7 +219,7 @@ class _Path(Struct, frozen=True):
         )
 
 
-def drawn_at(profile: Profile, scalars: Mapping[str, float]) -> Solution:
+def drawn_at(profile: Profile, scalars: Mapping[str, float]) -> SystemSolution:
     """The path at a place of all unknowns (mm) at which facts hold, with its corners, or what speaks against it."""
     path = _Path.at(profile, assemble(profile), {name: ball.exact(value) for name, value in scalars.items()})
     return path.solution(scalars, judge_range(path.measured) or judge_path(path.measured), [])
@@ -390,7 +390,7 @@ def _place(item: Alternative, same: list[Alternative], profile: Profile) -> str:
     return ""
 
 
-def decide(alternatives: Alternatives, profile: Profile) -> Solution:
+def decide(alternatives: Alternatives, profile: Profile) -> SystemSolution:
     """The contour of a profile, of whose equations these are the solutions.
 
     Several contours, between which nothing chooses, are ambiguous.
@@ -402,11 +402,11 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
         paths, events = pick(paths, profile)
     refusals = tuple(event for event in events if isinstance(event, Refusal))
     if refusals:
-        return Solution(Status.NO_SOLUTION, refusals=refusals)
+        return SystemSolution(Status.NO_SOLUTION, refusals=refusals)
     notes = tuple(event for event in events if isinstance(event, Note))
     count = {"actual": float(len(paths))}
     if len(paths) > 1:
-        return Solution(Status.AMBIGUOUS, remarks=(*notes, Note(NoteKind.SEVERAL, "", (), count)))
+        return SystemSolution(Status.AMBIGUOUS, remarks=(*notes, Note(NoteKind.SEVERAL, "", (), count)))
     if paths:
         solution = _without_selecting(paths[0].solution, alternatives)
         solution = replace(solution, remarks=(*solution.remarks, *notes))
@@ -416,7 +416,7 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
         is_open = any(doubt.obstacle is not Obstacle.TOUCHING for doubt in alternatives.doubts)
         if len(alternatives.paths) == 1 and (is_open or not paths[0].certificate.is_double):
             kind = RefusalKind.COUNT_OPEN
-            return Solution(kind.status, refusals=(Refusal(kind, "", (), count),), remarks=solution.remarks)
+            return SystemSolution(kind.status, refusals=(Refusal(kind, "", (), count),), remarks=solution.remarks)
         return replace(solution, remarks=(*solution.remarks, Note(NoteKind.COUNT_OPEN, "", (), count)))
     return _refused(eligible, alternatives)
 
@@ -424,7 +424,7 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
 _AGAINST_OTHERS = refusals_about(Topic.WORD, Topic.FACT)
 
 
-def _without_selecting(solution: Solution, alternatives: Alternatives) -> Solution:
+def _without_selecting(solution: SystemSolution, alternatives: Alternatives) -> SystemSolution:
     """A solution without the remark that a word was not needed, where the word tells it from another solution."""
     selecting = {
         refusal.subject
@@ -441,7 +441,7 @@ def _without_selecting(solution: Solution, alternatives: Alternatives) -> Soluti
     return replace(solution, status=Status.OVERDETERMINED if agrees else Status.SOLVED, remarks=remarks)
 
 
-def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solution:
+def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> SystemSolution:
     """The reasons why there is no contour: the refusals of the first of the solutions, or that there is none. Where a
     search was given up, there may be others."""
     given_up = (Obstacle.UNFINISHED, Obstacle.FARTHER)
@@ -449,4 +449,4 @@ def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solu
     if items and not is_open:
         return items[0].solution
     kind = RefusalKind.NO_POINT if alternatives.is_complete else RefusalKind.SEARCH_UNFINISHED
-    return Solution(kind.status, refusals=(Refusal(kind, ""),))
+    return SystemSolution(kind.status, refusals=(Refusal(kind, ""),))

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics import Shown, plot_on
 from contoursolve.geometry import Corner, Line, Plane, Profile, Turn
-from contoursolve.solving.solution import Point, Solution
+from contoursolve.solving.solution import Point, SystemSolution
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
 
@@ -269,7 +269,7 @@ def _row(element: Segment, plane: Plane) -> dict[str, str | float | None]:
     }
 
 
-def trace(profile: Profile, solution: Solution) -> Contour:
+def trace(profile: Profile, solution: SystemSolution) -> Contour:
     """The path of a solved profile. Elements of no length are left out.
 
     Raises ValueError if the solution has no values.
@@ -308,7 +308,7 @@ def trace(profile: Profile, solution: Solution) -> Contour:
     return Contour(start, here, shown, tuple(elements), profile.plane, points, profile.start.free)
 
 
-def dropped_corners(profile: Profile, solution: Solution) -> Iterator[tuple[Corner, float]]:
+def dropped_corners(profile: Profile, solution: SystemSolution) -> Iterator[tuple[Corner, float]]:
     """The corners that the control leaves out, each with the angle by which the path turns there, degrees."""
     for corner in profile.figure.corners:
         built = solution.corners.get(corner.name)

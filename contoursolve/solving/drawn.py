@@ -36,7 +36,7 @@ class Asked(Struct, frozen=True):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Drawn(Shown):
+class Drawing(Shown):
     """One way to draw a sketch.
 
     Attributes:
@@ -92,7 +92,7 @@ class Drawn(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Drawings(Shown, Sequence[Drawn]):
+class Drawings(Shown, Sequence[Drawing]):
     """All ways to draw a sketch.
 
     Attributes:
@@ -107,7 +107,7 @@ class Drawings(Shown, Sequence[Drawn]):
     """
 
     status: Status
-    drawings: tuple[Drawn, ...]
+    drawings: tuple[Drawing, ...]
     is_complete: bool
     doubts: tuple[str, ...]
     reach: float | None
@@ -119,15 +119,15 @@ class Drawings(Shown, Sequence[Drawn]):
         return len(self.drawings)
 
     @overload
-    def __getitem__(self, index: int) -> Drawn: ...
+    def __getitem__(self, index: int) -> Drawing: ...
 
     @overload
-    def __getitem__(self, index: slice) -> tuple[Drawn, ...]: ...
+    def __getitem__(self, index: slice) -> tuple[Drawing, ...]: ...
 
-    def __getitem__(self, index: int | slice) -> Drawn | tuple[Drawn, ...]:
+    def __getitem__(self, index: int | slice) -> Drawing | tuple[Drawing, ...]:
         return self.drawings[index]
 
-    def __iter__(self) -> Iterator[Drawn]:
+    def __iter__(self) -> Iterator[Drawing]:
         return iter(self.drawings)
 
     def __repr__(self) -> str:

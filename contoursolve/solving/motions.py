@@ -60,7 +60,7 @@ class NullMotion(Struct, frozen=True):
     radii: Mapping[str, float]
 
 
-class Drawing(Struct, frozen=True, eq=False, dict=True):
+class NaturalDrawing(Struct, frozen=True, eq=False, dict=True):
     """A place at which facts hold (those that are firm; by how much the doubted ones miss is `off_mm`)."""
 
     equations: Equations
@@ -231,7 +231,7 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
         step = [b - a for a, b in zip(self.points[point], replace(self, place=moved).points[point], strict=True)]
         return bool(abs(step[0] * first[1] - step[1] * first[0]) <= _STRAIGHT * hypot(*step) * hypot(*first) + 1e-14)
 
-    def follow(self, motion: Array, steps: int = STEPS, step: float = STEP) -> Iterator["Drawing"]:
+    def follow(self, motion: Array, steps: int = STEPS, step: float = STEP) -> Iterator["NaturalDrawing"]:
         """The drawings on one side of a way, as far as the drawing goes."""
         here, heads = self, [element.head for element in self.equations.system.figure.path]
         for _ in range(steps):
@@ -253,7 +253,7 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
     def ways(self) -> dict[str, tuple[Point, ...]]:
         """The ways of the ends of elements that slide, on both sides of where they are; of a straight one, its ends."""
         ways: dict[str, tuple[Point, ...]] = {}
-        followed: list[tuple[Array, list[Drawing]]] = []
+        followed: list[tuple[Array, list[NaturalDrawing]]] = []
         for name in (element.head for element in self.equations.system.figure.path):
             if self.freedom[name] != 1 or name in ways:
                 continue
@@ -268,7 +268,7 @@ class Drawing(Struct, frozen=True, eq=False, dict=True):
             ways[name] = tuple(_simplified([each.points[name] for each in known]))
         return ways
 
-    def beside(self) -> Iterator["Drawing"]:
+    def beside(self) -> Iterator["NaturalDrawing"]:
         """Further drawings, one motion after the other, to either side, near and far."""
         for steps in (3, 6):
             for motion in self.leading.values():
@@ -313,7 +313,7 @@ def _simplified(way: Sequence[Point]) -> Sequence[Point]:
 
 def drawings(
     profile: Profile, doubted: Iterable[str] = (), hints: Mapping[str, float] | None = None
-) -> Iterator[Drawing]:
+) -> Iterator[NaturalDrawing]:
     """Drawings of a contour, that nearest to a natural one first; facts by `doubted` givens hold as far as can be.
 
     Those in which more can move than in general come last: there lines lie in line, or a circle touches. So do those
@@ -321,7 +321,7 @@ def drawings(
     """
     system = assemble(profile)
     general = len(system.unknowns) - analyse(system).rank
-    further = list[tuple[int, Drawing]]()
+    further = list[tuple[int, NaturalDrawing]]()
     for drawing in _found(profile, frozenset(doubted), hints or {}):
         is_special = drawing.dimension > general and not drawing.doubted
         order = 2 * (not drawing.is_chosen) + drawing.goes_back
@@ -343,7 +343,7 @@ def open_at_values(profile: Profile, verdict: Determinacy) -> tuple[str, ...]:
     return tuple(name for name in verdict.free if name not in drawing.fixed)
 
 
-def _found(profile: Profile, unsure: frozenset[str], hints: Mapping[str, float]) -> Iterator[Drawing]:
+def _found(profile: Profile, unsure: frozenset[str], hints: Mapping[str, float]) -> Iterator[NaturalDrawing]:
     """The drawings that are found from natural places, then from random ones."""
     system = assemble(profile)
     firm = tuple(fact for fact in system.facts if not fact.given or fact.given not in unsure)
@@ -363,7 +363,7 @@ def _found(profile: Profile, unsure: frozenset[str], hints: Mapping[str, float])
         try:
             found = _place_near(equations, firm, others, place)
             if found is not None and equations.has_lengths(found):
-                yield Drawing(equations, firm, found, others)
+                yield NaturalDrawing(equations, firm, found, others)
         except (ArithmeticError, ValueError, numpy.linalg.LinAlgError):
             continue
 

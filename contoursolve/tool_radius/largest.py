@@ -12,7 +12,7 @@ from contoursolve.families import (
     TOOL,
     BlockOptions,
     End,
-    Feasible,
+    FeasibleRange,
     Interval,
     Reason,
     RefusedError,
@@ -64,7 +64,7 @@ class ToolTrials:
         self.told = ToolFindings(result, dialect, asked, wanted)
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
 
-    def radii(self, number: int, within: tuple[float, float] | None) -> Feasible:
+    def radii(self, number: int, within: tuple[float, float] | None) -> FeasibleRange:
         """The radii that fit a run. Raises FamilyError, ToolError."""
         own = self.runs[number]
         unit, scale = own.unit.value, float(own.unit.in_mm)
@@ -80,7 +80,7 @@ class ToolTrials:
         reason = None if found else self._end(number, every[-1], high, 1).reason
         refusal = "" if reason is None else reason.text
         held = "of tools that cut the contour"
-        return Feasible(*about, refusal, False, is_open, self.premises, held, tuple(self._warnings(number)))
+        return FeasibleRange(*about, refusal, False, is_open, self.premises, held, tuple(self._warnings(number)))
 
     def _end(self, number: int, fits: FittingRadii, bound: float, way: int) -> End:
         """The upper (`way` 1) or the lower end (-1) of radii that fit, within a bound of the search."""
@@ -123,13 +123,13 @@ class ToolTrials:
 
 def largest_tools(
     trials: ToolTrials, result: Result, within: tuple[float, float] | None
-) -> dict[tuple[int, ...], Feasible]:
+) -> dict[tuple[int, ...], FeasibleRange]:
     """The tools that cut each contour of a program, by its lines. Raises ToolError, FamilyError, RefusedError."""
     if errors_of(result) or any(each.contour is None for each in result.answers):
         raise RefusedError(result)
     if not trials.runs:
         raise nothing_cut(trials.path)
-    found = dict[tuple[int, ...], Feasible]()
+    found = dict[tuple[int, ...], FeasibleRange]()
     for number, own in enumerate(trials.runs):
         each = trials.radii(number, within)
         # A contour that runs several times may begin elsewhere each time.
@@ -137,7 +137,7 @@ def largest_tools(
     return found
 
 
-def least_of(found: Mapping[tuple[int, ...], Feasible]) -> Feasible:
+def least_of(found: Mapping[tuple[int, ...], FeasibleRange]) -> FeasibleRange:
     """The tools that cut all contours: those that cut the one with the smallest limit."""
     return min(found.values(), key=lambda each: each.largest * float(Length(each.unit).in_mm))
 
@@ -153,7 +153,7 @@ class ToolOptions(BlockOptions, total=False):
 @takes(ToolOptions)
 def find_tools(
     text: str, *, within: tuple[float, float] | None = None, **options: Unpack[ToolOptions]
-) -> Mapping[tuple[int, ...], Feasible]:
+) -> Mapping[tuple[int, ...], FeasibleRange]:
     """The radii of tools that cut each contour of a program, by its lines, and what ends them.
 
     Args:

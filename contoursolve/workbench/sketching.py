@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from contoursolve import sketches
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import plain
-from contoursolve.postprocess import NumberGround, Written, WrittenContour, WrittenWord, ending_of
+from contoursolve.postprocess import NumberGround, WrittenContour, WrittenContours, WrittenWord, ending_of
 from contoursolve.sketches import ContourSketch
 from contoursolve.workbench.fields import ActionError, Data, read_field
 
@@ -30,14 +30,14 @@ def words_of_sketch(action: Mapping[str, Any]) -> Data:
     sketch, control = _sketch(action), read_field(action, "control", str, "")
     if not control:
         return {"rows": [_row(each) for each in sketches.write_for_all(sketch)]}
-    if control not in DIALECTS:
+    if control not in CONTROLS:
         raise ActionError(f"{control!r} is no control here")
     written = sketches.write(sketch, control)
     candidates = [_candidate(each) for each in written.candidates]
-    return {**_row(written), "ending": ending_of(DIALECTS[control]), "candidates": candidates}
+    return {**_row(written), "ending": ending_of(CONTROLS[control]), "candidates": candidates}
 
 
-def _row(written: Written) -> Data:
+def _row(written: WrittenContours) -> Data:
     block = "\n".join(written.candidates[0].lines) if written.candidates else ""
     return {"control": written.control, "title": written.title, "reason": written.reason, "block": block}
 
