@@ -18,19 +18,12 @@ from .controls import (
     DIALECTS as DIALECTS,
 )
 from .diagnosis import (
-    Addition as Addition,
     Answer as Answer,
     Depth as Depth,
     EquationSystem as EquationSystem,
-    LegalBlock as LegalBlock,
-    Listing as Listing,
     Policy as Policy,
-    called_in_program as called_in_program,
-    legal_blocks as legal_blocks,
-    list_solutions as list_solutions,
-    status_text as status_text,
-    ways_to_complete as ways_to_complete,
-    words_to_add as words_to_add,
+    Solution as Solution,
+    Solutions as Solutions,
 )
 from .diagnostics import (
     Basis as Basis,
@@ -65,24 +58,13 @@ from .gcode import (
 from .notebook import (
     explore as explore,
     explore_map as explore_map,
-    standing_alone as standing_alone,
 )
 from .output import (
-    StatedWord as StatedWord,
     beside_of as beside_of,
-    construction_lines as construction_lines,
-    end_text as end_text,
-    equations_of as equations_of,
-    form_text as form_text,
     map_page as map_page,
-    path_of as path_of,
-    path_table as path_table,
     report_page as report_page,
     rule_page as rule_page,
-    start_text as start_text,
-    stated_words as stated_words,
     to_dxf as to_dxf,
-    tool_text as tool_text,
 )
 from .postprocess import (
     Conversion as Conversion,
@@ -121,10 +103,8 @@ from .sketches import (
     read_dxf as read_dxf,
     read_sketch as read_sketch,
     sketch_view as sketch_view,
-    solve_sketch as solve_sketch,
     write as write,
     write_for_all as write_for_all,
-    write_sketch as write_sketch,
 )
 from .solving import (
     ArcSegment as ArcSegment,
@@ -140,11 +120,6 @@ from .tool_radius import (
     ToolReport as ToolReport,
     family_of_tools as family_of_tools,
     find_tools as find_tools,
-)
-from .try_edits import (
-    Completion as Completion,
-    completions as completions,
-    what_if as what_if,
 )
 
 __version__: str

@@ -113,7 +113,7 @@ def solve(
     >>> solve("G111 X100. A180. B120.", start="X40. Z0.").answers[0].status.value
     'rejected'
     >>> asked = solve("G111 X100. A180. K-30. B120. P?", start="X40. Z0.", facts=["straight part of line 2 = 30."])
-    >>> f"{asked.answers[0].answers[0].value:.3f}"
+    >>> f"{asked.answer.asked[0].value:.3f}"
     '8.038'
     """
     return follow_options(_read(text, name), SolveOptions(**options)).collect()
@@ -140,10 +140,7 @@ def system(text: str, *, name: str = "<program>", **options: Unpack[SolveKeyword
     (-81.96152422706632, 50.0)
     """
     options.setdefault("depth", "verdict")
-    answers = follow_options(_read(text, name), SolveOptions(**options)).collect().answers
-    if len(answers) != 1:
-        raise ValueError(f"a system is that of one contour; the program has {len(answers)}")
-    return answers[0].system
+    return follow_options(_read(text, name), SolveOptions(**options)).collect().answer.system
 
 
 def _read(text: str, name: str) -> Program:

@@ -7,7 +7,7 @@ from msgspec import Struct
 from contoursolve.geometry import Profile, assemble
 from contoursolve.solving import (
     Alternatives,
-    Solution,
+    SystemSolution,
     choose,
     find_alternatives,
     is_closed,
@@ -21,7 +21,7 @@ from contoursolve.solving import (
 class Chosen(Struct, frozen=True):
     """The solution, the values of all unknowns (mm), and the sides on which it differs from others, by the point."""
 
-    solution: Solution
+    solution: SystemSolution
     scalars: Mapping[str, float]
     sides: Mapping[str, str]
 

@@ -42,8 +42,8 @@ from contoursolve.solving import (
     NoteKind,
     Refusal,
     RefusalKind,
-    Solution,
     Status,
+    SystemSolution,
     Topic,
     against_angles,
     compare,
@@ -253,7 +253,7 @@ def _pointed(value: Decimal) -> str:
     return f"{text.rstrip('0')}" if "." in text else f"{text}."
 
 
-def explain_ignored(context: Context, offence: Offence, profile: Profile, solution: Solution) -> Diagnostic:
+def explain_ignored(context: Context, offence: Offence, profile: Profile, solution: SystemSolution) -> Diagnostic:
     """A word that the control ignores: what it would have had to say, and how far off it is."""
     fact = next((fact for fact in profile.ignored if fact.given == offence.ignored), None)
     word = context.words[offence.ignored]
@@ -720,7 +720,9 @@ def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str
     return report(context, ReadIssue.FACTS_SINGULAR, Basis.NUMERICAL, words, free=unknowns_text(loose, profile))
 
 
-def explain_path(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
+def explain_path(
+    context: Context, profile: Profile, solution: SystemSolution, contour: Contour
+) -> Iterator[Diagnostic]:
     """Findings about a path that may not be meant: it goes on across the spindle axis, lines run against the angle that
     states them where that is no direction of travel, and corners are left out where it hardly turns."""
     crossing = contour.crossing

@@ -11,11 +11,13 @@ from contoursolve.geometry import (
     Profile,
 )
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import Contour, LineSegment, Solution, is_on, lookup, scalars_of
+from contoursolve.solving import Contour, LineSegment, SystemSolution, is_on, lookup, scalars_of
 from contoursolve.tolerance import AGREEMENT
 
 
-def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
+def explain_beyond(
+    context: Context, profile: Profile, solution: SystemSolution, contour: Contour
+) -> Iterator[Diagnostic]:
     """The facts that hold at a place of a line or a circle that the path does not reach."""
     at = lookup(profile, {**solution.scalars, **scalars_of(solution.points), **solution.radii})
     cut = {segment.name: segment for segment in contour.elements}

@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from math import floor, inf, log10
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
-
+from contoursolve.diagnosis.answer_records import AskedValue, Solution, Solutions
 from contoursolve.diagnosis.examine import (
     Answer,
-    AskedValue,
     answer_question,
     count_choices,
     is_rounded,
@@ -21,7 +19,6 @@ from contoursolve.geometry import Length, Pick
 from contoursolve.solving import (
     DECIMALS,
     Certificate,
-    Contour,
     Proof,
     trace,
     up_to_one_digit,
@@ -32,69 +29,17 @@ if TYPE_CHECKING:
     from contoursolve.solving import Alternative, Alternatives
 
 
-class Listed(Struct, frozen=True):
-    """One solution: its name, its path (None if the control cannot make it, with the reasons), what selects it,
-    and whether it is the contour that was solved."""
-
-    name: str
-    contour: Contour | None
-    asked: tuple[AskedValue, ...]
-    reasons: tuple[str, ...]
-    selects: tuple[str, ...]
-    is_chosen: bool
-    certificate: Certificate
-    picks: tuple[Pick, ...] = ()
-    """The numbers that choose it, where the control has a word for these."""
-
-
-class Listing(Struct, frozen=True):
-    """All solutions that were found, and whether these are proven to be all."""
-
-    solutions: tuple[Listed, ...]
-    is_complete: bool
-    method: str
-    doubts: tuple[str, ...]
-    chosen_by: str
-    within: float | None = None
-    """The distance from the start point within which these are all, mm, where they were searched for; None where a
-    closed form gives them."""
-
-    @property
-    def is_closed(self) -> bool:
-        """Whether a closed form gives them."""
-        return self.within is None
-
-    @property
-    def is_single(self) -> bool:
-        """Whether there is one solution, and no other one can be."""
-        return len(self.solutions) == 1 and self.is_complete
-
-
-def list_solutions(answer: Answer) -> Listing | None:
-    """Every solution of a contour, each with what selects it and how sure it is.
-
-    Args:
-        answer: one of `Result.answers`.
-
-    Returns:
-        `solutions`, whether these are all (`is_complete`), by which `method`, and `doubts` where they may not be;
-        `chosen_by` says what chose the control's own. None if nothing was solved.
-
-    >>> import contoursolve
-    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
-    >>> listing = list_solutions(answer)
-    >>> len(listing.solutions), listing.is_complete
-    (1, True)
-    """
+def list_solutions(answer: Answer) -> Solutions | None:
+    """Every solution of a contour, each with what selects it and how sure it is."""
     alternatives = list_alternatives(answer)
     if alternatives is None:
         if answer.contour is None or answer.certificate is None:
             return None
-        only = Listed("", answer.contour, answer.answers, (), (), is_chosen=True, certificate=answer.certificate)
+        only = Solution("", answer.contour, answer.asked, (), (), is_chosen=True, certificate=answer.certificate)
         choices = count_choices(answer.profile)
         why = "a half circle is one within the least increments" if is_rounded(answer) else "too many to list"
         doubts = (f"the other sides of {choices} points: {why}",) if choices else ()
-        return Listing((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
+        return Solutions((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
     from contoursolve.solving import choose, pick  # noqa: PLC0415 - most contours need no choice
 
     eligible = choose(alternatives, answer.profile.choices)
@@ -108,7 +53,7 @@ def list_solutions(answer: Answer) -> Listing | None:
         from contoursolve.solving import SMALLEST  # noqa: PLC0415 - most contours need no search
 
         method = f"search within {alternatives.reach:.0f} mm of the start point, for elements of at least {SMALLEST} mm"
-    return Listing(
+    return Solutions(
         solutions=tuple(_listed(item, item is chosen, alternatives, answer) for item in alternatives.items),
         is_complete=alternatives.is_complete,
         method=method,
@@ -118,7 +63,7 @@ def list_solutions(answer: Answer) -> Listing | None:
     )
 
 
-def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Listed:
+def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Solution:
     profile = answer.profile
     contour = trace(profile, item.solution) if item.is_path else None
     asked = tuple(answer_question(question, profile, item.solution) for question in profile.questions)
@@ -127,7 +72,7 @@ def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answ
         if given.word is not None and given.word.address == FACT:
             # A side that a fact leaves open is told by the fact.
             name = name.replace(f"{key} ", f"{given.word.text.partition(' [')[0].partition(' (')[0]} ")
-    return Listed(
+    return Solution(
         name=name,
         contour=contour,
         asked=asked,

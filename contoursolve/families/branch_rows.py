@@ -45,9 +45,9 @@ from contoursolve.solving import (
     Need,
     NoClosedFormError,
     RowOutcome,
-    Solution,
     Status,
     StatusCode,
+    SystemSolution,
     add_checks,
     at_origin,
     basis_of,
@@ -156,7 +156,7 @@ class BranchRows:
                 self._settle(self._solve_alone(own, enumeration), [row], settled)
         return settled
 
-    def _solve_alone(self, values: Mapping[str, float], enumeration: Enumeration | None = None) -> Solution:
+    def _solve_alone(self, values: Mapping[str, float], enumeration: Enumeration | None = None) -> SystemSolution:
         """The single solve of a row; where one solution alone counts, that of all which lies nearest to it in floats
         and to no other one nearer."""
         if self.only is None:
@@ -177,7 +177,7 @@ class BranchRows:
         if self.only in taken:
             return items[taken[self.only]].solution
         none = self.case.solve(values, enumeration) if not items else None
-        return none if none is not None and not none.scalars else Solution(Status.NO_SOLUTION)
+        return none if none is not None and not none.scalars else SystemSolution(Status.NO_SOLUTION)
 
     def _places_of(self, values: Mapping[str, float]) -> list[dict[str, float]]:
         """The unknowns in each of the solutions of a row, as floats have them."""
@@ -291,7 +291,7 @@ class BranchRows:
         settled.is_shown[pairs.rows[at]] = True
         settled.is_path[pairs.rows[at]] = is_path[at]
 
-    def _settle(self, solution: Solution, rows: Sequence[int] | Places, settled: RowSolutions) -> None:
+    def _settle(self, solution: SystemSolution, rows: Sequence[int] | Places, settled: RowSolutions) -> None:
         """Note what the single solve of a row says, for all of some rows."""
         settled.status[rows] = code_of(solution.status)
         settled.reason[rows] = reason_of(solution.refusals[0].kind if solution.refusals else None)

@@ -29,8 +29,8 @@ from contoursolve.solving import (
     Construction,
     Enumeration,
     NoteKind,
-    Solution,
     Status,
+    SystemSolution,
     analyse,
     axes_of,
     code_of,
@@ -195,7 +195,7 @@ class CaseClass(Struct, frozen=True, eq=False):
         )
         return replace(self.profile, givens={**self.profile.givens, **givens}, start=Start((first, second)))
 
-    def solve(self, values: Mapping[str, float], enumeration: Enumeration | None = None) -> Solution:
+    def solve(self, values: Mapping[str, float], enumeration: Enumeration | None = None) -> SystemSolution:
         """A single solve of one row, as `examine` does it, without a proof; `enumeration` has its solutions if they
         are known."""
         from contoursolve.solving import place_cuts, settle  # noqa: PLC0415 - not every class solves a row alone

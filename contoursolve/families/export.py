@@ -12,7 +12,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer, join
-from contoursolve.diagnostics import Shown, need, plot_on
+from contoursolve.diagnostics import Shown, from_above, need
 from contoursolve.families.block_template import SweepSpec, Template
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
@@ -213,7 +213,7 @@ class Family(Shown):
     def plot(self, ax: Any = None, *, words: tuple[str, str] | None = None, result: str | None = None) -> Any:
         """Draw the map of two words on `ax`, axes of matplotlib, or on the current ones, and return them; see `plot` of
         `Region`. Raises ValueError where these are not two words of a grid with two or more values each."""
-        return plot_on(self, ax, words=words, result=result)
+        return from_above("plot_record", self, ax, words=words, result=result)
 
     def to_arrow(self) -> Any:
         """A pyarrow.Table with a column for each array: `status` and `reason` in words, as dictionaries (no reason is

@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import inward, short_name
-from contoursolve.diagnostics import Shown, plot_on
+from contoursolve.diagnostics import Shown, from_above
 from contoursolve.families.block_template import BlockOptions, RefusedError, SweepSpec, Template, spec_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords, premises_of
@@ -88,7 +88,7 @@ class Region(Shown, Struct, frozen=True, eq=False):
         exists, the lines that bound it, each labelled with what fails beyond it, and the values of the block. `result`
         colours it, as for `draw_region`. Raises FamilyError for a result that is none, MissingExtraError without the
         package of `contoursolve[plot]`."""
-        return plot_on(self, ax, result=result)
+        return from_above("plot_record", self, ax, result=result)
 
     def family(self, columns: int | None = None, rows: int | None = None) -> Family:
         """The contours at evenly spaced values of both words, as many as `outcomes` has unless it is told: for

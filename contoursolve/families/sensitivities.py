@@ -23,7 +23,7 @@ from contoursolve.families.free_words import check_block, factor_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
 from contoursolve.numeric import COSINE, SIDE, SINE, Compiled, Tape, condition, direction
-from contoursolve.solving import NoteKind, Solution, Status, StepKind, analyse, basis_of, input_values
+from contoursolve.solving import NoteKind, Status, StepKind, SystemSolution, analyse, basis_of, input_values
 from contoursolve.tolerance import RESIDUAL
 
 SINGULAR = 1e-9
@@ -226,7 +226,7 @@ def _fact_name(given: Given, word: Word, profile: Profile) -> str:
     return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in word.text and axis.isdigit() else name
 
 
-def _implicit_rates(profile: Profile, solution: Solution, outputs: tuple[str, ...]) -> Rates:
+def _implicit_rates(profile: Profile, solution: SystemSolution, outputs: tuple[str, ...]) -> Rates:
     """The derivatives of some outputs by all that is stated: of unknowns, and of what follows from them on the path."""
     system = assemble(profile)
     unknowns = system.unknowns
@@ -290,7 +290,7 @@ def _known(profile: Profile) -> dict[str, float]:
     return found | profile.increments
 
 
-def _check(solution: Solution | None, answer: Answer) -> None:
+def _check(solution: SystemSolution | None, answer: Answer) -> None:
     status = solution.status if solution is not None else answer.status
     if solution is None or status is not Status.SOLVED:
         error = first_error(answer)

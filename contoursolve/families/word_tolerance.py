@@ -217,7 +217,7 @@ _OF_FACTS = re.compile(r"\sof\s|^\s*angle\s", re.IGNORECASE)
 def _asked(text: str, answer: Answer) -> AskedValue | None:
     """The value that a word or a fact of this name asks for."""
     name = subject_of(text).removeprefix("asked.")
-    for each in answer.answers:
+    for each in answer.asked:
         word = each.question.word
         if name == (subject_of(word.text) if word.address == FACT else word.address.lower()):
             return each

@@ -15,7 +15,7 @@ from contoursolve.diagnosis import (
     Answer,
     Edit,
     EditKind,
-    Listed,
+    Solution,
     apply_edits,
     join,
     list_solutions,
@@ -334,7 +334,7 @@ def free(exploration: Exploration, key: str) -> Exploration:
     if not word.is_asked:
         freed = _edited(exploration, [_change(answer, word, answer.claim.lexicon.spell(word.address, "?"))])
         return replace(freed, last={**exploration.last, key: word.text})
-    found = next((each for each in answer.answers if each.question.word.span == word.span), None)
+    found = next((each for each in answer.asked if each.question.word.span == word.span), None)
     text = exploration.last.get(key, answer.claim.lexicon.spell(word.address, "0."))
     if found is not None and found.value is not None:
         text = write_word(word.address, found.value, answer.claim.lexicon, answer.unit)
@@ -396,7 +396,7 @@ def _picking(answer: Answer, picks: Sequence[Pick]) -> Iterator[Edit]:
         yield Edit(EditKind.ADD, word, text="\n" + claim.lexicon.spell(word, str(wanted[element])), line=line)
 
 
-def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iterator[Sequence[Edit]]:
+def _selecting(exploration: Exploration, answer: Answer, wanted: Solution) -> Iterator[Sequence[Edit]]:
     """The edits that write what selects a solution, for every block in which that can be written."""
     ways = []
     for text in wanted.selects:
@@ -475,7 +475,7 @@ def _signed(text: str, address: str, like: str, lexicon: Lexicon) -> str:
     return lexicon.spell(address, f"+{number}") if "+" in like and number[:1] not in ("-", "+") else text
 
 
-def _without_echoes(exploration: Exploration, wanted: Listed) -> Exploration:
+def _without_echoes(exploration: Exploration, wanted: Solution) -> Exploration:
     """The contour without the facts that only say what its words say: those by which a word was asked for, now that its
     value is written. It moves no farther than values that are filled in may move it."""
     blocks = [block for block in exploration.result.program.blocks if exploration.has(block.line)]
@@ -489,7 +489,7 @@ def _without_echoes(exploration: Exploration, wanted: Listed) -> Exploration:
     return exploration
 
 
-def _is_chosen(exploration: Exploration, wanted: Listed, within: float) -> bool:
+def _is_chosen(exploration: Exploration, wanted: Solution, within: float) -> bool:
     """Whether the contour is now the one that was wanted, to a distance in mm."""
     contour = exploration.answer.contour if exploration.answer else None
     if contour is None or wanted.contour is None or contour.points.keys() != wanted.contour.points.keys():

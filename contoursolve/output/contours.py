@@ -9,8 +9,8 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import (
     Answer,
     AskedValue,
-    Listed,
-    Listing,
+    Solution,
+    Solutions,
     axis_labels,
     called_in_program,
     certificate_text,
@@ -31,7 +31,7 @@ from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
 from contoursolve.output.premises import premise_texts
-from contoursolve.output.word_meanings import form_text, found_value, stated_words
+from contoursolve.output.word_meanings import found_value, stated_words
 from contoursolve.program import Result
 from contoursolve.solving import ArcSegment, Contour
 
@@ -53,7 +53,7 @@ def _called(answer: Answer) -> str:
 def title_line(answer: Answer, name: str) -> str:
     """The place, the form and the status of a contour of a program."""
     place = f"{printable(name)}:{answer.lines[0]}"
-    return f"{place}: {form_text(answer)}{_called(answer)}: {answer.state}"
+    return f"{place}: {answer.form_text}{_called(answer)}: {answer.state}"
 
 
 def explaining_lines(answer: Answer, system: "EquationSystem | None" = None) -> list[str]:
@@ -159,7 +159,7 @@ def _solution_lines(answer: Answer) -> list[str]:
     return lines
 
 
-def count_text(listing: Listing) -> str:
+def count_text(listing: Solutions) -> str:
     """The count of solutions as text, and whether the list is complete."""
     number, shown = len(listing.solutions), f"by {listing.method}"
     told = "this is the only one" if number == 1 else "these are all"
@@ -167,7 +167,7 @@ def count_text(listing: Listing) -> str:
     return f"{'' if listing.is_complete else 'at least '}{count(number, 'solution')}; {known}"
 
 
-def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[str, str, str, str, str]]]:
+def solution_rows(answer: Answer, listing: Solutions) -> list[tuple[Solution, tuple[str, str, str, str, str]]]:
     """Each solution with its name, whether it is no contour, where it differs from the others or why there is none,
     what selects it, and its certificate if it is not the usual one."""
     contours, called = [each.contour for each in listing.solutions if each.contour], called_in_program(answer.profile)
@@ -214,7 +214,7 @@ def given_table(answer: Answer) -> Table:
             rows.append((printable(each.word.text), "", "", "further fact"))
         else:
             rows.append((each.word.text, *_cells(each.value, each.unit), meaning))
-    for asked in answer.answers:
+    for asked in answer.asked:
         question = asked.question
         meaning = f"asked: {called(meaning_of(question.name, question.word, answer.claim))}".strip(": ")
         number = ("?", "") if asked.value is None else _cells(*found_value(asked, answer))

@@ -32,8 +32,8 @@ from contoursolve.solving import (
     CornerSolution,
     Point,
     Refusal,
-    Solution,
     Status,
+    SystemSolution,
     affine_facts,
     analyse,
     basis_of,
@@ -73,7 +73,7 @@ class Known(Struct, frozen=True):
     corners: Mapping[str, CornerSolution] = field(default_factory=dict)
     refusals: tuple[Refusal, ...] = ()
     placed: frozenset[str] = frozenset()
-    others: tuple[Solution, ...] = ()
+    others: tuple[SystemSolution, ...] = ()
     scalars: Mapping[str, float] = field(default_factory=dict)
     """Coordinates of which the other one is not known."""
 
@@ -114,7 +114,7 @@ def _is_at(one: CornerSolution, other: CornerSolution) -> bool:
     return max(distance(one.begin, other.begin), distance(one.end, other.end)) <= SAME
 
 
-def known_of(solution: Solution) -> Known:
+def known_of(solution: SystemSolution) -> Known:
     """All that a solution says."""
     corners = {name: each for name, each in solution.corners.items() if each.begin != each.end}
     return Known(solution.points, solution.radii, corners)
@@ -262,7 +262,7 @@ def complete(profile: Profile, singular: Sequence[str] = ()) -> Known:
     if len(free) > MOST_FREE:
         return known
     size = _drawing_size(profile)
-    found: list[Solution] = []
+    found: list[SystemSolution] = []
     placed: frozenset[str] = frozenset()
     # All onwards first; the ways in which some turn back only where that gives no contour.
     for full, names in (

@@ -192,7 +192,7 @@ from .solution import (
     Point as Point,
     Proof as Proof,
     Refusal as Refusal,
-    Solution as Solution,
+    SystemSolution as SystemSolution,
     up_to_one_digit as up_to_one_digit,
 )
 from .solve import (

@@ -45,7 +45,7 @@ from contoursolve.solving.solution import (
     Point,
     Proof,
     Refusal,
-    Solution,
+    SystemSolution,
 )
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
@@ -175,7 +175,7 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: ExactS
             certificate = Certificate(Proof.VERIFIED, certificate.radius, reason, gap)
     absolute = {name: (scalars[scalar(name, FIRST)], scalars[scalar(name, SECOND)]) for name in system.figure.points}
     absolute[system.figure.start] = starts[FIRST], starts[SECOND]
-    solution = Solution(
+    solution = SystemSolution(
         _status(refusals, remarks),
         points=absolute if not refusals else {},
         radii={name: scalars[name] for name in system.figure.radii} if not refusals else {},
@@ -354,7 +354,7 @@ def _place(item: Alternative, same: list[Alternative], profile: Profile) -> str:
     return ""
 
 
-def decide(alternatives: Alternatives, profile: Profile) -> Solution:
+def decide(alternatives: Alternatives, profile: Profile) -> SystemSolution:
     """The contour of a profile, of whose equations these are the solutions.
 
     Several contours, between which nothing chooses, are ambiguous.
@@ -366,11 +366,11 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
         paths, events = pick(paths, profile)
     refusals = tuple(event for event in events if isinstance(event, Refusal))
     if refusals:
-        return Solution(Status.NO_SOLUTION, refusals=refusals)
+        return SystemSolution(Status.NO_SOLUTION, refusals=refusals)
     notes = tuple(event for event in events if isinstance(event, Note))
     count = {"actual": float(len(paths))}
     if len(paths) > 1:
-        return Solution(Status.AMBIGUOUS, remarks=(*notes, Note(NoteKind.SEVERAL, "", (), count)))
+        return SystemSolution(Status.AMBIGUOUS, remarks=(*notes, Note(NoteKind.SEVERAL, "", (), count)))
     if paths:
         solution = _without_selecting(paths[0].solution, alternatives)
         solution = replace(solution, remarks=(*solution.remarks, *notes))
@@ -380,7 +380,7 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
         is_open = any(doubt.obstacle is not Obstacle.TOUCHING for doubt in alternatives.doubts)
         if len(alternatives.paths) == 1 and (is_open or not paths[0].certificate.is_double):
             kind = RefusalKind.COUNT_OPEN
-            return Solution(kind.status, refusals=(Refusal(kind, "", (), count),), remarks=solution.remarks)
+            return SystemSolution(kind.status, refusals=(Refusal(kind, "", (), count),), remarks=solution.remarks)
         return replace(solution, remarks=(*solution.remarks, Note(NoteKind.COUNT_OPEN, "", (), count)))
     return _refused(eligible, alternatives)
 
@@ -388,7 +388,7 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
 _AGAINST_OTHERS = refusals_about(Topic.WORD, Topic.FACT)
 
 
-def _without_selecting(solution: Solution, alternatives: Alternatives) -> Solution:
+def _without_selecting(solution: SystemSolution, alternatives: Alternatives) -> SystemSolution:
     """A solution without the remark that a word was not needed, where the word tells it from another solution."""
     selecting = {
         refusal.subject
@@ -405,7 +405,7 @@ def _without_selecting(solution: Solution, alternatives: Alternatives) -> Soluti
     return replace(solution, status=Status.OVERDETERMINED if agrees else Status.SOLVED, remarks=remarks)
 
 
-def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solution:
+def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> SystemSolution:
     """The reasons why there is no contour: the refusals of the first of the solutions, or that there is none. Where a
     search was given up, there may be others."""
     given_up = (Obstacle.UNFINISHED, Obstacle.FARTHER)
@@ -413,4 +413,4 @@ def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solu
     if items and not is_open:
         return items[0].solution
     kind = RefusalKind.NO_POINT if alternatives.is_complete else RefusalKind.SEARCH_UNFINISHED
-    return Solution(kind.status, refusals=(Refusal(kind, ""),))
+    return SystemSolution(kind.status, refusals=(Refusal(kind, ""),))

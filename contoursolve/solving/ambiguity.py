@@ -35,7 +35,7 @@ from contoursolve.solving.enumerate import Enumeration, enumerate_solutions
 from contoursolve.solving.events import Status, Topic, events_about, refusals_about
 from contoursolve.solving.identities import is_affine
 from contoursolve.solving.partition import Group
-from contoursolve.solving.solution import Alternative, Alternatives, Note, Obstacle, Refusal, Solution
+from contoursolve.solving.solution import Alternative, Alternatives, Note, Obstacle, Refusal, SystemSolution
 from contoursolve.solving.solve import solve
 
 
@@ -89,7 +89,7 @@ class Settlement(Struct, frozen=True):
     both are empty where there is another reason.
     """
 
-    solution: Solution
+    solution: SystemSolution
     alternatives: Alternatives
     singular: tuple[str, ...] = ()
     loose: tuple[str, ...] = ()
@@ -124,7 +124,7 @@ def settle(profile: Profile, *, is_blaming: bool = True, enumeration: Enumeratio
     found = _affine(profile, groups, doubtful)
     if found is not None:
         return Settlement(found, alternatives)
-    solution = Solution(Status.UNDERDETERMINED)
+    solution = SystemSolution(Status.UNDERDETERMINED)
     return Settlement(solution, alternatives, _givens(doubtful, groups, system), tuple(singular))
 
 
@@ -207,7 +207,7 @@ def _first(profile: Profile, groups: tuple[Group, ...]) -> Profile:
     return restrict(profile, names.difference(*half))
 
 
-def _blame(solution: Solution, blamed: list[Group], groups: tuple[Group, ...], system: System) -> Solution:
+def _blame(solution: SystemSolution, blamed: list[Group], groups: tuple[Group, ...], system: System) -> SystemSolution:
     """The solution whose refusal names the facts of some groups."""
     subject = ",".join(name for group in blamed for name in group.unknowns)
     givens = (_without_point if Status.NO_SOLUTION is solution.status else _givens)(blamed, groups, system)
@@ -235,14 +235,14 @@ def _givens(blamed: list[Group], groups: tuple[Group, ...], system: System) -> t
     return tuple(names)
 
 
-def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) -> Solution | None:
+def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) -> SystemSolution | None:
     """The answer of the solver of ordinary words about a group, where it and all before it are about such words."""
     part = _first(profile, groups[: groups.index(doubtful[0]) + 1])
     system = assemble(part)
     if not is_affine(part.facts) or not analyse(system).is_determined or not is_closed(system):
         return None
     refusals = [each for each in solve(part).refusals if isinstance(each, Refusal)]
-    return Solution(refusals[0].kind.status, refusals=tuple(refusals)) if refusals else None
+    return SystemSolution(refusals[0].kind.status, refusals=tuple(refusals)) if refusals else None
 
 
 _COMPARED = events_about(Topic.WORD) | refusals_about(Topic.FACT, Topic.RADII)

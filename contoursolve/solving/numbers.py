@@ -19,7 +19,7 @@ from contoursolve.geometry import (
 from contoursolve.numeric import COSINE, SIDE, SINE, direction
 from contoursolve.solving.corners import CornerPath
 from contoursolve.solving.events import Status
-from contoursolve.solving.solution import CornerSolution, Point, Solution
+from contoursolve.solving.solution import CornerSolution, Point, SystemSolution
 
 Kind = TypeVar("Kind")
 """A kind of numbers: floats, or what `numeric.ball` makes."""
@@ -76,7 +76,7 @@ def solution_at(
     sizes: Mapping[str, float],
     out: Mapping[str, float],
     corners: Mapping[str, CornerPath],
-) -> Solution:
+) -> SystemSolution:
     """The values among the outputs of a compiled system, and of its corners, which count coordinates from the start
     point; `sizes` are those of the corners by the words that state them, mm."""
     figure, (first, second) = system.figure, start.values
@@ -87,7 +87,7 @@ def solution_at(
 
     points = {figure.start: absolute((0.0, 0.0))}
     points |= {name: absolute((out[scalar(name, FIRST)], out[scalar(name, SECOND)])) for name in figure.points}
-    return Solution(
+    return SystemSolution(
         Status.SOLVED,
         points=points,
         radii={name: out[name] for name in figure.radii},

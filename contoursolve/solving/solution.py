@@ -115,7 +115,7 @@ class CornerSolution(Struct, frozen=True):
     """Sine of the turn; positive to the left."""
 
 
-class Solution(Struct, frozen=True):
+class SystemSolution(Struct, frozen=True):
     """Values of all unknowns (mm), or the refusals that leave none.
 
     `points` and `radii` go by name, `corners` by the corner's name. `error_bound` (mm) bounds the
@@ -160,7 +160,7 @@ class Alternative(Struct, frozen=True):
     `name` tells it from the others.
     """
 
-    solution: Solution
+    solution: SystemSolution
     scalars: Mapping[str, float]
     sides: Mapping[str, str]
     certificate: Certificate

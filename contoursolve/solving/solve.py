@@ -42,7 +42,7 @@ from contoursolve.solving.events import NoteKind, RefusalKind, Status
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range, vanishing_lines
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution, up_to_one_digit
+from contoursolve.solving.solution import Certificate, Note, Point, Refusal, SystemSolution, up_to_one_digit
 from contoursolve.solving.step_outputs import StepOutputs
 from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL, TOUCHING
 
@@ -50,7 +50,7 @@ ROUNDING = 2.0**-50
 """1 (share of the coordinates). Rounding of one formula of about four operations."""
 
 
-def solve(profile: Profile, *, is_proven: bool = True) -> Solution:
+def solve(profile: Profile, *, is_proven: bool = True) -> SystemSolution:
     """The contour of a profile whose system is determined and whose start is known.
 
     With more facts than unknowns, the first determined subset that is regular at these values is
@@ -83,20 +83,20 @@ def _solved(_: System) -> Iterator[int]:
     return count()
 
 
-def _all_refusals(profile: Profile, answer: Solution) -> Solution:
+def _all_refusals(profile: Profile, answer: SystemSolution) -> SystemSolution:
     """A refusal where a step is singular, with whatever else facts about lines say against each other."""
     affine = affine_facts(profile, profile.facts)
     events = tuple(compare_affine(profile, affine)) if affine is not None else ()
     return refused(events) if any(isinstance(event, Refusal) for event in events) else answer
 
 
-def refused(events: Iterable[Refusal | Note]) -> Solution:
+def refused(events: Iterable[Refusal | Note]) -> SystemSolution:
     """The solution that refusals leave, with the words that agree; its status is the first in order."""
     refusals = tuple(event for event in events if isinstance(event, Refusal))
     agreeing = tuple(event for event in events if isinstance(event, Note) and event.kind is NoteKind.WORDS_AGREE)
     found = {refusal.kind.status for refusal in refusals} | ({Status.OVERDETERMINED} if agreeing else set())
     status = next(status for status in Status if status in found)
-    return Solution(status, refusals=refusals, remarks=agreeing)
+    return SystemSolution(status, refusals=refusals, remarks=agreeing)
 
 
 def _orders(system: System, tied: frozenset[Fact]) -> Iterator[System]:
@@ -150,7 +150,7 @@ class _Attempt:
         """The measures of the path for other sizes of corners."""
         return self.machine.path.read(self.machine.function({**self.inputs, **sizes}).__getitem__)
 
-    def answer(self, *, is_proven: bool) -> Solution:
+    def answer(self, *, is_proven: bool) -> SystemSolution:
         for number, (step, names) in enumerate(zip(self.machine.steps, self.machine.measures, strict=True)):
             refusal = None if self.is_clear and not step.is_equal else self._examine_step(number, step, names)
             if refusal:
@@ -193,7 +193,7 @@ class _Attempt:
         touches = any(remark.kind is NoteKind.TOUCHES for remark in self.remarks)
         return replace(certificate, gap=0.0) if touches else certificate
 
-    def _refused(self) -> Solution:
+    def _refused(self) -> SystemSolution:
         return refused([*self.refusals, *self.remarks])
 
     def _point(self, name: str) -> Point:

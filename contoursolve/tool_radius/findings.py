@@ -26,7 +26,7 @@ from contoursolve.diagnosis import (
     rank,
     write_word,
 )
-from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence, Fix, Label, Severity, Span
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence, Fix, Label, Severity, Span, from_above
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
@@ -292,6 +292,10 @@ class ToolReport(Struct, frozen=True):
     findings: tuple[Diagnostic, ...]
     path: ToolPath
     """The path of the program, of which the runs are parts."""
+
+    def text(self, line: int) -> str:
+        """The sentence about which tool cuts the contour on a program line; empty where no tool goes."""
+        return str(from_above("tool_text", self, line))
 
 
 def look_at_tool(result: Result, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()) -> ToolReport:

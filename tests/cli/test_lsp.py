@@ -10,7 +10,7 @@ import pytest
 from editor import Editor, Served, applied, edits_of, in_editor, random_edit, types
 
 import contoursolve
-from contoursolve import DIALECTS, Severity, end_text, solve
+from contoursolve import DIALECTS, Severity, solve
 from contoursolve.gcode import split_lines
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
@@ -342,7 +342,7 @@ def test_a_notebook_explores_the_contour_with_the_modal_codes_before_it(served):
         text, options = explored(found["notebook"])
         (answer,) = solve(text, **options).answers
         (wanted,) = solve(INCREMENTAL, control="fanuc-mill").answers
-        assert end_text(answer) == end_text(wanted) == "X5.00000 Y6.00000"
+        assert answer.end_text == wanted.end_text == "X5.00000 Y6.00000"
 
     served(use)
 

@@ -199,7 +199,7 @@ def check_told(page):
     is_empty = page.locator(f"{MAP} .drawing.empty").count() == 1
     assert is_empty == (answer.contour is None)
     if answer.contour is not None:
-        assert state == f"solved, end {contoursolve.end_text(answer)}"
+        assert state == f"solved, end {answer.end_text}"
     return first, second
 
 

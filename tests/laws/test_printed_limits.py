@@ -233,7 +233,7 @@ def test_a_tool_that_is_said_to_fit_cuts_the_contour(name: str, thousandths: int
     _, report = contoursolve.solve_with_tool(program, tool="R9.5", tip=3 if tip else None, control=control[1])
     assert report is not None
     line = next(number for number, text in enumerate(program.split("\n"), 1) if "G01" in text or "G111" in text)
-    limits += [("hover", each) for each in UP_TO.findall(contoursolve.tool_text(report, line))]
+    limits += [("hover", each) for each in UP_TO.findall(report.text(line))]
     stated = f"contoursolve tool: R9.5{', tip 3' if tip else ''}"
     talk = Conversation(begin(f"({stated})\n{program}", control=control[1]))
     talk.answer({"do": "range", "key": "tool"})

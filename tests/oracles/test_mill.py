@@ -252,7 +252,7 @@ def test_lines_of_a_chain_that_are_parallel_are_shown_in_both_of_their_blocks():
 def test_an_angle_that_is_asked_for_beside_a_point_is_answered() -> None:
     program = "G17 G90 G42 G0 X100 Y20\nG1 ,A?\nG3 X20 Y40 I20 J-10 R50 Q-1 (contoursolve: line tangent to arc)"
     (answer,) = solve(program, control="nct-99m").answers
-    (asked,) = answer.answers
+    (asked,) = answer.asked
     to_center, away = degrees(atan2(-30, -80)) % 360, degrees(asin(50 / hypot(80, 30)))
     assert asked.value == pytest.approx(to_center - away, abs=1e-9)
 

@@ -180,7 +180,16 @@ def test_a_room_imports_only_from_lower_floors():
 def test_the_language_server_knows_what_the_package_exports():
     known = {room for module in MODULES if room_of(module) == "lsp" for room in rooms(module)}
     # contoursolve.controls is the name of a command there.
-    assert known - {"controls"} == {"__init__", "diagnostics", "lsp", "notebook", "pictures"}
+    assert known - {"controls"} == {
+        "__init__",
+        "diagnosis",
+        "diagnostics",
+        "lsp",
+        "notebook",
+        "output",
+        "pictures",
+        "reading",
+    }
 
 
 def test_only_numeric_imports_sympy_casadi_and_flint():

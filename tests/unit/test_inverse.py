@@ -323,7 +323,7 @@ def test_lengths_and_directions_are_kept_as_facts_name_them(block, facts, word, 
     for value in (found.stated, found.low.value, found.high.value):
         text = block.replace(f"{word}{found.stated:g}.", f"{word}{value!r}")
         more = [*facts, f"{keep} = ?"] if " of " in keep else facts
-        (*_, asked) = contoursolve.solve(text, start=START, facts=more).answers[0].answers
+        (*_, asked) = contoursolve.solve(text, start=START, facts=more).answers[0].asked
         values.append(asked.value * (1 + asked.question.is_diameter))
     assert [abs(each - values[0]) for each in values[1:]] == pytest.approx([within] * 2, abs=1e-8)
     assert found.low.value < found.stated < found.high.value

@@ -259,7 +259,7 @@ def test_a_map_of_many_even_values_has_even_axes_and_counts_all_of_them():
     steps = numpy.diff([text.at[0] for text in ticks])
     assert len(ticks) > 3
     assert steps == pytest.approx(steps[0], abs=1e-6)
-    told = ", ".join(f"{number:,} {contoursolve.status_text(status)}" for status, number in family.summary().items())
+    told = ", ".join(f"{number:,} {status.text}" for status, number in family.summary().items())
     assert picture.title == f"P and A: {told}"
     assert "drawn: 200 of 401 values of A; the title counts all contours" in labels(picture)
     # A sweep draws the same from the values that it draws alone.
@@ -420,7 +420,7 @@ def test_a_click_opens_the_block_with_these_values_in_the_explorer(name):
         assert bool(shown.seen["path"]) == (alone is not None)
         if alone is not None:
             assert shown.answer.contour.end == pytest.approx(alone.end, abs=1e-9)
-            assert shown.seen["text"].startswith(f"solved, end {contoursolve.end_text(shown.answer)}")
+            assert shown.seen["text"].startswith(f"solved, end {shown.answer.end_text}")
         else:
             # A family has no program whose lines would name a corner.
             (amount,) = re.findall(r": (.*) on ", shown.seen["text"])

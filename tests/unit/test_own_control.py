@@ -73,14 +73,15 @@ def test_the_keywords_of_every_door_are_the_fields_of_one_record():
 
 def test_every_door_takes_a_control_as_its_tables():
     result = contoursolve.solve(PAIR, control=MINE)
-    answer = result.answers[0]
+    answer = result.answer
     assert result.control == "mine"
     assert answer.contour == contoursolve.solve(PAIR).answers[0].contour
     assert contoursolve.check(PAIR, control=MINE) == ()
-    other = contoursolve.what_if(PAIR, change={"Q": "Q1"}, control=MINE)
-    assert other.answers[0].contour.points["P1"] == pytest.approx((-30, 40), abs=1e-3)
+    other = answer.with_words(change={"Q": "Q1"})
+    assert other.contour.points["P1"] == pytest.approx((-30, 40), abs=1e-3)
     line, start = "G1 X30 ,A45", "X0 Y0"
-    assert [each.word for each in contoursolve.completions("G1 ,A45", start=start, control=MINE)] == ["X?", "Y?"]
+    bare = contoursolve.solve("G1 ,A45", start=start, control=MINE).answer
+    assert [each.word for each in bare.completions] == ["X?", "Y?"]
     found = contoursolve.family(line, start=start, vary={",A": [0.0, 45.0]}, control=MINE)
     assert found["N1.Y"].tolist() == pytest.approx([0, 30])
     slopes = contoursolve.sensitivity(line, start=start, control=MINE).slopes

@@ -23,7 +23,7 @@ assert (~asked.has_contour).sum() == 2
 
 # Each version is what the block says with its two values.
 for A, P, end in zip(versions["A"], versions["P"], versions["corner 2.end.Z"], strict=True):
-    (alone,) = contoursolve.what_if(BLOCK, change={"A": f"A{A}", "P": f"P{P}"}, start=START).answers
+    alone = contoursolve.solve(BLOCK, start=START).answer.with_words(change={"A": f"A{A}", "P": f"P{P}"})
     assert abs(alone.contour.end[0] - end) < 1e-12
 
 # By hand: the start is hypot(30, 10) from the boss's centre. At 180 degrees the rounding begins where the line does if
