@@ -28,7 +28,7 @@ _ROOMS = {
     "bundle": "notebook",
     "completions": "diagnosis",
     "construction_lines": "output",
-    "draw": "pictures",
+    "draw": "outcomes",
     "legal_blocks": "diagnosis",
     "list_solutions": "diagnosis",
     "plot_record": "pictures",

@@ -69,7 +69,7 @@ _MARKS = (b'<svg xmlns="http://www.w3.org/2000/svg" id="cs-', b'<meta name="gene
 
 _DXF = ".dxf"
 
-Written = tuple[Path, bytes, str]
+WrittenFile = tuple[Path, bytes, str]
 """A file, its bytes, and what is in it."""
 
 
@@ -171,7 +171,7 @@ def _pictures(
     *,
     is_each: bool,
     is_whole: bool | None,
-) -> Iterator[Written]:
+) -> Iterator[WrittenFile]:
     """The pictures that are asked for."""
 
     def of_one(answer: Answer) -> bytes:
@@ -200,7 +200,7 @@ def _about(answer: Answer) -> str:
     return f"program line {answer.lines[0]}, {answer.state}"
 
 
-def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -> list[Written]:
+def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -> list[WrittenFile]:
     """The DXF drawing, if anything is solved."""
     with importing("dxf", "a DXF drawing"):
         from contoursolve.output import drawing_for_cad  # noqa: PLC0415 - needs an extra

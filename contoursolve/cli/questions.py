@@ -19,7 +19,7 @@ from contoursolve.cli.block_options import (
 )
 from contoursolve.cli.options import FILE, FOUND_ERRORS, check_toolless, format_option, load, settings_of, side_options
 from contoursolve.cli.printing import print_json, print_lines
-from contoursolve.families import feasible, find_word, region, tolerance_for, tolerances
+from contoursolve.families import feasible, find as find_values, region, tolerance_for, tolerances
 from contoursolve.output import (
     found_data,
     found_lines,
@@ -183,7 +183,7 @@ def find(
     if goal is None:
         raise click.UsageError("missing --bring: name a point and where it is wanted, such as 'end Z-50.'")
     with usage():
-        found = find_word(word=word, goal=goal, within=limits, facts=facts, **read_options(options))
+        found = find_values(word=word, goal=goal, within=limits, facts=facts, **read_options(options))
     if format_ == "json":
         print_json(found_data(found))
     else:

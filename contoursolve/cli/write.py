@@ -22,7 +22,7 @@ from contoursolve.diagnosis import count
 from contoursolve.diagnostics import members
 from contoursolve.gcode import STANDARD_INPUT, write_whole
 from contoursolve.output import Style
-from contoursolve.postprocess import NumberGround, Written, WrittenContour, WrittenWord
+from contoursolve.postprocess import NumberGround, WrittenContour, WrittenContours, WrittenWord
 from contoursolve.program import find_settings, read_setting
 from contoursolve.reading import Dialect
 from contoursolve.sketches import (
@@ -30,7 +30,6 @@ from contoursolve.sketches import (
     UnfinishedError,
     solve_sketch,
     write as write_contour,
-    write_for_all,
 )
 
 SCHEMA = "contoursolve/write/1"
@@ -84,10 +83,7 @@ def write(
     folder = Path() if sketch == STANDARD_INPUT else Path(sketch).parent
     settings = find_settings(folder) | dict(map(read_setting, assignments))
     try:
-        if to is None:
-            several = write_for_all(drawn, settings=settings)
-        else:
-            several = (write_contour(drawn, to, settings=settings),)
+        several = (write_contour(drawn, to, settings=settings),) if to else write_contour(drawn, settings=settings)
     except UnfinishedError:
         print_lines(_open_lines(drawn, style_of_output()))
         context.exit(FOUND_ERRORS)
@@ -111,7 +107,7 @@ def write(
         _report(found)
 
 
-def _report(found: Written) -> None:
+def _report(found: WrittenContours) -> None:
     """Print on standard error how good the first candidate is."""
     first, *others = _candidate_lines(found.candidates[0])
     said = [line.strip() for line in others if not line.startswith("    ")]
@@ -164,7 +160,7 @@ def _told(word: WrittenWord) -> str:
     return f"{word.text} (off by {word.off:.1g} {word.unit.value})" if word.off else word.text
 
 
-def _table_lines(several: Sequence[Written]) -> Iterator[str]:
+def _table_lines(several: Sequence[WrittenContours]) -> Iterator[str]:
     """The first candidate for each control, a line for each block."""
     width = max(len(each.control) for each in several)
     for each in several:
@@ -174,7 +170,7 @@ def _table_lines(several: Sequence[Written]) -> Iterator[str]:
         yield from (f"{'':{width}}    {line}" for line in said)
 
 
-def _data(found: Written) -> dict[str, Any]:
+def _data(found: WrittenContours) -> dict[str, Any]:
     return {
         **members(found, "control title reason"),
         "candidates": [

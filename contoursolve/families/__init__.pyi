@@ -24,7 +24,7 @@ from .checkpoints import (
 from .compiled_sweep import (
     CompiledSweep as CompiledSweep,
 )
-from .errors import FamilyError as FamilyError
+from .errors import FamilyError as FamilyError, NotClosedError as NotClosedError
 from .evaluate import (
     CUT as CUT,
     THREADS as THREADS,
@@ -47,7 +47,7 @@ from .export import (
 )
 from .feasible_ranges import (
     End as End,
-    Feasible as Feasible,
+    FeasibleRange as FeasibleRange,
     Interval as Interval,
     Reason as Reason,
     Way as Way,
@@ -62,9 +62,9 @@ from .goals import (
     Goal as Goal,
 )
 from .inverse import (
-    Found as Found,
+    FoundValues as FoundValues,
     Hit as Hit,
-    find_word as find_word,
+    find as find,
 )
 from .point_tolerances import (
     Contribution as Contribution,
@@ -77,7 +77,7 @@ from .range_pieces import (
     LEAST_GAP as LEAST_GAP,
 )
 from .regions import (
-    Region as Region,
+    FeasibleRegion as FeasibleRegion,
     region as region,
 )
 from .sampled_lines import (
@@ -99,7 +99,7 @@ from .variables import (
     with_numbers as with_numbers,
 )
 from .word_tolerance import (
-    WordTolerance as WordTolerance,
+    ToleranceRange as ToleranceRange,
     tolerance_for as tolerance_for,
 )
 from .word_values import (

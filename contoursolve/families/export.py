@@ -212,7 +212,7 @@ class Family(Shown):
 
     def plot(self, ax: Any = None, *, words: tuple[str, str] | None = None, result: str | None = None) -> Any:
         """Draw the map of two words on `ax`, axes of matplotlib, or on the current ones, and return them; see `plot` of
-        `Region`. Raises ValueError where these are not two words of a grid with two or more values each."""
+        `FeasibleRegion`. Raises ValueError where these are not two words of a grid with two or more values each."""
         return from_above("plot_record", self, ax, words=words, result=result)
 
     def to_arrow(self) -> Any:
@@ -238,6 +238,11 @@ class Family(Shown):
     def to_parquet(self, path: str | Path) -> None:
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
         write_parquet(path, [self._table()], self.measures(), self.origin)
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write that table as comma-separated values, the names first; status and reason in words, nothing for NaN."""
+        with Path(path).open("w", encoding="utf-8", newline="\n") as file:
+            file.writelines(csv_lines([self._table()]))
 
     def to_xarray(self) -> Any:
         """An xarray.Dataset whose dimensions are the free words, or `row`; every variable has its `units` as an

@@ -65,7 +65,7 @@ class Hit(Struct, frozen=True):
     rounded_away: float | None
 
 
-class Found(Shown, Struct, frozen=True):
+class FoundValues(Shown, Struct, frozen=True):
     """All values of a word, within a range, that meet a goal, in order; for a goal of two coordinates, all that are
     nearer to it than their neighbours, the nearest first. `doubts` say why these are not proven to be all; values are
     told apart to nine digits.
@@ -93,14 +93,14 @@ class Found(Shown, Struct, frozen=True):
         return not self.doubts
 
 
-def find_word(
+def find(
     block: str,
     word: str,
     goal: str,
     *,
     within: tuple[float, float] | None = None,
     **options: Unpack[BlockOptions],
-) -> Found:
+) -> FoundValues:
     """Every value of a word, as it is written, that brings a point of the contour where it is wanted.
 
     Args:
@@ -142,13 +142,13 @@ def find_word(
             hits = target.hits_by_asking(answer, (low, high))
         except NotMovedError as error:
             hits, remark = target.there(), _moved_by(answer, wanted, error)
-        return Found(*about, tuple(hits), tuple(target.doubts), "" if hits else remark, search.premises)
+        return FoundValues(*about, tuple(hits), tuple(target.doubts), "" if hits else remark, search.premises)
     except NotMovedError as error:
         moved = _moved_by(answer, wanted, error)
-        return Found(*about, tuple(target.there()), target.all_doubts, moved, search.premises)
+        return FoundValues(*about, tuple(target.there()), target.all_doubts, moved, search.premises)
     if wanted.is_nearest:
         hits.sort(key=lambda each: each.away)
-    return Found(*about, tuple(hits), target.all_doubts, "" if hits else remark, search.premises)
+    return FoundValues(*about, tuple(hits), target.all_doubts, "" if hits else remark, search.premises)
 
 
 def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:

@@ -50,7 +50,7 @@ PICTURE, BY_ROW = Lattice(305, 201, 4), Lattice(65, 41, 2)
 UNKNOWN = -1
 
 
-class Region(Shown, Struct, frozen=True, eq=False):
+class FeasibleRegion(Shown, Struct, frozen=True, eq=False):
     """Values of two words, within a box, with which a block has a contour: the lines that bound them.
 
     `units` are what the words are written in. Nothing here is a proof: the values were sampled. Each line is within
@@ -106,22 +106,9 @@ def region(
     words: tuple[str, str],
     within: tuple[Point, Point],
     **options: Unpack[BlockOptions],
-) -> Region:
-    """The region of two words' values, as they are written, in which the contour is solved.
-
-    Args:
-        block: the block, or the blocks of one contour.
-        words: the two words, words of the start point, or facts, as for `feasible`.
-        within: the range of each, lower value first.
-        options: as for `family`, with the same errors.
-
-    Values all over the box are solved. Around each change of the outcome, so are all that a picture can tell apart.
-    Between them nothing is proven.
-
-    >>> found = region("G111 X100. A180. K-30. B120. P5. Q5.", ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
-    >>> [each.reason.text for each in found.boundaries]
-    ['P is too large for the second straight', 'P is too large for the first straight']
-    """
+) -> FeasibleRegion:
+    """The region of two words' values, as they are written, in which the contour is solved; see
+    `contoursolve.ranges`."""
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")
     spec = spec_of(block, words, **options)
@@ -159,12 +146,12 @@ class _RegionSearch(FreeWords):
             return True
         return False
 
-    def run(self) -> Region:
+    def run(self) -> FeasibleRegion:
         """The region."""
         outcomes = self._sample()
         crossings = crossings_of(self.axes, outcomes, self._outcomes)
         cell, seen = ([float(each[step] - each[0]) for each in self.axes] for step in (1, self.lattice.coarse))
-        return Region(
+        return FeasibleRegion(
             words=_two(self.names),
             units=_two(self.units),
             diameters=_two(self.diameters),

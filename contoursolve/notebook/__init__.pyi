@@ -1,6 +1,6 @@
 from .conversation import Conversation as Conversation
 from .exploration import begin as begin
-from .explore import explore as explore, explore_map as explore_map
+from .explore import explore as explore
 from .mime_bundle import bundle as bundle, text_of as text_of
 from .open_products import (
     Product as Product,

@@ -1,10 +1,10 @@
-"""Opens the explorer of a contour, where its packages are installed."""
+"""Opens the explorer of a contour or a map, where its packages are installed."""
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from contoursolve.diagnostics import importing
-from contoursolve.families import Family, Region, with_numbers
+from contoursolve.families import Family, FeasibleRegion, with_numbers
 from contoursolve.notebook.exploration import begin, rewrite_block
 from contoursolve.reading import Dialect
 
@@ -13,7 +13,12 @@ if TYPE_CHECKING:
     from contoursolve.notebook.map_explorer import MapExplorer
 
 
-def explore(  # noqa: PLR0913 - what `solve` takes
+@overload
+def explore(block: Family | FeasibleRegion, *, result: str | None = None) -> "MapExplorer": ...
+
+
+@overload
+def explore(
     block: str,
     *,
     line: int | None = None,
@@ -26,7 +31,24 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     variables: Mapping[str, float] | None = None,
     tool: str | None = None,
     side: str | None = None,
-) -> "Explorer":
+) -> "Explorer": ...
+
+
+def explore(  # noqa: PLR0913 - what `solve` takes
+    block: str | Family | FeasibleRegion,
+    *,
+    line: int | None = None,
+    start: str | None = None,
+    control: str | Dialect | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    facts: Iterable[str] = (),
+    settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    tool: str | None = None,
+    side: str | None = None,
+    result: str | None = None,
+) -> "Explorer | MapExplorer":
     """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
 
     Arguments and errors as for `solve`; `block` may be several lines, with one contour. With `line`, it is a program,
@@ -37,10 +59,18 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     `"R0.8, tip 3"`, is written into the block as a comment and has a slider for its radius; `side` is `left` or `right`
     where the program has no G41 or G42.
 
+    A family over two words, or a region, is a map: point at it, or press arrow keys, and the contour of these values is
+    drawn beside it. A click opens the contour below. `result` colours the map, as for `draw`. Without a kernel, as in
+    exported HTML, the map still answers: it holds at most 800 contours, and tells where they are.
+
     Raises FamilyError for a variable without a value, and MissingExtraError without the packages of
-    `contoursolve[notebook]`. Raises ValueError for several contours without `line`, and for a line that belongs to
-    none.
+    `contoursolve[notebook]`. Raises ValueError for several contours without `line`, for a line that belongs to none,
+    and for a family that is no grid of two words.
     """
+    if not isinstance(block, str):
+        with importing("notebook", "exploring a map"):
+            from contoursolve.notebook.map_explorer import MapExplorer  # noqa: PLC0415 - needs an extra
+        return MapExplorer(block, result)
     with importing("notebook", "exploring a contour"):
         from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
     options: dict[str, Any] = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
@@ -51,18 +81,3 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     if variables:
         block = with_numbers(block, control, settings, variables)
     return Explorer(begin(block, facts, line, tool, side, **options))
-
-
-def explore_map(found: Family | Region, result: str | None = None) -> "MapExplorer":
-    """The map of a family over two words, or of a region, in a notebook: point at it, or press arrow keys, and the
-    contour of these values is drawn beside it. A click opens the contour below, as `explore` does.
-
-    `result` colours the map, as for `draw_family_map`. Without a kernel, as in exported HTML, the map still answers: it
-    holds at most 800 contours, and tells where they are. The traits are those of `explore`.
-
-    Raises ValueError for a family that is no grid of two words, and FamilyError for a result that is none. Raises
-    MissingExtraError without the packages of `contoursolve[notebook]`.
-    """
-    with importing("notebook", "exploring a map"):
-        from contoursolve.notebook.map_explorer import MapExplorer  # noqa: PLC0415 - needs an extra
-    return MapExplorer(found, result)

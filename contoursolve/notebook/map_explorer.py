@@ -6,7 +6,7 @@ from typing import Any
 
 import traitlets
 
-from contoursolve.families import Family, Region
+from contoursolve.families import Family, FeasibleRegion
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import Exploration, begin
 from contoursolve.notebook.explorer import Explorer
@@ -19,7 +19,7 @@ _LAST = "export default { render };"
 
 
 class MapExplorer(Explorer):
-    """A map whose values can be pointed at; see `explore_map`."""
+    """A map whose values can be pointed at; see `explore`."""
 
     _esm = (
         str(Explorer._esm).replace(_LAST, "")
@@ -37,7 +37,7 @@ class MapExplorer(Explorer):
     seen = traitlets.Dict().tag(sync=True)
     """The answer to that: a text and a path."""
 
-    def __init__(self, record: Family | Region, result: str | None = None) -> None:
+    def __init__(self, record: Family | FeasibleRegion, result: str | None = None) -> None:
         self._live = LiveMap(record, result)
         self._record = record
         super().__init__(self._opened(self._live.stated))

@@ -7,14 +7,14 @@ from typing import Any
 
 from contoursolve.diagnosis import Answer, EquationSystem
 from contoursolve.diagnostics import Shown
-from contoursolve.families import Family, Feasible, Region
+from contoursolve.families import Family, FeasibleRange, FeasibleRegion
 from contoursolve.notebook.records import bounded, text_of
 from contoursolve.program import Result
-from contoursolve.solving import Drawings, Drawn, Sketch
+from contoursolve.solving import Drawing, Drawings, Sketch
 
 __all__ = ["bundle", "text_of"]
 
-_DRAWN = (Answer, Result, Family, Feasible, Region, Sketch, Drawings, Drawn)
+_DRAWN = (Answer, Result, Family, FeasibleRange, FeasibleRegion, Sketch, Drawings, Drawing)
 """Records with a picture."""
 
 MOST_CHARACTERS = 2_000_000

@@ -7,7 +7,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import DECIMALS
-from contoursolve.families import End, Feasible, Interval, Way
+from contoursolve.families import End, FeasibleRange, Interval, Way
 
 LONGEST = 42
 """Characters of a line beside a slider."""
@@ -47,7 +47,7 @@ class _Piece(Struct, frozen=True):
         return f"{told} but {', '.join(self.holes)}" if self.holes else told
 
 
-def range_texts(found: Feasible, name: str, value: float | None) -> tuple[str, str]:
+def range_texts(found: FeasibleRange, name: str, value: float | None) -> tuple[str, str]:
     """The ranges of a word in a short line, and all of them where the line says less; else an empty text.
 
     The line has fewer digits where that leaves out little of a range, and tells those next to the value of the word; it

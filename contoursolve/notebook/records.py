@@ -8,7 +8,15 @@ from typing import Any
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count, join, states_in
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
-from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
+from contoursolve.families import (
+    Family,
+    FeasibleRange,
+    FeasibleRegion,
+    FoundValues,
+    Sensitivity,
+    ToleranceRange,
+    Tolerances,
+)
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.output import (
     Table,
@@ -227,11 +235,11 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Program: _program,
     Rule: _rule,
     Family: _family,
-    Feasible: range_lines,
-    Region: region_lines,
-    Found: found_lines,
+    FeasibleRange: range_lines,
+    FeasibleRegion: region_lines,
+    FoundValues: found_lines,
     Tolerances: tolerances_lines,
-    WordTolerance: word_tolerance_lines,
+    ToleranceRange: word_tolerance_lines,
     Sensitivity: _sensitivity,
     Sketch: _sketch,
     EquationSystem: _system,

@@ -9,7 +9,15 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
-from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
+from contoursolve.families import (
+    Family,
+    FeasibleRange,
+    FeasibleRegion,
+    FoundValues,
+    Sensitivity,
+    ToleranceRange,
+    Tolerances,
+)
 from contoursolve.gcode import Block
 from contoursolve.notebook.records import (
     bounded,
@@ -57,7 +65,7 @@ from contoursolve.output import (
 )
 from contoursolve.program import Result
 from contoursolve.reading import Rule
-from contoursolve.solving import Contour, Drawings, Drawn, Sketch
+from contoursolve.solving import Contour, Drawing, Drawings, Sketch
 
 MOST_ITEMS = 20
 """Contours and findings that one output shows."""
@@ -164,7 +172,7 @@ def _family(family: Family) -> Iterator[h.Node]:
     yield from (h.p[short(note)] for note in (*filter(None, [family.remark]), *rest_lines(family)))
 
 
-def _range(found: Feasible) -> Iterator[h.Node]:
+def _range(found: FeasibleRange) -> Iterator[h.Node]:
     yield figure(found)
     yield h.p[short(range_title(found))]
     if found.intervals:
@@ -172,7 +180,7 @@ def _range(found: Feasible) -> Iterator[h.Node]:
     yield from (h.p[short(note)] for note in range_notes(found))
 
 
-def _region(found: Region) -> Iterator[h.Node]:
+def _region(found: FeasibleRegion) -> Iterator[h.Node]:
     yield figure(found)
     yield h.p[short(region_title(found))]
     if found.boundaries:
@@ -180,7 +188,7 @@ def _region(found: Region) -> Iterator[h.Node]:
     yield from (h.p[short(note)] for note in region_notes(found))
 
 
-def _found(found: Found) -> Iterator[h.Node]:
+def _found(found: FoundValues) -> Iterator[h.Node]:
     yield h.p[short(found_title(found))]
     if found.remark:
         yield h.p[short(f"{found.remark}.")]
@@ -195,13 +203,13 @@ def _tolerances(found: Tolerances) -> Iterator[h.Node]:
     yield from (h.p[short(f"{line}.")] for line in spread_lines(found))
 
 
-def _word_tolerance(found: WordTolerance) -> Iterator[h.Node]:
+def _word_tolerance(found: ToleranceRange) -> Iterator[h.Node]:
     yield h.p[short(word_tolerance_title(found))]
     yield table_of(word_tolerance_table(found))
     yield from (h.p[short(f"{note}.")] for note in word_tolerance_notes(found))
 
 
-def _sketch(record: Sketch | Drawings | Drawn) -> Iterator[h.Node]:
+def _sketch(record: Sketch | Drawings | Drawing) -> Iterator[h.Node]:
     yield figure(record)
     yield from _text(record)
 
@@ -232,15 +240,15 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Block: _block,
     Rule: _rule,
     Family: _family,
-    Feasible: _range,
-    Region: _region,
-    Found: _found,
+    FeasibleRange: _range,
+    FeasibleRegion: _region,
+    FoundValues: _found,
     Tolerances: _tolerances,
-    WordTolerance: _word_tolerance,
+    ToleranceRange: _word_tolerance,
     Sensitivity: _sensitivity,
     Sketch: _sketch,
     Drawings: _sketch,
-    Drawn: _sketch,
+    Drawing: _sketch,
     EquationSystem: _system,
     Derivation: _derivation,
 }

@@ -23,14 +23,14 @@ from contoursolve.families import (
     Contribution,
     End,
     Family,
-    Feasible,
-    Found,
+    FeasibleRange,
+    FeasibleRegion,
+    FoundValues,
     Hit,
     Reason,
-    Region,
+    ToleranceRange,
     Tolerances,
     Way,
-    WordTolerance,
 )
 from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table, columns
@@ -40,14 +40,14 @@ from contoursolve.tool_radius import least_of
 # Ranges of a word --------------------------------------------------------------------------------------------
 
 
-def range_lines(found: Feasible) -> Iterator[str]:
+def range_lines(found: FeasibleRange) -> Iterator[str]:
     """The ranges of a word, each with what ends it."""
     yield range_title(found)
     yield from range_table(found).lines(is_headed=False)
     yield from (f"  {note}" for note in range_notes(found))
 
 
-def range_notes(found: Feasible) -> Iterator[str]:
+def range_notes(found: FeasibleRange) -> Iterator[str]:
     """Notes of a search for ranges: doubts, the refusal of the block as it stands, and the premises."""
     yield from (f"not proven: {each}" for each in found.doubts)
     yield from (f"warning: {each}" for each in found.warnings)
@@ -56,12 +56,14 @@ def range_notes(found: Feasible) -> Iterator[str]:
     yield from rest_lines(found)
 
 
-def rest_lines(found: Feasible | Region | Found | Tolerances | WordTolerance | CompiledSweep | Family) -> Iterator[str]:
+def rest_lines(
+    found: FeasibleRange | FeasibleRegion | FoundValues | Tolerances | ToleranceRange | CompiledSweep | Family,
+) -> Iterator[str]:
     """Lines of the premises of an answer: settings and assumptions beside the words."""
     yield from premise_texts(found.premises, found.premises.control)
 
 
-def range_title(found: Feasible) -> str:
+def range_title(found: FeasibleRange) -> str:
     """The title of a search for ranges: the word, its limits, and the number of ranges with its proof."""
     low, high = (written(value, found.unit) for value in found.within)
     number, proof = count(len(found.intervals), "range"), _proof(is_complete=found.is_complete)
@@ -76,7 +78,7 @@ def _proof(*, is_complete: bool) -> str:
     return "proven to be all" if is_complete else "at least; that these are all is not proven"
 
 
-def range_table(found: Feasible) -> Table:
+def range_table(found: FeasibleRange) -> Table:
     """Two rows for each range: its number, which end, the value, and what ends it there."""
     rows = []
     for place, each in enumerate(found.intervals, 1):
@@ -90,7 +92,7 @@ def _end_cells(end: End, unit: str) -> tuple[str, str]:
     return limit_text(end.listed, unit), f"{text} (not confirmed on both sides)" if not end.is_verified else text
 
 
-def range_data(found: Feasible) -> dict[str, Any]:
+def range_data(found: FeasibleRange) -> dict[str, Any]:
     """The ranges of a word as plain data: schema contoursolve/range/1. Values are as the word is written."""
     return {
         "schema": "contoursolve/range/1",
@@ -111,7 +113,7 @@ def _reason_data(reason: Reason) -> dict[str, str | None]:
     return {"text": reason.text, "code": reason.code or None, "message": reason.message or None}
 
 
-def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[Unfollowed]) -> Iterator[str]:
+def tools_lines(found: Mapping[tuple[int, ...], FeasibleRange], unfollowed: Sequence[Unfollowed]) -> Iterator[str]:
     """The largest tool for all contours of a program, that for each contour, by its lines, and what is left out."""
     least, rows = least_of(found), []
     whole = f"all {len(found)} contours" if len(found) > 1 else "the contour"
@@ -137,7 +139,7 @@ def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[
     yield from (f"  {each}" for each in rest_lines(least))
 
 
-def tools_data(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[Unfollowed]) -> dict[str, Any]:
+def tools_data(found: Mapping[tuple[int, ...], FeasibleRange], unfollowed: Sequence[Unfollowed]) -> dict[str, Any]:
     """The same as plain data: schema contoursolve/find-tool/1."""
     contours = [{"lines": [*lines], **range_data(each)} for lines, each in found.items()]
     least, left_out = least_of(found), [members(each, "line text reason") for each in unfollowed]
@@ -148,20 +150,20 @@ def tools_data(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[U
 # Regions of two words ----------------------------------------------------------------------------------------
 
 
-def region_lines(found: Region) -> Iterator[str]:
+def region_lines(found: FeasibleRegion) -> Iterator[str]:
     """The lines that bound the region of two words."""
     yield region_title(found)
     yield from region_table(found).lines(is_headed=False)
     yield from (f"  {each}" for each in region_notes(found))
 
 
-def region_notes(found: Region) -> Iterator[str]:
+def region_notes(found: FeasibleRegion) -> Iterator[str]:
     """Notes of a region: how finely it was sampled, and premises."""
     yield found.fineness
     yield from rest_lines(found)
 
 
-def region_title(found: Region) -> str:
+def region_title(found: FeasibleRegion) -> str:
     """The title of a region: the words, their limits, and the number of lines with its proof."""
     spans = zip(found.words, found.within, found.units, strict=True)
     box = ", ".join(f"{word} from {written(low, unit)} to {written(high, unit)}" for word, (low, high), unit in spans)
@@ -170,7 +172,7 @@ def region_title(found: Region) -> str:
     return f"{box}: {number} between where the contour exists and where not (sampled, not proven){whole}"
 
 
-def region_table(found: Region) -> Table:
+def region_table(found: FeasibleRegion) -> Table:
     """A row for each line: its number, its ends, how many points it has, and what fails beyond it."""
     rows = []
     for place, each in enumerate(found.boundaries, 1):
@@ -181,12 +183,12 @@ def region_table(found: Region) -> Table:
     return Table("The lines that bound it", header, rows, left=(0, 1, 3))
 
 
-def _pair(point: tuple[float, float], found: Region) -> str:
+def _pair(point: tuple[float, float], found: FeasibleRegion) -> str:
     pairs = zip(found.words, point, found.units, strict=True)
     return " ".join(f"{word} {written(value, unit)}" for word, value, unit in pairs)
 
 
-def region_data(found: Region) -> dict[str, Any]:
+def region_data(found: FeasibleRegion) -> dict[str, Any]:
     """The region of two words as plain data: schema contoursolve/region/2. Values are as the words are written."""
     return {
         "schema": "contoursolve/region/2",
@@ -202,7 +204,7 @@ def region_data(found: Region) -> dict[str, Any]:
 # Values that bring a point where it is wanted ----------------------------------------------------------------
 
 
-def found_lines(found: Found) -> Iterator[str]:
+def found_lines(found: FoundValues) -> Iterator[str]:
     """The values, each with where the point is then, and the block to write."""
     yield found_title(found)
     if found.remark:
@@ -214,7 +216,7 @@ def found_lines(found: Found) -> Iterator[str]:
     yield from (f"  {each}" for each in rest_lines(found))
 
 
-def found_title(found: Found) -> str:
+def found_title(found: FoundValues) -> str:
     """The title of a search for values: the goal, the word with its limits, and the number of values with its proof."""
     low, high = (written(value, found.unit) for value in found.within)
     number = count(len(found.hits), "value") if found.hits else "no value"
@@ -223,13 +225,13 @@ def found_title(found: Found) -> str:
     return f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
 
 
-def found_table(found: Found) -> Table:
+def found_table(found: FoundValues) -> Table:
     """Each value, where the point is then, the certificate (may be empty), the block, and what rounding does."""
     header = (found.word, "the point is then at", "certificate", "the block", "what rounding does")
     return Table("Values", header, [_hit_cells(hit, found) for hit in found.hits], left=(1, 2, 3, 4))
 
 
-def _hit_cells(hit: Hit, found: Found) -> tuple[str, str, str, str, str]:
+def _hit_cells(hit: Hit, found: FoundValues) -> tuple[str, str, str, str, str]:
     away = f", {length_in(hit.away, found.length)} away" if found.goal.is_nearest else ""
     at = f"{measured(hit.point, found.plane, found.length)}{away}"
     rounding = "rounded like this, the block has no contour"
@@ -239,7 +241,7 @@ def _hit_cells(hit: Hit, found: Found) -> tuple[str, str, str, str, str]:
     return written(hit.value, found.unit), at, certificate_text(hit.certificate), hit.block, rounding
 
 
-def found_data(found: Found) -> dict[str, Any]:
+def found_data(found: FoundValues) -> dict[str, Any]:
     """The values as plain data: schema contoursolve/find/1. Points are in mm, X of a lathe as radius."""
     return {
         "schema": "contoursolve/find/1",
@@ -376,20 +378,20 @@ def _effect_data(each: Contribution) -> dict[str, Any]:
 # How far a word may be off -----------------------------------------------------------------------------------
 
 
-def word_tolerance_lines(found: WordTolerance) -> Iterator[str]:
+def word_tolerance_lines(found: ToleranceRange) -> Iterator[str]:
     """The values between which a word may be, and what ends them."""
     yield word_tolerance_title(found)
     yield from word_tolerance_table(found).lines(is_headed=False)
     yield from (f"  {note}" for note in word_tolerance_notes(found))
 
 
-def word_tolerance_title(found: WordTolerance) -> str:
+def word_tolerance_title(found: ToleranceRange) -> str:
     """The word, and what it moves."""
     most, proof = f"{found.most:g} {short_name(found.kept_unit)}", "proven" if found.is_complete else "not proven"
     return f"{found.word}, now {written(found.stated, found.unit)}: {found.kept} moves by at most {most} ({proof})"
 
 
-def word_tolerance_table(found: WordTolerance) -> Table:
+def word_tolerance_table(found: ToleranceRange) -> Table:
     """A row for each end: the value, how far it is from that of the block, and what ends it."""
     rows = []
     for name, end in (("from", found.low), ("to", found.high)):
@@ -399,7 +401,7 @@ def word_tolerance_table(found: WordTolerance) -> Table:
     return Table("How far it may be off", ("end", "value", "off by", "what ends it"), rows, left=(0, 3))
 
 
-def word_tolerance_notes(found: WordTolerance) -> Iterator[str]:
+def word_tolerance_notes(found: ToleranceRange) -> Iterator[str]:
     """The linear estimate, what is not proven, and the premises."""
     if found.linear is not None:
         yield f"to first order: +-{written(found.linear, found.unit)}"
@@ -409,7 +411,7 @@ def word_tolerance_notes(found: WordTolerance) -> Iterator[str]:
     yield from rest_lines(found)
 
 
-def word_tolerance_data(found: WordTolerance) -> dict[str, Any]:
+def word_tolerance_data(found: ToleranceRange) -> dict[str, Any]:
     """The tolerance of a word as plain data, in the units in which it and what is kept are written."""
     return {
         **members(found, "word unit stated keep=kept keep_unit=kept_unit within=most linear"),

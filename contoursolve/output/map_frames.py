@@ -15,8 +15,8 @@ from contoursolve.families import (
     Branches,
     CompiledSweep,
     Family,
+    FeasibleRegion,
     Ranges,
-    Region,
     Template,
     compile_sweep,
     first_error,
@@ -72,8 +72,8 @@ class LiveMap:
     Raises ValueError for a family that is no grid of two words, FamilyError for a result that is none.
     """
 
-    def __init__(self, record: Family | Region, result: str | None = None) -> None:
-        if not isinstance(record, Family | Region):
+    def __init__(self, record: Family | FeasibleRegion, result: str | None = None) -> None:
+        if not isinstance(record, Family | FeasibleRegion):
             raise TypeError(f"a map is of a family over two words or of a region, not of {type(record).__name__}")
         if record.spec.branches is not Branches.CHOSEN:
             raise ValueError(
@@ -84,14 +84,14 @@ class LiveMap:
         self.spec = record.spec
         self.template: Template = record.spec.template()
         self._ready: CompiledSweep | None = None
-        is_region = isinstance(record, Region)
-        self.order = tuple(record.words) if isinstance(record, Region) else tuple(record.ranges.values)
+        is_region = isinstance(record, FeasibleRegion)
+        self.order = tuple(record.words) if isinstance(record, FeasibleRegion) else tuple(record.ranges.values)
         self.picture: Picture = (
             draw_region(record, result=result, theme=Theme.PAGE)
-            if isinstance(record, Region)
+            if isinstance(record, FeasibleRegion)
             else draw_family_map(record, result=result, theme=Theme.PAGE)
         )
-        grid = record.family() if isinstance(record, Region) else record
+        grid = record.family() if isinstance(record, FeasibleRegion) else record
         measures = grid.measures()
         self.units = [measures[word].unit for word in self.plane.words]
         self.result, self.result_unit = "", ""
@@ -105,7 +105,7 @@ class LiveMap:
         self.axes = [_rounded(each, decimals) if is_region else each for each in self.plane.axes]
         """Values of both words that a reader can point at."""
         stated = [float(self.template.words[word].number or 0) for word in self.plane.words]
-        self.stated = record.stated if isinstance(record, Region) else (stated[0], stated[1])
+        self.stated = record.stated if isinstance(record, FeasibleRegion) else (stated[0], stated[1])
 
     def _family(self, columns: Mapping[str, Array], *, is_paired: bool = False) -> Family:
         """The family at some values of both words; the others have one."""

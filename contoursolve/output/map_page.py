@@ -10,7 +10,7 @@ from importlib.resources import files
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.families import Family, Region
+from contoursolve.families import Family, FeasibleRegion
 from contoursolve.output.html import notebook_style, page_style, short, style_rules
 from contoursolve.output.map_frames import LiveMap
 from contoursolve.output.plain_text import printable
@@ -64,7 +64,7 @@ def map_element(live: LiveMap, *, is_inline: bool = False) -> h.Element:
     ]
 
 
-def map_page(record: Family | Region, result: str | None = None, *, version: str = "") -> str:
+def map_page(record: Family | FeasibleRegion, result: str | None = None, *, version: str = "") -> str:
     """A page of HTML with the map of a family over two words, or of a region. Pointer and arrow keys choose values, and
     the page draws their contour. `result` colours the map, as for `draw_family_map`.
 

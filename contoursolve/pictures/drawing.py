@@ -6,7 +6,7 @@ An answer or a family comes in, one page of shapes goes out. Begin with `compose
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from msgspec.structs import replace
 
@@ -20,36 +20,28 @@ from contoursolve.pictures.theme import Role, Theme
 from contoursolve.program import Result
 
 if TYPE_CHECKING:
-    from contoursolve.families import CompiledSweep, Family, Feasible, Region
-    from contoursolve.solving import Drawings, Drawn, Sketch
+    from contoursolve.families import CompiledSweep, Family, FeasibleRange, FeasibleRegion
+    from contoursolve.solving import Drawing, Drawings, Sketch
 
-Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region | Sketch | Drawings | Drawn"
+Drawable: TypeAlias = "Answer | Result | Family | FeasibleRange | FeasibleRegion | Sketch | Drawings | Drawing"
 """Types that `draw` accepts."""
 
 
-def draw(
-    record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None, beside: Sequence[ToolDrawing] = ()
-) -> Picture:
+def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, **options: Any) -> Picture:
     """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, or
-    of every way to draw a sketch. `is_whole` is for a program: see `draw_result`. `beside` is what else is drawn
-    with contours.
+    of every way to draw a sketch. The options are those of the function for such a record.
 
-    Raises ValueError for a family that is no grid of two words, and for a sketch whose facts make no sense.
+    Raises TypeError for an option that such a record does not have, ValueError for a family that is no grid of two
+    words, and for a sketch whose facts make no sense.
     """
-    from contoursolve.families import Family, Feasible, Region  # noqa: PLC0415 - not needed for one contour
-    from contoursolve.solving import Drawings, Drawn, Sketch  # noqa: PLC0415 - as above
-
-    if isinstance(record, Result):
-        return draw_result(record, theme=theme, is_whole=is_whole, beside=beside)
-    if isinstance(record, Family):
-        return draw_family_map(record, theme=theme)
-    if isinstance(record, Feasible):
-        return draw_range(record, theme=theme)
-    if isinstance(record, Sketch | Drawings | Drawn):
-        return draw_drawings(record.solve() if isinstance(record, Sketch) else record, theme=theme)
-    if isinstance(record, Region):
-        return draw_region(record, theme=theme)
-    return draw_answer(record, theme=theme, beside=beside)
+    kind = type(record).__name__
+    if kind not in _DRAWN:
+        raise TypeError(f"a {kind} has no picture; it is drawn of a contour, a program, a family, a range, or a sketch")
+    make, known = _DRAWN[kind]
+    unknown = next((name for name in options if name not in known), None)
+    if unknown is not None:
+        raise TypeError(f"the picture of a {kind} has no option {unknown!r}; it has theme, {', '.join(known)}")
+    return make(record, theme=theme, **options)
 
 
 def draw_answer(
@@ -163,7 +155,7 @@ def draw_family_map(
     return finish(lay_out_map(family, words, title, result=result), theme)
 
 
-def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_range(found: FeasibleRange, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of a word with which a block has a contour: a bar with what ends each range."""
     from contoursolve.pictures.value_axes import lay_out_range  # noqa: PLC0415 - as above
 
@@ -171,7 +163,7 @@ def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None
 
 
 def draw_region(
-    region: Region, *, result: str | None = None, theme: Theme = Theme.LIGHT, title: str | None = None
+    region: FeasibleRegion, *, result: str | None = None, theme: Theme = Theme.LIGHT, title: str | None = None
 ) -> Picture:
     """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
     what fails beyond it, and a field for each status, as they were sampled; with a `result`, as `draw_family_map`."""
@@ -180,13 +172,13 @@ def draw_region(
     return finish(lay_out_region(region, title, result), theme)
 
 
-def draw_drawings(drawings: Drawings | Drawn, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_drawings(drawings: Drawings | Drawing, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of every way to draw a sketch, or of one: what is given, the facts as dimensions, and each drawing by
     its number, with what tells it from the others below."""
     from contoursolve.pictures.sketches import compose_drawings, compose_drawn  # noqa: PLC0415 - as above
-    from contoursolve.solving import Drawn  # noqa: PLC0415 - as above
+    from contoursolve.solving import Drawing  # noqa: PLC0415 - as above
 
-    scene = compose_drawn(drawings, title) if isinstance(drawings, Drawn) else compose_drawings(drawings, title)
+    scene = compose_drawn(drawings, title) if isinstance(drawings, Drawing) else compose_drawings(drawings, title)
     return finish(lay_out(scene), theme, str(drawings))
 
 
@@ -210,3 +202,21 @@ def draw_sweep(
     if isinstance(shown, tuple):
         return draw_family_fan(*shown, theme=theme, title=told)
     return finish(lay_out_map(shown, None, told, ready.ranges, result), theme)
+
+
+def _draw_sketch(sketch: Sketch, **options: Any) -> Picture:
+    return draw_drawings(sketch.solve(), **options)
+
+
+_DRAWN: Mapping[str, tuple[Callable[..., Picture], tuple[str, ...]]] = {
+    "Answer": (draw_answer, ("title", "like", "has_remarks", "beside")),
+    "Result": (draw_result, ("title", "is_whole", "beside")),
+    "Family": (draw_family_map, ("title", "words", "result")),
+    "FeasibleRange": (draw_range, ("title",)),
+    "FeasibleRegion": (draw_region, ("title", "result")),
+    "Sketch": (_draw_sketch, ("title",)),
+    "Drawings": (draw_drawings, ("title",)),
+    "Drawing": (draw_drawings, ("title",)),
+}
+"""The function for each kind of record, by its name, for its room need not be imported; and its options beside the
+theme."""

@@ -11,9 +11,9 @@ from contoursolve.diagnosis import statuses_text
 from contoursolve.families import (
     Boundary,
     Family,
+    FeasibleRegion,
     Outcomes,
     Ranges,
-    Region,
     boundaries_of,
     compile_sweep,
     crossings_of,
@@ -74,9 +74,11 @@ class ResultField(Struct, frozen=True, eq=False):
     levels: Levels | None
 
 
-def plane_of(record: Family | Region, chosen: tuple[str, str] | None = None, whole: Ranges | None = None) -> MapPlane:
+def plane_of(
+    record: Family | FeasibleRegion, chosen: tuple[str, str] | None = None, whole: Ranges | None = None
+) -> MapPlane:
     """The plane of a map of a family or a region. Raises ValueError for a family that is no grid of two words."""
-    if isinstance(record, Region):
+    if isinstance(record, FeasibleRegion):
         axes = tuple(
             numpy.linspace(*ends, count) for ends, count in zip(record.within, record.outcomes.shape, strict=True)
         )
@@ -119,9 +121,9 @@ def _drawn(family: Family, words: Sequence[str], values: NDArray[Number]) -> NDA
     return (grid if own == list(words) else grid.T)[numpy.ix_(*_places(family, words))]
 
 
-def result_in(record: Family | Region, plane: MapPlane, name: str) -> ResultField:
+def result_in(record: Family | FeasibleRegion, plane: MapPlane, name: str) -> ResultField:
     """A result of a family or a region in its plane. Raises FamilyError for a name that is none."""
-    if isinstance(record, Region):
+    if isinstance(record, FeasibleRegion):
         family = record.family()
         values = family.result(name)
     else:
@@ -157,7 +159,7 @@ def lay_out_map(
     return _page(named, plane, curves, [], remarks, field)
 
 
-def lay_out_region(region: Region, title: str | None, result: str | None = None) -> Sheet:
+def lay_out_region(region: FeasibleRegion, title: str | None, result: str | None = None) -> Sheet:
     """The page of a region, with a result if one is named. Raises FamilyError for one that is none."""
     plane = plane_of(region)
     field = None if result is None else result_in(region, plane, result)
@@ -167,7 +169,7 @@ def lay_out_region(region: Region, title: str | None, result: str | None = None)
     return _page(told, plane, curves, _stated(region, plane.chart, curves), remarks, field)
 
 
-def _region_title(region: Region, field: ResultField | None) -> str:
+def _region_title(region: FeasibleRegion, field: ResultField | None) -> str:
     """The title of a region: its words, and its result or where a contour exists."""
     words = " and ".join(region.words)
     if not region.boundaries:
@@ -225,9 +227,9 @@ def _range_told(field: ResultField) -> str:
     return f"{field.name}: from {low} to {high}; lines of equal value {every}{between}"
 
 
-def boundaries_in(record: Family | Region, plane: MapPlane) -> Sequence[Boundary]:
+def boundaries_in(record: Family | FeasibleRegion, plane: MapPlane) -> Sequence[Boundary]:
     """The lines between the values that are drawn with a contour and without."""
-    if isinstance(record, Region):
+    if isinstance(record, FeasibleRegion):
         return record.boundaries
     family, words, fixed, values = record, plane.words, plane.fixed, record.ranges.values
     template = family.spec.template().filled(fixed).with_words(words)
@@ -256,7 +258,7 @@ def picks(values: Array, most: int) -> Places:
     return order[((numpy.arange(most) + 0.5) * order.size / most).astype(numpy.int64)]
 
 
-def _stated(region: Region, chart: ValuePlane, curves: Sequence[Curve]) -> list[Item]:
+def _stated(region: FeasibleRegion, chart: ValuePlane, curves: Sequence[Curve]) -> list[Item]:
     """The values that the block has, where they are in the plane."""
     if not all(low <= value <= high for value, (low, high) in zip(region.stated, region.within, strict=True)):
         return []

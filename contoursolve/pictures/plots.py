@@ -7,7 +7,7 @@ from typing import Any
 import numpy
 
 from contoursolve.diagnostics import Shown, need
-from contoursolve.families import Family, Region, is_contour
+from contoursolve.families import Family, FeasibleRegion, is_contour
 from contoursolve.pictures.maps import boundaries_in, plane_of, result_in
 from contoursolve.pictures.theme import LEVELS, LIGHT_COLORS, Role
 from contoursolve.solving import Contour
@@ -26,7 +26,7 @@ def plot_record(record: Shown, ax: Any, **options: Any) -> Any:
         raise TypeError(f"ax is axes of matplotlib, such as matplotlib.pyplot.gca(), not {type(ax).__name__}")
     if isinstance(record, Contour):
         return _plot_contour(record, axes, **options)
-    if isinstance(record, Family | Region):
+    if isinstance(record, Family | FeasibleRegion):
         return _plot_map(record, axes, **options)
     raise TypeError(f"{type(record).__name__} has no plot")
 
@@ -45,7 +45,7 @@ def _plot_contour(contour: Contour, ax: Any, *, chord_error: float, **style: Any
 
 
 def _plot_map(
-    record: Family | Region, ax: Any, *, result: str | None = None, words: tuple[str, str] | None = None
+    record: Family | FeasibleRegion, ax: Any, *, result: str | None = None, words: tuple[str, str] | None = None
 ) -> Any:
     """The values with a contour, or a result there; the lines around it, and the values of the block."""
     plane = plane_of(record, words)
@@ -64,7 +64,7 @@ def _plot_map(
         ax.contourf(*plane.axes, has_contour.T, levels=[0.5, 1.5], colors=[LIGHT_COLORS[Role.SOLVED_FIELD]])
     for each, dash in zip(boundaries_in(record, plane), cycle(_DASHES), strict=False):
         ax.plot(*zip(*each.points, strict=True), color="black", linestyle=dash, label=each.reason.text)
-    if isinstance(record, Region) and all(
+    if isinstance(record, FeasibleRegion) and all(
         low <= value <= high for value, (low, high) in zip(record.stated, record.within, strict=True)
     ):
         ax.plot(*record.stated, "o", label="the block")

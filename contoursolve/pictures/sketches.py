@@ -24,7 +24,7 @@ from contoursolve.pictures.scene import (
 )
 from contoursolve.pictures.subject import PartialDrawing
 from contoursolve.pictures.theme import Role
-from contoursolve.solving import DIAGONAL, SAME, Drawings, Drawn, Point, Stated, along, distance, foot
+from contoursolve.solving import DIAGONAL, SAME, Drawing, Drawings, Point, Stated, along, distance, foot
 
 MOST_DRAWN = 12
 """Drawings in one picture; of more, their number is told."""
@@ -44,12 +44,12 @@ def compose_drawings(drawings: Drawings, title: str | None) -> Scene:
     return _scene(drawings, drawings.stated, title or f"sketch, {drawings.status.value}: {drawings.summary}")
 
 
-def compose_drawn(drawn: Drawn, title: str | None) -> Scene:
+def compose_drawn(drawn: Drawing, title: str | None) -> Scene:
     """The scene of one of them."""
     return _scene([drawn], drawn.stated, title or f"sketch: {drawn.name or 'only drawing'}")
 
 
-def _scene(drawings: Sequence[Drawn], stated: Stated | None, title: str) -> Scene:
+def _scene(drawings: Sequence[Drawing], stated: Stated | None, title: str) -> Scene:
     if stated is None:
         raise ValueError("a drawing that was not made by a sketch has no picture")
     profile, shown = stated.profile, drawings[:MOST_DRAWN]
@@ -98,7 +98,7 @@ def _role(place: int | None) -> Role:
     return Role.INK if place is None else Role.CANDIDATE
 
 
-def _solution(drawn: Drawn, place: int | None, profile: Profile) -> Iterator[Part]:
+def _solution(drawn: Drawing, place: int | None, profile: Profile) -> Iterator[Part]:
     """The path, circles and lines of one drawing, each with its number and its name where these are several."""
     figure, role, prefix = profile.figure, _role(place), "" if place is None else f"{place + 1}: "
     angle = pi / 4 + (place or 0) * _TURN
@@ -130,7 +130,7 @@ def _amid(profile: Profile) -> tuple[Point, float]:
     return middle, max(distance(at, middle) for at in places)
 
 
-def _points(shown: Sequence[Drawn], profile: Profile, *, is_several: bool) -> Iterator[Mark]:
+def _points(shown: Sequence[Drawing], profile: Profile, *, is_several: bool) -> Iterator[Mark]:
     """The named points of the path: in the drawings in which they are elsewhere with their numbers."""
     figure = profile.figure
     names = dict.fromkeys(point for each in figure.path for point in (each.tail, each.head))
@@ -151,7 +151,7 @@ def _points(shown: Sequence[Drawn], profile: Profile, *, is_several: bool) -> It
             yield Mark(at, MarkKind.PLACE, label, label[:1], role)
 
 
-def _dimensions(drawn: Drawn, stated: Stated) -> Iterator[Part]:
+def _dimensions(drawn: Drawing, stated: Stated) -> Iterator[Part]:
     """The facts about one drawing that have a form as dimensions, and what is asked for."""
     figure: Figure = stated.profile.figure
     trails = (Trail(drawn.contour.elements, Role.INK),) if drawn.contour is not None else ()
@@ -174,7 +174,7 @@ def _dimensions(drawn: Drawn, stated: Stated) -> Iterator[Part]:
             yield from filter(None, [dimension_of(traced, fact, text, Role.DERIVED, asked.value)])
 
 
-def _remarks(drawings: Sequence[Drawn], count: int) -> Iterator[tuple[TextRun, ...]]:
+def _remarks(drawings: Sequence[Drawing], count: int) -> Iterator[tuple[TextRun, ...]]:
     """Remarks that name each drawing and list the values that were asked for."""
     for place, drawn in enumerate(drawings[:count], 1):
         told = [each for each in (drawn.name, *map(str, drawn.asked)) if each]

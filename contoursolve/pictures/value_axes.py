@@ -7,7 +7,7 @@ import numpy
 from msgspec import Struct
 
 from contoursolve.diagnosis import limit_text, written
-from contoursolve.families import End, Feasible, Way
+from contoursolve.families import End, FeasibleRange, Way
 from contoursolve.numeric import Array
 from contoursolve.pictures.page import (
     PAD,
@@ -154,7 +154,7 @@ _MOST = 12
 """Ends that are told in words."""
 
 
-def lay_out_range(found: Feasible, title: str | None) -> Sheet:
+def lay_out_range(found: FeasibleRange, title: str | None) -> Sheet:
     """The page of the ranges of a word: where the contour exists, what ends it, and which value the block has."""
     proof = "" if found.is_complete else " (that these are all is not proven)"
     low, high = _shown(found)
@@ -180,7 +180,7 @@ def lay_out_range(found: Feasible, title: str | None) -> Sheet:
     return page_of(told, items, list(_remarks(found)), bottom + 62.0)
 
 
-def _ends(found: Feasible) -> Iterator[tuple[End, str]]:
+def _ends(found: FeasibleRange) -> Iterator[tuple[End, str]]:
     """Values at which the contour begins or ceases to exist, each with "from" or "to"."""
     for each in found.intervals:
         if each.low.way is not Way.RANGE:
@@ -189,7 +189,7 @@ def _ends(found: Feasible) -> Iterator[tuple[End, str]]:
             yield each.high, "to"
 
 
-def _shown(found: Feasible) -> tuple[float, float]:
+def _shown(found: FeasibleRange) -> tuple[float, float]:
     """The range of values that is shown: all ends and the stated value, with a margin, within the range of the
     search."""
     values = [end.value for end, _ in _ends(found)] or list(found.within)
@@ -198,7 +198,7 @@ def _shown(found: Feasible) -> tuple[float, float]:
     return max(low - margin, min(found.within[0], low)), min(high + margin, max(found.within[1], high))
 
 
-def _remarks(found: Feasible) -> Iterator[tuple[str, Role]]:
+def _remarks(found: FeasibleRange) -> Iterator[tuple[str, Role]]:
     """The value that the block has, and what fails beyond each end."""
     yield f"the block has {written(found.stated, found.unit)}", Role.GIVEN
     ends = list(_ends(found))

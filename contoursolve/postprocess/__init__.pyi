@@ -41,7 +41,7 @@ from .wordings import (
     WrittenWord as WrittenWord,
 )
 from .written import (
-    Written as Written,
     WrittenContour as WrittenContour,
+    WrittenContours as WrittenContours,
     write_contour as write_contour,
 )

@@ -79,7 +79,7 @@ class WrittenContour(Struct, frozen=True):
         return tuple(word for block in self.blocks for word in block.words if word.ground is ground)
 
 
-class Written(Struct, frozen=True):
+class WrittenContours(Struct, frozen=True):
     """A contour in the words of a control: the candidates, the best first. `reason` says what the control has no words
     for, or why it cannot make the contour at all."""
 
@@ -89,7 +89,7 @@ class Written(Struct, frozen=True):
     reason: str = ""
 
 
-def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATES) -> Written:
+def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATES) -> WrittenContours:
     """The wordings of a solved contour for a control. Raises ConversionError if it has no path, or one of no length."""
     drawn = draw(answer)
     if not drawn.elements:
@@ -99,10 +99,10 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
     if machine_of(target) is not kind:
         made = {MachineKind.LATHE: "turned", MachineKind.MILL: "milled"}[kind]
         reason = f"the contour is {made}, and this control is for {machine_of(target).value}s"
-        return Written(target.name, target.title, (), reason)
+        return WrittenContours(target.name, target.title, (), reason)
     if not says_unit(target, drawn.unit):
         reason = "the contour is in inch, and no word of this control says so: write it in mm"
-        return Written(target.name, target.title, (), reason)
+        return WrittenContours(target.name, target.title, (), reason)
     rounded, found = with_roundings(drawn), list[WrittenContour]()
     search = _Search([drawn] if rounded == drawn else [drawn, rounded], target, answer)
     share = min(1.0, _SHORT / len(drawn.elements))
@@ -114,7 +114,7 @@ def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATE
         plain = _Search([drawn], target, answer, is_plain=True).first()
         found += [plain.written] if plain else []
     found.sort(key=lambda each: (each.cost, each.lines))
-    return Written(target.name, target.title, tuple(found), _reason(found, search))
+    return WrittenContours(target.name, target.title, tuple(found), _reason(found, search))
 
 
 def _reason(found: Sequence[WrittenContour], search: "_Search") -> str:

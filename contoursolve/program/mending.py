@@ -133,7 +133,7 @@ def likely_fixes(finding: Diagnostic) -> list[Fix]:
     return [*first, *(fix for fix in safe_fixes(finding) if fix not in first)]
 
 
-class Mended(Struct, frozen=True):
+class FixedProgram(Struct, frozen=True):
     """A program with its fixes applied, in their order, and those that were left, with their trouble."""
 
     text: str
@@ -151,7 +151,7 @@ def mend(
     examine: Callable[[str], Examined],
     wanted: Wanted = safe_fixes,
     agrees: Callable[[Mend], bool] = lambda _: True,
-) -> Mended:
+) -> FixedProgram:
     """Apply all wanted fixes to a program, and then those that are wanted of the program that this makes, until none is
     left. One that changes the contour is applied only if `agrees` says so.
 
@@ -178,14 +178,14 @@ def mend(
         applied += batch
         left = {(_moved(line, changes), code, new): each for (line, code, new), each in left.items()}
         now = after
-    return Mended(now.text, tuple(applied), tuple(left.values()), now)
+    return FixedProgram(now.text, tuple(applied), tuple(left.values()), now)
 
 
 _AT_ONCE = 1 << 16
 """Fixes that are applied before the program is examined again."""
 
 
-def mend_open(program: OpenProgram, wanted: Wanted = safe_fixes) -> Mended:
+def mend_open(program: OpenProgram, wanted: Wanted = safe_fixes) -> FixedProgram:
     """The same of a program that is open in an editor, which stays as it is."""
     copy = program.copy()
 

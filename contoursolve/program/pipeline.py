@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -55,6 +55,8 @@ class Result(Shown, Struct, frozen=True):
     """The values of variables, and where subprograms are."""
     is_concluded: bool = False
     """Whether a finding says from what its control is concluded."""
+    tool: Any = None
+    """The `ToolReport` of the tool for which it was solved; None without one."""
 
     __hash__ = hash_of
 

@@ -1,11 +1,12 @@
 """A contour in the words of a control, or of all controls: `contoursolve.write`."""
 
 from collections.abc import Mapping
+from typing import overload
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, status_text
 from contoursolve.diagnostics import UserError
-from contoursolve.postprocess import Written, write_contour
+from contoursolve.postprocess import WrittenContours, write_contour
 from contoursolve.program import Result, configure, find_dialect
 from contoursolve.reading import Dialect
 from contoursolve.sketches.known_part import solve_sketch
@@ -16,14 +17,30 @@ class UnfinishedError(UserError, ValueError):
     """A contour that has no path yet, so that it has no words; the message says what is open."""
 
 
+@overload
 def write(
     contour: Answer | Result | ContourSketch, control: str | Dialect, *, settings: Mapping[str, str] | None = None
-) -> Written:
+) -> WrittenContours: ...
+
+
+@overload
+def write(
+    contour: Answer | Result | ContourSketch, control: None = None, *, settings: Mapping[str, str] | None = None
+) -> tuple[WrittenContours, ...]: ...
+
+
+def write(
+    contour: Answer | Result | ContourSketch,
+    control: str | Dialect | None = None,
+    *,
+    settings: Mapping[str, str] | None = None,
+) -> WrittenContours | tuple[WrittenContours, ...]:
     """A contour in the words of a control: those first that have the drawing's own numbers, and are few.
 
     Args:
         contour: a sketch, a solved contour, or the result of a program with one contour.
-        control: its name, such as `fanuc-lathe`, or its tables.
+        control: its name, such as `fanuc-lathe`, or its tables; without it, all of them are written for, each with its
+            first candidate.
         settings: conventions of the controls by `control.name`, as for `solve`.
 
     Returns:
@@ -38,16 +55,11 @@ def write(
     >>> write(shaft, "fanuc-lathe").candidates[0].lines
     ('G01 Z-30. ,R5.', 'X100. ,A120.')
     """
+    if control is None:
+        answer = _answer_of(contour)
+        return tuple(write_contour(answer, configure(DIALECTS[name], settings), most=1) for name in DIALECTS)
     target = control if isinstance(control, Dialect) else configure(find_dialect(control), settings)
     return write_contour(_answer_of(contour), target)
-
-
-def write_for_all(
-    contour: Answer | Result | ContourSketch, *, settings: Mapping[str, str] | None = None
-) -> tuple[Written, ...]:
-    """The same for every control: the first candidate of each, or the reason why there is none."""
-    answer = _answer_of(contour)
-    return tuple(write_contour(answer, configure(DIALECTS[name], settings), most=1) for name in DIALECTS)
 
 
 def _answer_of(contour: Answer | Result | ContourSketch) -> Answer:

@@ -105,8 +105,8 @@ from .determinacy import (
     survey as survey,
 )
 from .drawn import (
+    Drawing as Drawing,
     Drawings as Drawings,
-    Drawn as Drawn,
     Stated as Stated,
 )
 from .enumerate import (

@@ -35,7 +35,7 @@ class Asked(Struct, frozen=True):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Drawn(Shown):
+class Drawing(Shown):
     """One way to draw a sketch, in mm: points (the start among them if a path begins there), radii and lines.
 
     A line has its direction (cosine, sine), and how far the origin lies to the right of it. `contour` is the path, if
@@ -58,7 +58,7 @@ class Drawn(Shown):
         parts = [f"{name} {_place(at)}" for name, at in self.points.items()]
         parts += [f"{name} {_shown(radius)} mm" for name, radius in self.radii.items()]
         parts += map(str, self.asked)
-        return f"<Drawn {self.name or 'only drawing'}: {', '.join(parts)}>"
+        return f"<Drawing {self.name or 'only drawing'}: {', '.join(parts)}>"
 
     def __str__(self) -> str:
         return "\n".join(self._lines())
@@ -84,7 +84,7 @@ class Drawn(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Drawings(Shown, Sequence[Drawn]):
+class Drawings(Shown, Sequence[Drawing]):
     """All ways to draw a sketch.
 
     The list is complete, with proof, if `is_complete`; else `doubts` says what could not be decided. `reach` is how
@@ -94,7 +94,7 @@ class Drawings(Shown, Sequence[Drawn]):
     """
 
     status: Status
-    drawings: tuple[Drawn, ...]
+    drawings: tuple[Drawing, ...]
     is_complete: bool
     doubts: tuple[str, ...]
     reach: float | None
@@ -109,7 +109,7 @@ class Drawings(Shown, Sequence[Drawn]):
     def __getitem__(self, index):  # type: ignore[no-untyped-def]
         return self.drawings[index]
 
-    def __iter__(self) -> Iterator[Drawn]:
+    def __iter__(self) -> Iterator[Drawing]:
         return iter(self.drawings)
 
     def __repr__(self) -> str:

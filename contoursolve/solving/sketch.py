@@ -35,7 +35,7 @@ from contoursolve.geometry import (
 from contoursolve.solving.alternatives import decide, find_alternatives
 from contoursolve.solving.contour import trace
 from contoursolve.solving.determinacy import analyse
-from contoursolve.solving.drawn import Asked, Drawings, Drawn, Stated, worded
+from contoursolve.solving.drawn import Asked, Drawing, Drawings, Stated, worded
 from contoursolve.solving.events import RefusalKind, Status
 from contoursolve.solving.numbers import lookup, scalars_of
 from contoursolve.solving.solution import Alternative, Alternatives
@@ -305,12 +305,12 @@ def _read(number: int, fact: str | Statement, words: Vocabulary) -> Statement:
         raise GrammarError(f"fact {number} `{fact}`: {error}", error.begin, error.end) from None
 
 
-def _drawn(item: Alternative, stated: Stated) -> Drawn:
+def _drawn(item: Alternative, stated: Stated) -> Drawing:
     profile, texts, solution = stated.profile, stated.texts, item.solution
     figure = profile.figure
     lines = {line: tuple(item.scalars[f"{line}.{part}"] for part in ("cos", "sin", "off")) for line in figure.carriers}
     at = lookup(profile, {**solution.scalars, **scalars_of(solution.points), **solution.radii})
-    return Drawn(
+    return Drawing(
         points={name: at for name, at in solution.points.items() if figure.path or name != figure.start},
         radii=dict(solution.radii),
         lines={name: (cosine, sine, offset) for name, (cosine, sine, offset) in lines.items()},

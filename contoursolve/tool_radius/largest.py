@@ -12,7 +12,7 @@ from contoursolve.families import (
     TOOL,
     BlockOptions,
     End,
-    Feasible,
+    FeasibleRange,
     Interval,
     Reason,
     RefusedError,
@@ -56,7 +56,7 @@ class ToolTrials:
         self.told = ToolFindings(result, dialect, asked, wanted)
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
 
-    def radii(self, number: int, within: tuple[float, float] | None) -> Feasible:
+    def radii(self, number: int, within: tuple[float, float] | None) -> FeasibleRange:
         """The radii that fit a run. Raises FamilyError, ToolError."""
         own = self.runs[number]
         unit, scale = own.unit.value, float(own.unit.in_mm)
@@ -72,7 +72,7 @@ class ToolTrials:
         reason = None if found else self._end(number, every[-1], high, 1).reason
         refusal = "" if reason is None else reason.text
         held = "of tools that cut the contour"
-        return Feasible(*about, refusal, False, is_open, self.premises, held, tuple(self._warnings(number)))
+        return FeasibleRange(*about, refusal, False, is_open, self.premises, held, tuple(self._warnings(number)))
 
     def _end(self, number: int, fits: FittingRadii, bound: float, way: int) -> End:
         """The upper (`way` 1) or the lower end (-1) of radii that fit, within a bound of the search."""
@@ -115,13 +115,13 @@ class ToolTrials:
 
 def largest_tools(
     trials: ToolTrials, result: Result, within: tuple[float, float] | None
-) -> dict[tuple[int, ...], Feasible]:
+) -> dict[tuple[int, ...], FeasibleRange]:
     """The tools that cut each contour of a program, by its lines. Raises ToolError, FamilyError, RefusedError."""
     if errors_of(result) or any(each.contour is None for each in result.answers):
         raise RefusedError(result)
     if not trials.runs:
         raise nothing_cut(trials.path)
-    found = dict[tuple[int, ...], Feasible]()
+    found = dict[tuple[int, ...], FeasibleRange]()
     for number, own in enumerate(trials.runs):
         each = trials.radii(number, within)
         # A contour that runs several times may begin elsewhere each time.
@@ -129,7 +129,7 @@ def largest_tools(
     return found
 
 
-def least_of(found: Mapping[tuple[int, ...], Feasible]) -> Feasible:
+def least_of(found: Mapping[tuple[int, ...], FeasibleRange]) -> FeasibleRange:
     """The tools that cut all contours: those that cut the one with the smallest limit."""
     return min(found.values(), key=lambda each: each.largest * float(Length(each.unit).in_mm))
 
@@ -144,28 +144,13 @@ class ToolOptions(BlockOptions, total=False):
 
 def find_tools(
     text: str, *, within: tuple[float, float] | None = None, **options: Unpack[ToolOptions]
-) -> Mapping[tuple[int, ...], Feasible]:
-    """The radii of tools that cut each contour of a program, by its lines, and what ends them.
-
-    Args:
-        text: the program, or a block; every run of cutting moves is a contour, with contour words or without.
-        within: the range of radii to search; without it, up to 1 m.
-        side: `left` or `right`; without it what the program's G41 or G42 (RL, RR) says.
-        tip: the number of the imaginary tip of a turning tool, 0 to 9.
-        outside: the way around an outside corner, `roll` or `intersect`; without it as the program or the control says.
-        options: as for `feasible`, with the same errors.
-
-    Radii are in the unit of the program. Raises ToolError for a tool that there cannot be, for a side that
-    nothing says, and without a cutting move.
+) -> Mapping[tuple[int, ...], FeasibleRange]:
+    """The radii of tools that cut each contour of a program, by its lines, and what ends them; see
+    `contoursolve.ranges`.
 
     A smaller tool is taken to fit wherever a larger one does, and both sides of each end are tried. Run-in and run-off
     may cross: where a large tool reaches over both, less is in its way than in that of a small one. There may be two
     ranges. What no path shows, such as a cycle, is left out; `contoursolve find` lists it.
-
-    >>> blocks = "G01 X20. Z-14.6\\nG02 X20.8 Z-15. R0.4\\nG01 X40. Z-15."
-    >>> found = find_tools(blocks, side="right", tip=3, start="X20. Z0.", control="fanuc-lathe")
-    >>> found[1, 2, 3].intervals[0].high.value
-    0.4
     """
     wanted, rest = request_of(options)
     template = spec_of(text, **rest).template()

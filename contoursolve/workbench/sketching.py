@@ -6,7 +6,7 @@ from typing import Any, Literal
 from contoursolve import sketches
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import plain
-from contoursolve.postprocess import NumberGround, Written, WrittenContour, WrittenWord, ending_of
+from contoursolve.postprocess import NumberGround, WrittenContour, WrittenContours, WrittenWord, ending_of
 from contoursolve.sketches import ContourSketch
 from contoursolve.workbench.fields import ActionError, Data, read_field
 
@@ -29,7 +29,7 @@ def words_of_sketch(action: Mapping[str, Any]) -> Data:
     """The words of a sketch for a control, or the first ones for each control. Raises as `sketches.write`."""
     sketch, control = _sketch(action), read_field(action, "control", str, "")
     if not control:
-        return {"rows": [_row(each) for each in sketches.write_for_all(sketch)]}
+        return {"rows": [_row(each) for each in sketches.write(sketch)]}
     if control not in DIALECTS:
         raise ActionError(f"{control!r} is no control here")
     written = sketches.write(sketch, control)
@@ -37,7 +37,7 @@ def words_of_sketch(action: Mapping[str, Any]) -> Data:
     return {**_row(written), "ending": ending_of(DIALECTS[control]), "candidates": candidates}
 
 
-def _row(written: Written) -> Data:
+def _row(written: WrittenContours) -> Data:
     block = "\n".join(written.candidates[0].lines) if written.candidates else ""
     return {"control": written.control, "title": written.title, "reason": written.reason, "block": block}
 

@@ -240,7 +240,7 @@ def test_fix_all_keeps_contours_and_line_ends(later):
             action = await chosen(editor, only, "Fix all that keep the contour")
             assert action.kind == "source.fixAll.contoursolve"
         editor.edit(SHAFT, *edits_of(action))
-        assert editor.texts[SHAFT] == contoursolve.apply_fixes(text).text
+        assert editor.texts[SHAFT] == contoursolve.fix(text).text
         assert {each.code for each in await editor.findings(SHAFT)} == {"g111-corner-too-large"}
 
     waits = types.ClientCodeActionResolveOptions(["edit"]) if later else None
@@ -556,7 +556,7 @@ def test_random_edits_leave_no_stale_findings(served):
                 found, text = await editor.findings(SHAFT), editor.texts[SHAFT]
                 try:
                     wanted = [each.code for each in solve(text).diagnostics]
-                except (contoursolve.UnknownControlError, contoursolve.SettingError):
+                except (contoursolve.errors.UnknownControlError, contoursolve.errors.SettingError):
                     wanted = ["control-unknown"]
                 assert [each.code for each in found] == wanted
 

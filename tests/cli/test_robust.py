@@ -114,7 +114,7 @@ def test_values_of_any_size_are_answered(folder, values, says):
 
 
 def test_a_family_does_not_go_beyond_what_is_read():
-    with pytest.raises(contoursolve.FamilyError, match="beyond 1,000,000"):
+    with pytest.raises(contoursolve.errors.FamilyError, match="beyond 1,000,000"):
         contoursolve.family("G111 X100. A180. K-30. B120.", start="X40. Z0.", vary={"K": [-30, 1e308]})
 
 

@@ -133,5 +133,5 @@ def test_the_order_of_fields_changes_no_verdict(made: tuple[Drawn, ContourSketch
     turned = [
         replace(each, words=dict(random.sample([*each.words.items()], len(each.words)))) for each in sketch.elements
     ]
-    one, other = (contoursolve.sketch_view(each) for each in (sketch, replace(sketch, elements=tuple(turned))))
+    one, other = (contoursolve.editing.sketch_view(each) for each in (sketch, replace(sketch, elements=tuple(turned))))
     assert one == other

@@ -11,7 +11,8 @@ import ezdxf
 import pytest
 from ezdxf import units
 
-from contoursolve import ArcSegment, DxfError, LineSegment, read_dxf
+from contoursolve import ArcSegment, LineSegment, read_dxf
+from contoursolve.errors import DxfError
 from contoursolve.geometry import Turn
 
 ROOT = Path(__file__).parents[2]

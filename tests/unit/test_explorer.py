@@ -301,7 +301,7 @@ def test_the_traits_of_a_line_are_those_of_the_program_and_variables_are_numbers
 
 
 def test_the_control_stays_when_what_shows_it_is_taken_out():
-    with pytest.raises(contoursolve.UnknownControlError):
+    with pytest.raises(contoursolve.errors.UnknownControlError):
         begin("G111 A180. K-30. B120. X80.\nG1 X-50 RND=2\nZ-90")
     now = Talk(f"{PAIR} Q-1")
     now.do("write", text=now.text.replace(",A171.87 Q-1", ""))
@@ -620,7 +620,7 @@ def test_the_front_end_sets_texts_and_loads_nothing():
 def test_what_is_missing_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     monkeypatch.delitem(sys.modules, "contoursolve.notebook.explorer", raising=False)
-    with pytest.raises(contoursolve.MissingExtraError) as error:
+    with pytest.raises(contoursolve.errors.MissingExtraError) as error:
         contoursolve.explore(WHOLE, **START)
     install = f'{sys.executable} -m pip install "contoursolve[notebook]"'
     assert str(error.value) == f"exploring a contour needs anywidget; install it with: {install}"

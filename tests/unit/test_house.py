@@ -29,8 +29,8 @@ FLOORS = (
     "program",
     "comparison families",
     "postprocess pictures tool_radius",
-    "api output sketches",
-    "notebook try_edits",
+    "api output questions sketches",
+    "editing errors notebook outcomes tables try_edits",
     "__init__",
     "lsp cli workbench",
     "__main__",
@@ -145,6 +145,11 @@ def test_the_house_is_small_enough_to_be_walked_through():
         "__init__.py",
         "__main__.py",
         "api.py",
+        "editing.py",
+        "errors.py",
+        "outcomes.py",
+        "questions.py",
+        "tables.py",
         "tolerance.py",
         "try_edits.py",
     }
@@ -184,6 +189,8 @@ def test_the_language_server_knows_what_the_package_exports():
         "__init__",
         "diagnosis",
         "diagnostics",
+        "editing",
+        "errors",
         "lsp",
         "notebook",
         "output",
@@ -251,7 +258,7 @@ def test_no_public_class_name_has_two_meanings():
     assert {name: files for name, files in homes.items() if len(files) > 1} == {}
 
 
-LATE = ("beside_of", "convert", "expand", "explore", "explore_map", "report_page", "solve_with_tool")
+LATE = ("convert", "expand", "explore", "family")
 """Functions whose types are in rooms that few need."""
 
 
@@ -263,6 +270,29 @@ def test_help_and_the_types_of_every_public_name_can_be_asked_for():
             assert typing.get_type_hints(thing) is not None
         if inspect.isfunction(thing):
             assert "(" in str(inspect.signature(thing))
+
+
+PUBLIC = """
+    solve check fix explain parse system family ranges find sensitivity tolerances expand convert write draw export
+    report explore read_sketch read_dxf
+    errors editing tables pictures
+    Program Block Word Dialect DIALECTS Sketch ContourSketch SketchElement SketchCorner OpenProgram
+    Result Answer Contour LineSegment ArcSegment Status Solution Solutions EquationSystem Diagnosis
+    Diagnostic Severity Basis Fix FixedProgram
+    Family FeasibleRange FeasibleRegion FoundValues Sensitivity Tolerances ToleranceRange
+    Drawings Drawing Expansion Conversion Comparison Receipt WrittenContours ToolReport Picture
+"""
+"""By kind: verbs, modules, input, contours, findings, values, others."""
+
+
+def test_the_front_door_has_few_names():
+    """What is asked of one record is a method of it, and what few need stands in a module."""
+    assert sorted(contoursolve.__all__) == sorted(PUBLIC.split())
+    assert len(contoursolve.__all__) <= 70
+    errors = [getattr(contoursolve.errors, name) for name in contoursolve.errors.__all__]
+    assert all(issubclass(each, contoursolve.errors.UserError) for each in errors)
+    for door in (contoursolve.editing, contoursolve.tables):
+        assert all(hasattr(door, name) for name in door.__all__)
 
 
 def test_no_control_stands_in_where_none_is_named():

@@ -17,6 +17,7 @@ from test_pictures import check, labels, strokes
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis import statuses_text
+from contoursolve.output import map_page
 from contoursolve.pictures import (
     LEVELS,
     Role,
@@ -66,7 +67,7 @@ def family_of(name, *counts):
 
 def region_of(name):
     block, box, options = BOXES[name]
-    return contoursolve.region(block, tuple(box), tuple(box.values()), **options)
+    return contoursolve.ranges(block, tuple(box), tuple(box.values()), **options)
 
 
 def solved_alone(family, values):
@@ -105,7 +106,7 @@ def test_each_solution_of_a_row_has_its_results_and_its_map():
         assert numpy.array_equal(own.result("length"), lengths[..., place], equal_nan=True)
     assert "length [mm]" in draw_family_map(own, result="length").title
     with pytest.raises(ValueError, match="write the word that chooses"):
-        contoursolve.explore_map(own)
+        contoursolve.explore(own)
 
 
 def test_an_unknown_result_is_refused_with_those_that_are_like_it():
@@ -116,11 +117,11 @@ def test_an_unknown_result_is_refused_with_those_that_are_like_it():
         ("status", "there is no result status"),
         (" ", "a result has a name"),
     ):
-        for ask in (draw_family_map, contoursolve.explore_map):
-            with pytest.raises(contoursolve.FamilyError, match=re.escape(said)):
+        for ask in (draw_family_map, contoursolve.explore):
+            with pytest.raises(contoursolve.errors.FamilyError, match=re.escape(said)):
                 ask(family, result=wrong)
-    with pytest.raises(contoursolve.FamilyError, match="take 2 or more"):
-        contoursolve.region(BLOCK, ("A", "P"), ((170, 190), (1, 9)), start=START).family(1, 5)
+    with pytest.raises(contoursolve.errors.FamilyError, match="take 2 or more"):
+        contoursolve.ranges(BLOCK, ("A", "P"), ((170, 190), (1, 9)), start=START).family(1, 5)
 
 
 # Maps -------------------------------------------------------------------------------------------------------------
@@ -281,8 +282,8 @@ def test_an_axis_says_that_its_values_are_diameters():
     vary = {"X": numpy.linspace(60, 120, 20), "K": numpy.linspace(-40, -20, 20)}
     pictures = (
         draw_family_map(contoursolve.family(BLOCK, start=START, vary=vary)),
-        draw_range(contoursolve.feasible(BLOCK, "X", start=START)),
-        draw_region(contoursolve.region(BLOCK, ("X", "K"), ((60, 120), (-40, -20)), start=START)),
+        draw_range(contoursolve.ranges(BLOCK, "X", start=START)),
+        draw_region(contoursolve.ranges(BLOCK, ("X", "K"), ((60, 120), (-40, -20)), start=START)),
     )
     assert [[label for label in labels(each) if label.endswith("[mm]")] for each in pictures] == [
         ["X diameter [mm]", "K [mm]"], ["X diameter [mm]"], ["X diameter [mm]", "K [mm]"],
@@ -291,7 +292,7 @@ def test_an_axis_says_that_its_values_are_diameters():
 
 def test_where_every_value_is_refused_nothing_is_painted_as_solved():
     refused = {Role.REFUSED_FIELD, Role.OTHER_FIELD}
-    picture = draw_region(contoursolve.region(BLOCK, ("P", "Q"), ((-9.0, -5.0), (-9.0, -5.0)), start=START))
+    picture = draw_region(contoursolve.ranges(BLOCK, ("P", "Q"), ((-9.0, -5.0), (-9.0, -5.0)), start=START))
     check(picture)
     assert picture.title == "P and Q: no contour at every value sampled"
     assert {role for *_, role in fields_of(picture)} <= refused
@@ -371,8 +372,8 @@ def data_of(page):
 @pytest.mark.parametrize("name", PAGES)
 def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
     family = family_of(name, 6, 5)
-    page = contoursolve.map_page(family, "length")
-    assert page == contoursolve.map_page(family, "length")
+    page = map_page(family, "length")
+    assert page == map_page(family, "length")
     data = data_of(page)
     assert data["note"] == "This page holds the contours of all 30 values of the map."
     for axis, values in zip(data["axes"], family.ranges.values.values(), strict=True):
@@ -393,8 +394,8 @@ def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
 def test_a_page_asks_no_other_host_and_lets_nothing_out_of_its_texts():
     block = "G111 X100. A180. K-30. B120. P5. (</script><script>stolen=1</script><img src=x onerror=y>)"
     vary = {"A": [170, 180, 190], "P": [2, 5]}
-    page = contoursolve.map_page(contoursolve.family(block, start=START, vary=vary), version="1")
-    shown = contoursolve.explore_map(contoursolve.family(block, start=START, vary=vary))._repr_mimebundle_()[0]
+    page = map_page(contoursolve.family(block, start=START, vary=vary), version="1")
+    shown = contoursolve.explore(contoursolve.family(block, start=START, vary=vary))._repr_mimebundle_()[0]
     for text in (page, shown["text/html"]):
         found = Scripts(text)
         assert len(found.scripts) == 2
@@ -408,7 +409,7 @@ def test_a_page_asks_no_other_host_and_lets_nothing_out_of_its_texts():
 def test_a_click_opens_the_block_with_these_values_in_the_explorer(name):
     _, box, _ = BOXES[name]
     family = family_of(name, 5, 4)
-    shown = contoursolve.explore_map(family)
+    shown = contoursolve.explore(family)
     low, high = ([ends[number] for ends in box.values()] for number in (0, 1))
     heard = []
     shown.observe(lambda change: heard.append(change["new"]), "text")
@@ -438,7 +439,7 @@ def test_a_map_is_of_a_family_over_two_words_or_of_a_region():
         (one, ValueError, "a grid of two words"),
         (contoursolve.solve(BLOCK, start=START), TypeError, "not of Result"),
     ):
-        for ask in (contoursolve.map_page, contoursolve.explore_map):
+        for ask in (map_page, contoursolve.explore):
             with pytest.raises(error, match=said):
                 ask(wrong)
     with pytest.raises(ValueError, match="a grid of two words"):
@@ -479,7 +480,7 @@ def test_a_contour_is_one_line_as_near_to_it_as_asked(ax, block, start, named):
 
 @pytest.mark.needs("matplotlib")
 def test_a_region_and_a_family_are_drawn_beside_what_is_there(ax):
-    region = contoursolve.region(BLOCK, ("A", "P"), ((150, 210), (1, 60)), start=START)
+    region = contoursolve.ranges(BLOCK, ("A", "P"), ((150, 210), (1, 60)), start=START)
     ax.plot([160], [10], label="mine")
     assert region.plot(ax, result="length") is ax
     borders = [each.reason.text for each in region.boundaries]
@@ -494,7 +495,7 @@ def test_a_region_and_a_family_are_drawn_beside_what_is_there(ax):
     assert (other.get_xlabel(), other.get_ylim()) == ("P [mm]", (150.0, 210.0))
     one = contoursolve.family(BLOCK, start=START, vary={"A": [170], "P": [1, 2]})
     for own, axes, options, error, said in (
-        (family, other, {"result": "end.Y"}, contoursolve.FamilyError, "did you mean end"),
+        (family, other, {"result": "end.Y"}, contoursolve.errors.FamilyError, "did you mean end"),
         (family, [other], {}, TypeError, "ax is axes of matplotlib"),
         (one, other, {"words": ("A", "P")}, ValueError, "two or more values"),
     ):
@@ -504,5 +505,5 @@ def test_a_region_and_a_family_are_drawn_beside_what_is_there(ax):
 
 def test_without_matplotlib_its_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
-    with pytest.raises(contoursolve.MissingExtraError, match=r'needs matplotlib; .* "contoursolve\[plot\]"'):
+    with pytest.raises(contoursolve.errors.MissingExtraError, match=r'needs matplotlib; .* "contoursolve\[plot\]"'):
         contoursolve.solve(BLOCK, start=START).answers[0].contour.plot()

@@ -63,7 +63,7 @@ def test_the_keywords_of_every_door_are_the_fields_of_one_record():
     """With its defaults; a keyword that is none of a door is refused by its name."""
     told, names = SolveOptions(), {*SolveOptions.__struct_fields__}
     assert set(FollowKeywords.__annotations__) == names
-    for door in (contoursolve.solve, contoursolve.check_file, contoursolve.expand, contoursolve.convert):
+    for door in (contoursolve.solve, contoursolve.check, contoursolve.expand, contoursolve.convert):
         own = {each.name: each.default for each in signature(door).parameters.values() if each.name in names}
         assert own == {name: getattr(told, name) for name in own}
         assert {"control", "units", "rules", "settings"} <= own.keys()
@@ -86,7 +86,7 @@ def test_every_door_takes_a_control_as_its_tables():
     assert found["N1.Y"].tolist() == pytest.approx([0, 30])
     slopes = contoursolve.sensitivity(line, start=start, control=MINE).slopes
     assert slopes["N1.Y"]["X"] == pytest.approx(1)
-    assert contoursolve.feasible(line, "X", start=start, control=MINE).intervals[0].low.value == 0
+    assert contoursolve.ranges(line, "X", start=start, control=MINE).intervals[0].low.value == 0
     explorer = contoursolve.explore(PAIR, control=MINE)
     explorer.values = {"Q": 1}
     assert (explorer.result.control, explorer.text) == ("mine", PAIR.replace("Q-1", "Q1"))
@@ -107,7 +107,7 @@ def test_an_executor_takes_a_control_whose_functions_can_be_sent():
         found = contoursolve.family(line, start="X0 Y0", vary=values, control=MINE, executor=executor)
         assert found["N1.Y"].tolist() == pytest.approx([0, 30])
         nameless = replace(MINE, signs=lambda _: ())
-        with pytest.raises(contoursolve.FamilyError, match="functions must stand in a module"):
+        with pytest.raises(contoursolve.errors.FamilyError, match="functions must stand in a module"):
             contoursolve.family(line, start="X0 Y0", vary=values, control=nameless, executor=executor)
 
 

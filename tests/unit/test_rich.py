@@ -154,8 +154,8 @@ QUESTIONS = {
     "range": lambda block, options: families.feasible(block, "P", **options),
     "region": lambda block, options: families.region(block, ("A", "P"), ((150, 210), (1, 60)), **options),
     "region of angles": lambda block, options: families.region(block, ("A", "B"), ((90, 270), (90, 200)), **options),
-    "found": lambda block, options: families.find_word(block, "B", "end Z-50.", **options),
-    "nearest": lambda block, options: families.find_word(block, "B", "end Z-50. X90.", **options),
+    "found": lambda block, options: families.find(block, "B", "end Z-50.", **options),
+    "nearest": lambda block, options: families.find(block, "B", "end Z-50. X90.", **options),
     "tolerances": lambda block, options: families.tolerances(block, {"A": 0.1, "K": 0.02}, **options),
     "derivatives": lambda block, options: families.tolerances(block, **options),
     "sensitivity": lambda block, options: families.sensitivity(block, **options),
@@ -198,7 +198,7 @@ def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkey
     def fail(*_, **__):
         raise RuntimeError("no")
 
-    monkeypatch.setattr("contoursolve.pictures.drawing.draw_answer", fail)
+    monkeypatch.setattr("contoursolve.pictures.drawing.compose", fail)
     data = answer._repr_mimebundle_()
     assert SVG not in data
     assert "cannot be drawn" in "".join(Page(data[HTML]).words)

@@ -162,7 +162,7 @@ def test_a_sketch_without_elements_or_a_start_says_so(name):
 )
 def test_a_page_is_told_all_as_plain_data(name, fields, roles):
     whole = changed(sketch(name), 3, **fields) if fields else sketch(name)
-    view, found = contoursolve.sketch_view(whole), whole.solve()
+    view, found = contoursolve.editing.sketch_view(whole), whole.solve()
     assert json.loads(json.dumps(view)) == view
     assert [each["state"] for each in view["elements"]] == [each.state.value for each in found.elements]
     assert roles.keys() <= {*states(found).values()}
@@ -194,7 +194,7 @@ Y = 60
 
 def test_all_contours_that_fit_are_drawn_by_name_and_only_what_they_share_has_dimensions():
     found = contoursolve.read_sketch(SEVERAL).solve()
-    texts = re.findall(r"<text[^>]*>(.*?)</text>", contoursolve.draw_sketch(found).svg, re.DOTALL)
+    texts = re.findall(r"<text[^>]*>(.*?)</text>", contoursolve.draw(found).svg, re.DOTALL)
     shown = [re.sub(r"<[^>]*>", "", each) for each in texts]
     step, last = (40**2 - 25**2) ** 0.5, (40**2 - 35**2) ** 0.5
     ends = [50 + one * step + other * last for one in (1, -1) for other in (1, -1)]
@@ -207,7 +207,7 @@ def test_all_contours_that_fit_are_drawn_by_name_and_only_what_they_share_has_di
     assert shown.count("AN0") == 1
     assert not [each for each in shown if each.startswith(("LEN20", "LEN40", "end", "FSELECT"))]
     chosen = contoursolve.read_sketch(SEVERAL + "guess = { X = 40 }")
-    svg = contoursolve.draw_sketch(chosen.solve()).svg
+    svg = contoursolve.draw(chosen.solve()).svg
     assert [f"contour {number}" in svg for number in (1, 2, 3, 4)] == [True, True, False, True]
     assert "LEN20" in svg
 

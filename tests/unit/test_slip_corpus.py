@@ -92,7 +92,8 @@ def fixed(
     entry: dict, result: contoursolve.Result, finding: contoursolve.Diagnostic, fix: contoursolve.Fix
 ) -> list[str]:
     old = dict(enumerate(entry["slip"], 1))
-    return changed("\n".join(entry["slip"]), contoursolve.changes_of(fix, result.lines_of(finding), old)).split("\n")
+    changes = contoursolve.editing.changes_of(fix, result.lines_of(finding), old)
+    return changed("\n".join(entry["slip"]), changes).split("\n")
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import re
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import DIALECTS, Status, expand, solve, solve_file
+from contoursolve import DIALECTS, Status, expand, solve
 from contoursolve.cli import main
 from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.output.document import to_json
@@ -71,7 +71,7 @@ def test_decisions_in_another_file_are_made_as_well(tmp_path):
     main_program = tmp_path / "main.h"
     for value, status in ((1, Status.SOLVED), (2, Status.UNDERDETERMINED)):
         main_program.write_text(f"BEGIN PGM A MM\nQ1 = {value}\nCALL PGM PLAN.H\nFL X+40 AN+30\nEND PGM A MM")
-        assert [each.status for each in solve_file(main_program).answers] == [status]
+        assert [each.status for each in solve(main_program).answers] == [status]
 
 
 CALLING = {

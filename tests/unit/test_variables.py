@@ -59,7 +59,7 @@ def test_what_is_said_of_a_value_holds_for_it(value):
 )
 def test_a_variable_that_is_no_word_is_told(block, told):
     with pytest.raises(FamilyError, match=r".") as error:
-        contoursolve.feasible(block, "#100", start="X40. Z0.")
+        contoursolve.ranges(block, "#100", start="X40. Z0.")
     assert told in str(error.value)
 
 

@@ -27,7 +27,7 @@ def test_a_machine_builder_s_words_are_a_setting():
     text = MILL + "G1 X60 CLAMP=8 F200\nY40 CHR=5\nX20 V9Q=4"
     assert {each.code for each in findings(SINUMERIK, text)} == {"word-unknown", "address-unknown"}
     assert not findings(SINUMERIK, text, settings={"siemens-840d.words": "clamp,V9Q"})
-    with pytest.raises(contoursolve.SettingError, match="names with commas between them"):
+    with pytest.raises(contoursolve.errors.SettingError, match="names with commas between them"):
         findings(SINUMERIK, text, settings={"siemens-840d.words": "a b"})
 
 

@@ -12,6 +12,7 @@ import contoursolve
 from contoursolve.__main__ import commands
 from contoursolve.comparison import Motion, Travel, follow
 from contoursolve.geometry import Length
+from contoursolve.postprocess import NumberGround
 from contoursolve.sketches import read_sketch, solve_sketch
 
 SKETCHES = sorted((Path(__file__).parent.parent / "sketches").glob("*.toml"))
@@ -41,7 +42,7 @@ def test_the_command_says_why_it_writes_nothing(
 
 
 def check_all(
-    answer: contoursolve.Answer, found: contoursolve.Written, control: contoursolve.Dialect | None = None
+    answer: contoursolve.Answer, found: contoursolve.WrittenContours, control: contoursolve.Dialect | None = None
 ) -> None:
     """Each candidate has no finding, and runs along the contour, over its whole length; the cheapest comes first."""
     assert found.candidates
@@ -49,7 +50,7 @@ def check_all(
     for each in found.candidates:
         told = contoursolve.check(each.program, control=control, strict=True)
         assert [one.code for one in told if one.code != "no-contour"] == []
-        limit = (0.0052 if inch else 0.0021) if each.words(contoursolve.NumberGround.COMPUTED) else 1e-6
+        limit = (0.0052 if inch else 0.0021) if each.words(NumberGround.COMPUTED) else 1e-6
         is_rounded = limit > 1e-6 or each.deviation > 1e-6  # the start may be rounded, too
         path = followed(each.program, control, answer)
         assert len(path) >= len(answer.contour.elements)
@@ -107,7 +108,7 @@ def test_a_control_of_the_other_kind_says_so():
     found = contoursolve.write(plate, "yasnac-lx3")
     assert (found.candidates, found.reason) == ((), "the contour is milled, and this control is for lathes")
     shaft = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
-    table = contoursolve.write_for_all(shaft)
+    table = contoursolve.write(shaft)
     assert [each.control for each in table] == [*contoursolve.DIALECTS]
     assert [each.control for each in table if each.candidates] == [
         *("yasnac-lx3", "fanuc-lathe", "haas-lathe", "siemens-840d", "siemens-808d", "isg", "cnc-pilot")
@@ -156,7 +157,7 @@ def test_plain_lines_that_come_first_say_why(sketch: str, control: str, told: st
 def test_an_open_contour_has_no_words():
     open_ = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. B120.")
     with pytest.raises(
-        contoursolve.UnfinishedError, match="there is no contour to write: cannot be cut; solve it first"
+        contoursolve.errors.UnfinishedError, match="there is no contour to write: cannot be cut; solve it first"
     ):
         contoursolve.write(open_, "fanuc-lathe")
 
@@ -200,6 +201,6 @@ def test_random_contours_are_the_same_for_all_controls(
     result = contoursolve.solve("\n".join((head, *lines)), control="siemens-840d", depth="verdict")
     solved = [each for each in result.answers if each.contour is not None and each.contour.elements]
     assume(solved and not any(each.is_error for each in solved[0].diagnostics))
-    for found in contoursolve.write_for_all(solved[0]):
+    for found in contoursolve.write(solved[0]):
         if found.candidates:
             check_all(solved[0], found)
