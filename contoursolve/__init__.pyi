@@ -13,7 +13,7 @@ from .comparison import (
     Receipt as Receipt,
 )
 from .controls import (
-    DIALECTS as DIALECTS,
+    CONTROLS as CONTROLS,
 )
 from .diagnosis import (
     Answer as Answer,
@@ -72,7 +72,7 @@ from .questions import (
     tolerances as tolerances,
 )
 from .reading import (
-    Dialect as Dialect,
+    Control as Control,
 )
 from .sketches import (
     ContourSketch as ContourSketch,

@@ -33,7 +33,7 @@ from contoursolve.program import (
     stated_settings,
     takes,
 )
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 if TYPE_CHECKING:
     from contoursolve.postprocess import Conversion, Expansion, Post
@@ -85,7 +85,7 @@ def solve(
         tip: the number of its imaginary tip.
         side: `left` or `right`, for a program without G41 or G42.
         outside: the way around an outside corner, `roll` or `intersect`.
-        control: its name, such as `fanuc-lathe`, or a control of your own as its tables (see `Dialect`); found from
+        control: its name, such as `fanuc-lathe`, or a control of your own as its tables (see `Control`); found from
             the program where it is clear.
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them; or `{"X": 40, "Z": 0}`.
         units: `mm` or `inch`, for numbers before any G20 or G21.
@@ -337,7 +337,7 @@ def expand(
         writer = formulas_for(text, post, scratch, told.variables or {}, asked.policy)
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
     wish = ExpansionOptions(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
-    stated = {} if isinstance(told.control, Dialect) else stated_settings(gcode.split_lines(text))
+    stated = {} if isinstance(told.control, Control) else stated_settings(gcode.split_lines(text))
     own = stated | dict(told.settings or {})
     source = file_in_memory(text, name)
     rewritten = rewrite(source, BytesIO(), wish, asked, control=told.control, settings=own, writer=writer)
@@ -349,7 +349,7 @@ def expand(
 @takes(ReadingKeywords)
 def convert(
     text: str,
-    to: str | Dialect,
+    to: str | Control,
     *,
     comments: bool = True,
     name: str = "<program>",
@@ -387,7 +387,7 @@ def convert(
     )
 
     told = SolveOptions(**options)
-    target = to if isinstance(to, Dialect) else configure(find_dialect(to), told.settings)
+    target = to if isinstance(to, Control) else configure(find_dialect(to), told.settings)
     if language_of(target) is None:
         raise ConversionError(
             f"contours cannot be written in the words of {target.title} ({target.name}): its blocks are of another kind"

@@ -8,13 +8,13 @@ from typing import Any
 
 # What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
 from contoursolve import families, output, pictures, sketches
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import UserError, choice_of, did_you_mean, importing
 from contoursolve.gcode import write_whole
 from contoursolve.pictures import Picture, Theme
 from contoursolve.program import Result, find_dialect
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.sketches import ContourSketch
 
 
@@ -130,7 +130,7 @@ def _version() -> str:
         return ""
 
 
-def explain(code: str, control: str | Dialect | None = None) -> str:
+def explain(code: str, control: str | Control | None = None) -> str:
     """A page of Markdown about a rule by its code (`g111-line-1`), or about all rules behind an alarm number.
 
     It says what is wrong and what to do, with wrong and right blocks and the place in the manual; of every control that
@@ -139,7 +139,7 @@ def explain(code: str, control: str | Dialect | None = None) -> str:
     >>> explain("g111-line-1").splitlines()[0]
     '# g111-line-1'
     """
-    chosen = [control if isinstance(control, Dialect) else find_dialect(control)] if control else [*DIALECTS.values()]
+    chosen = [control if isinstance(control, Control) else find_dialect(control)] if control else [*CONTROLS.values()]
     wanted = str(code).strip().lower()
     behind = {row.rule.code for row in output.alarm_rows(chosen) if row.is_called(wanted)}
     known = {rule.code for each in chosen for rule in each.catalogue}

@@ -6,14 +6,14 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from contoursolve.api import follow_program, parse
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.program import Result
-from contoursolve.reading import THIS_CONTROL, Dialect, Rule
+from contoursolve.reading import THIS_CONTROL, Control, Rule
 
 _KEYWORDS = {"--start": "start", "--rules": "rules", "--units": "units"}
 
 
-def try_example(dialect: Dialect, rule: Rule, program: str, depth: str = "full") -> Result:
+def try_example(dialect: Control, rule: Rule, program: str, depth: str = "full") -> Result:
     """The result of an example of a rule of a control, with the findings about every line; `depth` as for `solve`."""
     words = shlex.split(rule.options.replace(THIS_CONTROL, dialect.name))
     options: dict[str, Any] = {"depth": depth} | {
@@ -26,5 +26,5 @@ def try_example(dialect: Dialect, rule: Rule, program: str, depth: str = "full")
         if name:
             (Path(folder) / name).write_text(text, encoding="utf-8")
         # A name: what is concluded of a program on a control is concluded then.
-        control = dialect.name if DIALECTS.get(dialect.name) is dialect else dialect
+        control = dialect.name if CONTROLS.get(dialect.name) is dialect else dialect
         return follow_program(parse(program), control=control, strict=True, folders=[folder], **options).collect()

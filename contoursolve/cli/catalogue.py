@@ -4,9 +4,9 @@ import click
 
 from contoursolve.cli.options import CouldNotRunError, control_option, format_option
 from contoursolve.cli.printing import print_json, print_lines, say
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import did_you_mean
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 
 @click.command(short_help="List the whole catalogue of rules.")
@@ -18,7 +18,7 @@ from contoursolve.reading import Dialect
     help="Instead: every set of words of every form, with what the manual and the equations say of it.",
 )
 @format_option
-def rules(control: str | Dialect | None, is_table: bool, format_: str) -> None:
+def rules(control: str | Control | None, is_table: bool, format_: str) -> None:
     """List the whole catalogue of rules and findings, with their evidence and the control's alarms.
 
     --format json also has the advice and the examples of each rule, and every setting.
@@ -34,11 +34,11 @@ def rules(control: str | Dialect | None, is_table: bool, format_: str) -> None:
     print_lines(word_set_lines(chosen) if is_table else catalogue_lines(chosen))
 
 
-def _chosen(control: str | Dialect | None) -> list[Dialect]:
+def _chosen(control: str | Control | None) -> list[Control]:
     """The control that is asked for, or all that are built in."""
-    if isinstance(control, Dialect):
+    if isinstance(control, Control):
         return [control]
-    return [dialect for name, dialect in DIALECTS.items() if control in (None, name)]
+    return [dialect for name, dialect in CONTROLS.items() if control in (None, name)]
 
 
 @click.command(short_help="List the further facts that can be stated about a contour.")
@@ -52,7 +52,7 @@ def facts() -> None:
 @click.command(short_help="Explain one rule, or all behind an alarm number.")
 @click.argument("code")
 @control_option("Only a rule of this control.")
-def explain(code: str, control: str | Dialect | None) -> None:
+def explain(code: str, control: str | Control | None) -> None:
     """Explain a rule by its CODE, or all rules behind an alarm number of the control.
 
     Prints the rule in words, wrong blocks, right blocks, and its place in the manual.
@@ -69,7 +69,7 @@ def explain(code: str, control: str | Dialect | None) -> None:
     named = [(rule, dialect.name) for dialect in chosen for rule in dialect.rules if rule.code == wanted]
     behind = [(row.rule, row.control) for row in alarm_rows(chosen) if row.is_called(wanted)]
     if not named:  # some controls have a row of their own about the same
-        about = {rule.about for each in DIALECTS.values() for rule in each.rules if rule.code == wanted} - {None}
+        about = {rule.about for each in CONTROLS.values() for rule in each.rules if rule.code == wanted} - {None}
         named = [(rule, dialect.name) for dialect in chosen for rule in dialect.rules if rule.about in about]
     met = [(rule, name) for rule, name in named if not rule.absent]
     for rule, name in (met or named) + behind:

@@ -37,7 +37,7 @@ from contoursolve.output import (
     table_lines,
 )
 from contoursolve.program import Result, Run, find_baseline
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _FAILING = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}
 _NOTHING = "nothing"
@@ -155,7 +155,7 @@ def check(
     if telling.has_failed and telling.is_alone:
         context.exit(COULD_NOT_RUN)
     control = options["control"]
-    telling.close(fixing.summary if fixing else "", control if isinstance(control, Dialect) else None)
+    telling.close(fixing.summary if fixing else "", control if isinstance(control, Control) else None)
     hiding.tell_gone()
     found = sum(telling.tally.severities[each] for each in _FAILING[fail_on])
     context.exit(COULD_NOT_RUN if telling.has_failed else status_of(telling.tally, found))
@@ -259,7 +259,7 @@ class _Telling:
         self.rows.append((name, own))
         self.tally.add(own)
 
-    def close(self, fixes: str, own: Dialect | None) -> None:
+    def close(self, fixes: str, own: Control | None) -> None:
         """Tell what is told at the end, with the number of fixes; `own` is a control that is not built in."""
         failed = sum(each is None for _, each in self.rows)
         total = self.tally.line(len(self.rows) - failed) + fixes

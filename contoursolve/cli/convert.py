@@ -15,13 +15,13 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import print_bytes, say, style_of_output
-from contoursolve.controls import DIALECTS, ChainFinder
+from contoursolve.controls import CONTROLS, ChainFinder
 from contoursolve.diagnosis import count, join
 from contoursolve.gcode import open_program_file, write_whole
 from contoursolve.postprocess import Conversion, Post, post_of
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
-_TARGETS = tuple(name for name, dialect in DIALECTS.items() if isinstance(dialect.find, ChainFinder))
+_TARGETS = tuple(name for name, dialect in CONTROLS.items() if isinstance(dialect.find, ChainFinder))
 
 
 @click.command(short_help="Write a program's contours in another control's own words.")
@@ -39,8 +39,8 @@ def convert(
     context: click.Context,
     /,
     program: str,
-    to: str | Dialect | None,
-    control: str | Dialect | None,
+    to: str | Control | None,
+    control: str | Control | None,
     units: str,
     rules: str,
     assignments: tuple[str, ...],
@@ -90,7 +90,7 @@ def convert(
     _report(found, to)
 
 
-def _report_failure(found: Conversion, name: str, to: str | Dialect) -> None:
+def _report_failure(found: Conversion, name: str, to: str | Control) -> None:
     """Print on standard error why nothing was written."""
     style = style_of_output()
     report_told(found.summary, _post(to))
@@ -107,7 +107,7 @@ def _report_failure(found: Conversion, name: str, to: str | Dialect) -> None:
     say("nothing was written", err=True)
 
 
-def _report(found: Conversion, to: str | Dialect) -> None:
+def _report(found: Conversion, to: str | Control) -> None:
     """Print on standard error what was converted, and how it was compared."""
     summary, post = found.summary, _post(to)
     report_fixed(summary, style_of_output())
@@ -122,5 +122,5 @@ def _report(found: Conversion, to: str | Dialect) -> None:
     say(f"{done}; the same path, at most {found.comparison.deviation:.1g} mm off", err=True)
 
 
-def _post(to: str | Dialect) -> Post:
-    return post_of(DIALECTS[to] if isinstance(to, str) else to)
+def _post(to: str | Control) -> Post:
+    return post_of(CONTROLS[to] if isinstance(to, str) else to)

@@ -24,16 +24,16 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import print_lines, say
-from contoursolve.controls import DIALECTS, PLAIN
+from contoursolve.controls import CONTROLS, PLAIN
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
 from contoursolve.program import CONTROL, Request, Result, SolveOptions, choose_alike, configure, run
-from contoursolve.reading import Dialect, ReadIssue
+from contoursolve.reading import Control, ReadIssue
 
 if TYPE_CHECKING:
     from contoursolve.comparison import ToolPath
 
-_ANY_CONTROL = (*DIALECTS, *PLAIN)
+_ANY_CONTROL = (*CONTROLS, *PLAIN)
 
 
 @click.command(short_help="Tell whether two programs describe the same path.")
@@ -70,8 +70,8 @@ def diff(
     old: str,
     new: str,
     tolerance: float,
-    control: str | Dialect | None,
-    new_control: str | Dialect | None,
+    control: str | Control | None,
+    new_control: str | Control | None,
     variables: dict[str, float],
     folders: tuple[str, ...],
     units: str,
@@ -106,7 +106,7 @@ def diff(
         raise click.UsageError("only one of OLD and NEW can be standard input")
     if tool is None:
         check_toolless(stated)
-    sides: list[tuple[Result, Dialect, Request]] = []
+    sides: list[tuple[Result, Control, Request]] = []
     for path, own, unit in ((old, control, units), (new, new_control, new_units or units)):
         program = read_program(path)
         before = sides[0][1] if sides else None
@@ -138,7 +138,7 @@ def diff(
 
 
 def _beside_tool(
-    sides: Sequence[tuple[Result, Dialect, Request]],
+    sides: Sequence[tuple[Result, Control, Request]],
     paths: "Sequence[ToolPath]",
     tool: str,
     stated: dict[str, Any],
@@ -165,9 +165,9 @@ def _beside_tool(
     return found
 
 
-def _reads_what_shows_others(control: Dialect, program: Program) -> bool:
+def _reads_what_shows_others(control: Control, program: Program) -> bool:
     """Whether a control has every word by which a program shows another one, so that it need not be for that one."""
-    others = [other for other in DIALECTS.values() if other.name != control.name]
+    others = [other for other in CONTROLS.values() if other.name != control.name]
     shown = [word for other in others for block in program.blocks for word in other.signs(block)]
     addresses, codes = control.modes.lexicon.addresses, control.modes.codes
     return all(word.number in codes if word.address == "G" else word.address in addresses for word in shown)
@@ -175,16 +175,16 @@ def _reads_what_shows_others(control: Dialect, program: Program) -> bool:
 
 def _dialect_of(
     program: Program,
-    control: str | Dialect | None,
-    otherwise: Dialect | None,
+    control: str | Control | None,
+    otherwise: Control | None,
     assignments: Sequence[str],
     folders: Sequence[str],
-) -> Dialect:
+) -> Control:
     """The control of a program: the one that is named, or that it shows, or another."""
     with naming(program.name, "--control or --new-control"):
         settings = settings_of(program, assignments)
         name = control or settings.get(CONTROL)
-        named = {**DIALECTS, **PLAIN}[name] if isinstance(name, str) else name
+        named = {**CONTROLS, **PLAIN}[name] if isinstance(name, str) else name
         shown = (
             None
             if named

@@ -10,7 +10,7 @@ import click
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.gcode import decode, read_bytes, write_whole
 from contoursolve.program import find_dialect
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.sketches import ContourSketch, read_dxf, read_sketch, write_sketch
 
 _BEGINS = b"AC10", b"AutoCAD Binary DXF"
@@ -59,7 +59,7 @@ def drawing_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return take
 
 
-def read_drawn(file: str, control: str | Dialect | None, drawing: Mapping[str, Any]) -> ContourSketch:
+def read_drawn(file: str, control: str | Control | None, drawing: Mapping[str, Any]) -> ContourSketch:
     """The sketch of a file, or of a DXF drawing; what a drawing has besides is told on standard error. Raises
     DxfError, SketchError, UsageError."""
     data = read_bytes(file, "a sketch or a DXF drawing")

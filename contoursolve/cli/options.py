@@ -19,7 +19,7 @@ from click.shell_completion import CompletionItem
 from contoursolve import gcode
 from contoursolve.api import follow_program, read_program
 from contoursolve.cli.printing import print_lines, style_of_output
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Policy
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import ENDINGS, STANDARD_INPUT, OpenFile, Program
@@ -34,13 +34,13 @@ from contoursolve.program import (
     read_setting,
     stated_settings,
 )
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _OWN = "MODULE:NAME"
 
 
 class ControlType(click.ParamType):  # type: ignore[type-arg]  # generic in newer releases of click only
-    """The name of a control, or `package.module:NAME` of a Dialect, which is then given itself."""
+    """The name of a control, or `package.module:NAME` of a Control, which is then given itself."""
 
     name = "control"
 
@@ -48,8 +48,8 @@ class ControlType(click.ParamType):  # type: ignore[type-arg]  # generic in newe
         self.names = click.Choice([*names])
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        if isinstance(value, Dialect) or ":" not in value:
-            return value if isinstance(value, Dialect) else self.names.convert(value, param, ctx)
+        if isinstance(value, Control) or ":" not in value:
+            return value if isinstance(value, Control) else self.names.convert(value, param, ctx)
         module, _, name = value.partition(":")
         try:
             dialect = _load(module, name)
@@ -64,15 +64,15 @@ class ControlType(click.ParamType):  # type: ignore[type-arg]  # generic in newe
 
 
 def control_option(
-    help_: str, name: str = "--control", names: Iterable[str] = tuple(DIALECTS)
+    help_: str, name: str = "--control", names: Iterable[str] = tuple(CONTROLS)
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """An option for a control; its value is a name, a Dialect, or None."""
+    """An option for a control; its value is a name, a Control, or None."""
     choices = [*names]
-    own = f"{help_} {_OWN} names a Dialect of your own in a Python module, also one in this folder."
+    own = f"{help_} {_OWN} names a Control of your own in a Python module, also one in this folder."
     return click.option(name, type=ControlType(choices), metavar=f"[{'|'.join((*choices, _OWN))}]", help=own)
 
 
-def _load(module: str, name: str) -> Dialect:
+def _load(module: str, name: str) -> Control:
     """The tables of this name in a module that Python finds, also from here. Raises ImportError, TypeError."""
     here = str(Path.cwd())
     if here not in sys.path:
@@ -84,10 +84,10 @@ def _load(module: str, name: str) -> Dialect:
         told = f"{module or 'the module'} cannot be imported: {type(error).__name__}: {error}"
         raise ImportError(f"{told}{_where(module, error)}") from None
     found = getattr(imported, name, None)
-    if not isinstance(found, Dialect):
+    if not isinstance(found, Control):
         path = getattr(imported, "__file__", None)
         file = f" ({path})" if path else ""
-        raise TypeError(f"{module}{file} has no contoursolve.Dialect of the name {name!r}")
+        raise TypeError(f"{module}{file} has no contoursolve.Control of the name {name!r}")
     return found
 
 
@@ -333,7 +333,7 @@ def explaining(program: str | None = None, **instead: object) -> str:
             values = instead.get(name, context.params[name])
             values = [f"{each}={number:g}" for each, number in values.items()] if isinstance(values, dict) else values
             for value in values if isinstance(values, tuple | list) else (values,):
-                told = context.meta.get(value.name, value.name) if isinstance(value, Dialect) else str(value)
+                told = context.meta.get(value.name, value.name) if isinstance(value, Control) else str(value)
                 words += [option, _quoted(told)]
     return " ".join([*words, *([_quoted(program)] if program and not program.startswith("<") else [])])
 

@@ -24,7 +24,7 @@ from contoursolve.gcode import STANDARD_INPUT, write_whole
 from contoursolve.output import Style
 from contoursolve.postprocess import NumberGround, WrittenContour, WrittenContours, WrittenWord
 from contoursolve.program import find_settings, read_setting
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.sketches import (
     ContourSketch,
     UnfinishedError,
@@ -49,7 +49,7 @@ def write(
     context: click.Context,
     /,
     sketch: str,
-    to: str | Dialect | None,
+    to: str | Control | None,
     assignments: tuple[str, ...],
     shows_all: bool,
     output: str | None,

@@ -22,7 +22,7 @@ from contoursolve.reading import (
     Bearing,
     Code,
     ContourBlock,
-    Dialect,
+    Control,
     Effect,
     Lexicon,
     Plain,
@@ -85,7 +85,7 @@ def _with_place(step: Step) -> Step:
 
 
 def follow(
-    result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...], *, finishes: bool = False
+    result: Result, dialect: Control, unit: Length, axes: tuple[str, ...], *, finishes: bool = False
 ) -> ToolPath:
     """The path of a program that has been solved for this control; `unit` is that before any G20 or G21. With
     `finishes`, G70 runs the profile that it names."""
@@ -114,7 +114,7 @@ def _finishes(block: Block) -> bool:
 class _Follower:
     """The state as it goes, and how words are read."""
 
-    def __init__(self, dialect: Dialect, unit: Length, axes: tuple[str, ...]) -> None:
+    def __init__(self, dialect: Control, unit: Length, axes: tuple[str, ...]) -> None:
         self.modes = dialect.modes
         self.switches = CENTERS.get(dialect.name, {})
         self.centers = Centers.START

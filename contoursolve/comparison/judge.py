@@ -42,7 +42,7 @@ from contoursolve.geometry import (
     line_scalars,
 )
 from contoursolve.numeric import Array, direction, pinv, svd
-from contoursolve.reading import Dialect, ParsedContour, offences_of, read, unused_words
+from contoursolve.reading import Control, ParsedContour, offences_of, read, unused_words
 from contoursolve.tolerance import ERROR_BOUND_WARNING, LARGEST, LENGTH, RESIDUAL
 
 ROUNDING = 16 * 2.0**-52
@@ -110,7 +110,7 @@ class Case(Struct, frozen=True, dict=True):
 def prepare(
     claim: ParsedContour,
     claimed: ClaimedContour,
-    dialect: Dialect,
+    dialect: Control,
     rules: str,
     next_end: tuple[Decimal, Decimal] | None,
 ) -> Case:

@@ -27,11 +27,11 @@ from contoursolve.comparison.claims import (
     read_result,
 )
 from contoursolve.comparison.judge import check_contour, prepare
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.execution import ALONE, Limit, Surroundings, surroundings_of
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
-from contoursolve.reading import Dialect, ParsedContour, advance, contours_as_run, machine_in, state_facts
+from contoursolve.reading import Control, ParsedContour, advance, contours_as_run, machine_in, state_facts
 
 _FINDINGS = ClaimCheck("findings", "the findings", passed=None, remark="their words and values, and their fixes")
 _NO_CONTOUR = ClaimCheck("count", "whether there is no contour", passed=None, remark="a finding of the result says so")
@@ -40,7 +40,7 @@ _NO_CONTOUR = ClaimCheck("count", "whether there is no contour", passed=None, re
 def verify(
     program: Document,
     result: Document,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
     units: str = "mm",
     start: str | None = None,
     facts: Sequence[str] = (),
@@ -98,14 +98,14 @@ def verify(
     )
 
 
-def _dialect(program: Program, claims: ClaimedResult, control: str | Dialect | None) -> Dialect | None:
+def _dialect(program: Program, claims: ClaimedResult, control: str | Control | None) -> Control | None:
     """The control that is asked for, the one that the result names, or the only one that the program shows, with the
     settings under which the result says that it was made."""
     wanted = control or claims.control
-    shown = (each for each in DIALECTS.values() if any(map(each.signs, program.blocks)))
-    dialect = wanted if isinstance(wanted, Dialect) else DIALECTS.get(wanted) if wanted else next(shown, None)
+    shown = (each for each in CONTROLS.values() if any(map(each.signs, program.blocks)))
+    dialect = wanted if isinstance(wanted, Control) else CONTROLS.get(wanted) if wanted else next(shown, None)
     if wanted and dialect is None:
-        choices = f"choose from {', '.join(DIALECTS)}, or name the tables of your own with --control MODULE:NAME"
+        choices = f"choose from {', '.join(CONTROLS)}, or name the tables of your own with --control MODULE:NAME"
         raise CannotVerifyError(f"unknown control {wanted!a}; {choices}")
     if dialect is None or not claims.settings:
         return dialect
@@ -145,7 +145,7 @@ Followed = tuple[ParsedContour, ClaimedContour | None, tuple[Decimal, Decimal] |
 
 def follow(
     program: Program,
-    dialect: Dialect,
+    dialect: Control,
     unit: Length,
     claims: Sequence[ClaimedContour],
     start: Program | None = None,

@@ -1,5 +1,5 @@
 from .all_controls import (
-    DIALECTS as DIALECTS,
+    CONTROLS as CONTROLS,
 )
 from .chain.find import (
     ChainFinder as ChainFinder,

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from importlib import import_module
 
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _CONTROLS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "yasnac-lx3": ("yasnac_lx3", ("G 11", "G 12")),
@@ -29,13 +29,13 @@ _PARTS = [
 """The first part and the others of each of these texts, and the controls that they may show."""
 
 
-class _Controls(Mapping[str, Dialect]):
+class _Controls(Mapping[str, Control]):
     """The controls by name. Most programs are for one of them, and show no other."""
 
     def __init__(self) -> None:
-        self._read: dict[str, Dialect] = {}
+        self._read: dict[str, Control] = {}
 
-    def __getitem__(self, name: str) -> Dialect:
+    def __getitem__(self, name: str) -> Control:
         if name not in self._read:
             module = import_module(f"contoursolve.controls.{_CONTROLS[name][0]}")
             self._read[name] = getattr(module, name.upper().replace("-", "_"))
@@ -47,10 +47,10 @@ class _Controls(Mapping[str, Dialect]):
     def __len__(self) -> int:
         return len(_CONTROLS)
 
-    def __or__(self, others: Mapping[str, Dialect]) -> dict[str, Dialect]:
+    def __or__(self, others: Mapping[str, Control]) -> dict[str, Control]:
         return {**self, **others}
 
-    def showing(self, line: str) -> list[Dialect]:
+    def showing(self, line: str) -> list[Control]:
         """The controls that a line may show, in order; their `signs` say whether it does."""
         text, shown = line.upper(), set[str]()
         for first, others, names in _PARTS:
@@ -59,4 +59,4 @@ class _Controls(Mapping[str, Dialect]):
         return [self[name] for name in _CONTROLS if name in shown] if shown else []
 
 
-DIALECTS = _Controls()
+CONTROLS = _Controls()

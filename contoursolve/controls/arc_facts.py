@@ -21,7 +21,7 @@ from contoursolve.controls.arc_rules import (
 from contoursolve.controls.control_settings import setting
 from contoursolve.controls.rule_rows import row, with_rows
 from contoursolve.diagnostics import Alarm, Book, Evidence, Severity
-from contoursolve.reading import CENTRES, ArcIssue, ArcTable, Beyond, BothStated, Dialect, Setting, State
+from contoursolve.reading import CENTRES, ArcIssue, ArcTable, Beyond, BothStated, Control, Setting, State
 from contoursolve.tolerance import CIRCLE_DEVIATION
 
 
@@ -33,7 +33,7 @@ class ArcFacts(Struct, frozen=True):
     settings: tuple[Setting, ...]
 
 
-def reading_arcs(dialect: Dialect, **own: Any) -> Dialect:
+def reading_arcs(dialect: Control, **own: Any) -> Control:
     """A control that reads arcs outside contours as its facts say, and as fields of its table do."""
     facts = ARC_FACTS[dialect.name]
     remember = dialect.modes.remember or (remember_polar if facts.table.others else None)
@@ -191,7 +191,7 @@ def _isg_in_force(table: ArcTable, state: State) -> ArcTable:
     return replace(table, beyond=Beyond.REFUSES, issue=ArcIssue.RADII_UNCORRECTED, difference=0.005, share=0.0001)
 
 
-def _uncorrected(dialect: Dialect) -> Dialect:
+def _uncorrected(dialect: Control) -> Control:
     arcs = replace(ISG_FACTS.table, beyond=Beyond.REFUSES)
     return replace(dialect, modes=replace(dialect.modes, arcs=arcs))
 

@@ -12,7 +12,7 @@ from contoursolve.controls.control_settings import setting
 from contoursolve.controls.rule_rows import GEOMETRY, row
 from contoursolve.diagnostics import Severity, Source
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import CENTRES, ArcIssue, ArcTable, Beyond, BothStated, Dialect, Rule, Setting
+from contoursolve.reading import CENTRES, ArcIssue, ArcTable, Beyond, BothStated, Control, Rule, Setting
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 _APART = "{words}: the centre is {radius} from the start of the arc and {distance} from its end; "
@@ -176,12 +176,12 @@ def number_of_arcs(name: str, meaning: str, default: str, source: Source, most: 
     return Setting(name, meaning, {default: unit}, default, source, bounds=(Decimal(0), Decimal(most)), unit=unit)
 
 
-def with_arcs(**fields: Any) -> Callable[[Dialect], Dialect]:
+def with_arcs(**fields: Any) -> Callable[[Control], Control]:
     """The change to a control that reads arcs otherwise."""
     return partial(_with_fields, fields=fields)
 
 
-def _with_fields(dialect: Dialect, *, fields: Mapping[str, Any]) -> Dialect:
+def _with_fields(dialect: Control, *, fields: Mapping[str, Any]) -> Control:
     arcs = replace(dialect.modes.arcs or ArcTable(), **fields)
     return replace(dialect, modes=replace(dialect.modes, arcs=arcs))
 

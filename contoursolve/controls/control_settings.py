@@ -9,7 +9,7 @@ from contoursolve.controls.further import WORDS
 from contoursolve.controls.tool_settings import TOOL_SETTINGS
 from contoursolve.diagnostics import OWN, Evidence, Source
 from contoursolve.execution import MOST_BLOCKS, Limit
-from contoursolve.reading import ARGUMENTS, Dialect, Setting, WithoutPoint
+from contoursolve.reading import ARGUMENTS, Control, Setting, WithoutPoint
 from contoursolve.tolerance import LARGEST, TRAVEL
 
 
@@ -35,10 +35,10 @@ def number_setting(values: Mapping[str, str], source: Source) -> Setting:
     return setting("number", "what a number without a decimal point means", values, source, changes)
 
 
-def _reading(meant: WithoutPoint) -> Callable[[Dialect], Dialect]:
+def _reading(meant: WithoutPoint) -> Callable[[Control], Control]:
     """From a control to the one for which a number without a point means this."""
 
-    def change(dialect: Dialect) -> Dialect:
+    def change(dialect: Control) -> Control:
         lexicon = dialect.modes.lexicon
         words = replace(lexicon, numbers=replace(lexicon.numbers, without_point=meant))
         return replace(dialect, modes=replace(dialect.modes, lexicon=words))

@@ -8,7 +8,7 @@ from itertools import count
 from typing import cast
 
 from contoursolve.diagnostics import OWN, Evidence, Source
-from contoursolve.reading import Bearing, Beside, Code, Dialect, Effect, Modes, Setting
+from contoursolve.reading import Bearing, Beside, Code, Control, Effect, Modes, Setting
 
 _LETTERS: tuple[tuple[str, str, Bearing], ...] = (
     ("N O", "number of a block or a program", Bearing.NONE),
@@ -34,7 +34,7 @@ def rows(source: Source, table: Iterable[tuple[str, str, Bearing]]) -> tuple[Bes
     return tuple(Beside(tuple(names.split()), meaning, source, bearing) for names, meaning, bearing in table)
 
 
-def _with_words(control: Dialect, names: tuple[str, ...]) -> Dialect:
+def _with_words(control: Control, names: tuple[str, ...]) -> Control:
     """A control whose machine has more words, which move nothing."""
     lexicon = control.modes.lexicon
     row = Beside(names, "word of the machine builder", Source("the setting words", "", Evidence.ASSUMED))

@@ -13,7 +13,7 @@ from contoursolve.geometry import Length, Plane, Unit
 from contoursolve.reading import (
     Address,
     Code,
-    Dialect,
+    Control,
     Diameter,
     Effect,
     Lexicon,
@@ -179,7 +179,7 @@ def _no_contour(blocks: Sequence[Block], index: int, state: State, modes: Modes)
     """There is none."""
 
 
-LINUXCNC = Dialect(
+LINUXCNC = Control(
     "linuxcnc",
     "LinuxCNC, mills and lathes",
     Modes(lexicon(LINUXCNC_MANUAL, _AS_WRITTEN, "XYZ", {}, is_diameter=False), _LINUXCNC_CODES, ("X", "Y", "Z"), CALLS),

@@ -7,7 +7,7 @@ from pathlib import Path
 from msgspec.structs import asdict
 
 from contoursolve import solving
-from contoursolve.controls.all_controls import DIALECTS
+from contoursolve.controls.all_controls import CONTROLS
 from contoursolve.geometry import Fact, System, build_system
 from contoursolve.reading import ContourForm, lay_out, stated_sets
 from contoursolve.solving import (
@@ -23,7 +23,7 @@ def systems() -> dict[str, System]:
     """The equations of every combination of words of every form, by their key."""
     layouts = (
         lay_out(form, stated, frozenset())
-        for dialect in DIALECTS.values()
+        for dialect in CONTROLS.values()
         for form in dialect.forms
         for stated in stated_sets(form)
     )
@@ -49,7 +49,7 @@ def _verdict(system: System) -> Determinacy:
 def identity_table() -> str:
     """For every smallest set of words that say the same: the formula that ties them, by sympy, as JSON."""
     rows = {}
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         for form in dialect.forms:
             for facts, formula in _identities(form):
                 key = f"{form.name}: {' '.join(sorted(fact.given for fact in facts if fact.given))}"

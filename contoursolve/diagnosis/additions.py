@@ -12,7 +12,7 @@ from contoursolve.diagnosis.legality_table import legal_samples
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.subsets import smallest_sets
 from contoursolve.geometry import assemble
-from contoursolve.reading import Dialect, LegalBlock, ParsedContour, check, read, stating
+from contoursolve.reading import Control, LegalBlock, ParsedContour, check, read, stating
 from contoursolve.solving import Contour, analyse
 
 MOST_ADDED = 3
@@ -65,7 +65,7 @@ def ways_to_complete(answer: Answer) -> tuple[tuple[str, ...], ...]:
     )
 
 
-def legal_blocks(dialect: Dialect) -> tuple[LegalBlock, ...]:
+def legal_blocks(dialect: Control) -> tuple[LegalBlock, ...]:
     """Examples of all forms of a control; the smallest sets of words of each."""
     return tuple(
         LegalBlock(form.name, form.title, row.addresses, text)
@@ -75,7 +75,7 @@ def legal_blocks(dialect: Dialect) -> tuple[LegalBlock, ...]:
     )
 
 
-def _completing(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, ...]]:
+def _completing(claim: ParsedContour, dialect: Control) -> Iterator[tuple[str, ...]]:
     """The smallest sets of names that complete a contour."""
     if _is_complete(claim, dialect, ()):
         return
@@ -83,14 +83,14 @@ def _completing(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, .
     yield from smallest_sets(possible, MOST_ADDED, lambda names: _is_complete(claim, dialect, names))
 
 
-def _is_complete(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...]) -> bool:
+def _is_complete(claim: ParsedContour, dialect: Control, names: tuple[str, ...]) -> bool:
     """Whether the words of a contour and some more are legal and determine it."""
     if _refusals(claim, dialect, names):
         return False
     return analyse(assemble(read(stating(claim, names), frozenset()))).is_determined
 
 
-def _possible(claim: ParsedContour, dialect: Dialect) -> Iterator[str]:
+def _possible(claim: ParsedContour, dialect: Control) -> Iterator[str]:
     """The names that may be stated besides."""
     refused = _refusals(claim, dialect, ())
     for name, (address, index) in claim.vocabulary.items():
@@ -104,7 +104,7 @@ def _possible(claim: ParsedContour, dialect: Dialect) -> Iterator[str]:
                 yield name
 
 
-def _refusals(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...]) -> set[str]:
+def _refusals(claim: ParsedContour, dialect: Control, names: tuple[str, ...]) -> set[str]:
     """The rules that refuse the words of a contour and some more, or ignore one of them."""
     stated = {**claim.stated(), **dict.fromkeys(names)}
     return {offence.rule.code for offence in check(dialect.rules, claim.form.roles, stated)}

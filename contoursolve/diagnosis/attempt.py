@@ -46,7 +46,7 @@ from contoursolve.diagnosis.window import LINE, Seen, Window, alone, parts_of, p
 from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Span
 from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND, Profile, Unit, assemble, scalar
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, advance, read
+from contoursolve.reading import Control, ParsedContour, ReadIssue, advance, read
 from contoursolve.solving import (
     Contour,
     NoteKind,
@@ -132,7 +132,7 @@ class Trial(Struct, frozen=True, dict=True):
     """
 
     answer: Answer
-    dialect: Dialect
+    dialect: Control
     window: Window
     about: tuple[frozenset[Span], str] | None = None
     is_frequent: bool = False

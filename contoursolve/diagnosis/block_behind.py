@@ -8,10 +8,10 @@ from contoursolve.diagnosis.wording import angle_text, length_text, place_text
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, LineChange
 from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND
-from contoursolve.reading import Behind, Dialect
+from contoursolve.reading import Behind, Control
 
 
-def report_behind(found: Behind, dialect: Dialect, blocks: tuple[Block, ...]) -> Diagnostic:
+def report_behind(found: Behind, dialect: Control, blocks: tuple[Block, ...]) -> Diagnostic:
     """One finding about what follows these blocks of a contour, with the block that is meant where that has a path."""
     unit = found.state.unit
     context = Context(dialect.rules, unit, place=found.block.span)

@@ -42,7 +42,7 @@ from contoursolve.diagnostics import (
 )
 from contoursolve.gcode import FACT, Block, FaultKind, Word
 from contoursolve.geometry import Fact, Profile, System, Unit, assemble
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, read
+from contoursolve.reading import Control, ParsedContour, ReadIssue, read
 from contoursolve.solving import (
     AffineFacts,
     NoteKind,
@@ -66,7 +66,7 @@ from contoursolve.solving import (
 
 def diagnose(
     answer: Answer,
-    dialect: Dialect,
+    dialect: Control,
     policy: Policy,
     following: Iterable[Block] = (),
     window: Window | None = None,
@@ -146,7 +146,7 @@ class _Diagnosed(Struct, frozen=True):
     def of(
         cls,
         answer: Answer,
-        dialect: Dialect,
+        dialect: Control,
         policy: Policy,
         window: Window | None,
     ) -> "_Diagnosed":
@@ -211,12 +211,12 @@ def _writes(edit: Edit, span: Span) -> bool:
     return edit.kind is EditKind.CHANGE and touches(edit, span)
 
 
-def _is_like_own(word: Word, dialect: Dialect) -> bool:
+def _is_like_own(word: Word, dialect: Control) -> bool:
     """Whether a word that nobody reads here is almost the name of one that the control has."""
     return any(names_like(word.text.strip(), dialect.modes.lexicon, dialect.modes.syntax.codes))
 
 
-def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:
+def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Control, repairs: Repairs) -> list[Diagnostic]:
     """The findings; those that ask for words without the ones that no repair adds, where some add any and all have been
     tried. What is added in place of other words counts only where nothing is added alone."""
     claim, edits = answer.claim, [repair.edits for repair in repairs.repairs]
@@ -252,7 +252,7 @@ def _both(findings: list[Diagnostic]) -> list[int]:
 _MISSING = {ReadIssue.UNDERDETERMINED, ReadIssue.CORNER_NOWHERE, *LEAVING_FREE}
 
 
-def mend_points(answer: Answer, dialect: Dialect) -> Answer:
+def mend_points(answer: Answer, dialect: Control) -> Answer:
     """The answer; its findings that a number lacks its point with what they were meant to be, each about its words."""
     repairs = find_repairs(answer, dialect).repairs
     findings, is_telling = [], dialect.modes.settings.get(SUSPICIONS) != "off"
@@ -326,7 +326,7 @@ def _tie(answer: Answer, ties: Ties | None, words: TiedSet) -> Tie:
     )
 
 
-def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Dialect) -> list[Diagnostic]:
+def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Control) -> list[Diagnostic]:
     """The findings of an answer; those that compare a word with others compare it with the others of a smallest set,
     if one of these tells of it. What is wrong with these others is told by itself: of a word that agrees with all that
     is not blamed nothing is told."""

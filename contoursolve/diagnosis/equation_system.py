@@ -40,7 +40,7 @@ from contoursolve.geometry import (
     scalar,
 )
 from contoursolve.numeric import COSINE, SINE, Expression, angle, symbol
-from contoursolve.reading import Dialect, ParsedContour
+from contoursolve.reading import Control, ParsedContour
 from contoursolve.solving import (
     Alternatives,
     ConstructionStep,
@@ -115,7 +115,7 @@ class Rereading(Protocol):
     """The control of a contour, which reads its blocks again."""
 
     @property
-    def dialect(self) -> Dialect:
+    def dialect(self) -> Control:
         """Its tables."""
         ...
 

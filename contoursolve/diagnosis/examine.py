@@ -57,7 +57,7 @@ from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, 
 from contoursolve.reading import (
     AT_ITS_LIMIT,
     Assumption,
-    Dialect,
+    Control,
     ParsedContour,
     Premises,
     ReadIssue,
@@ -109,7 +109,7 @@ class Policy(Enum):
 class ReadBy:
     """The control that reads a contour, and what its rules do; with it the contour can be read again."""
 
-    dialect: Dialect
+    dialect: Control
     policy: Policy
 
     def __repr__(self) -> str:
@@ -430,7 +430,7 @@ class _Notebook:
 
 def examine(
     claim: ParsedContour,
-    dialect: Dialect,
+    dialect: Control,
     policy: Policy,
     next_place: Callable[[], tuple[Decimal, Decimal] | None] = lambda: None,
     depth: Depth = Depth.FULL,

@@ -17,7 +17,7 @@ from contoursolve.reading import (
     ArcIssue,
     ArcWord,
     Beyond,
-    Dialect,
+    Control,
     Modes,
     PlainArc,
     State,
@@ -45,7 +45,7 @@ class _Mended(Struct, frozen=True):
     rounding: str = ""
 
 
-def explain_arc(context: Context, dialect: Dialect, arc: PlainArc, before: State) -> Iterator[Diagnostic]:
+def explain_arc(context: Context, dialect: Control, arc: PlainArc, before: State) -> Iterator[Diagnostic]:
     """Findings about the arc that a block states by itself, if something is wrong with it."""
     for fault in faults_of(arc):
         fixes = tuple(_fixes(arc, fault, before, dialect.modes))[:MOST_FIXES]

@@ -8,14 +8,14 @@ from contoursolve.diagnosis.answer_records import Filled
 from contoursolve.diagnosis.edits import apply_edits, change, write_word
 from contoursolve.diagnosis.examine import Answer, Policy, examine
 from contoursolve.gcode import FACT, parse_block
-from contoursolve.reading import Dialect, ParsedContour, State
+from contoursolve.reading import Control, ParsedContour, State
 from contoursolve.solving import Contour
 
 FARTHEST = 0.01
 """mm. A block with rounded values whose contour is farther from the exact one is not offered."""
 
 
-def fill_in(answer: Answer, before: State, dialect: Dialect) -> Filled | None:
+def fill_in(answer: Answer, before: State, dialect: Control) -> Filled | None:
     """The blocks of an answer with the values that they ask for; None if they do not stand alone then.
 
     `before` is the state at the first block. The further facts are left out: the control does not read them.

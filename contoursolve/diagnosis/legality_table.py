@@ -10,7 +10,7 @@ from contoursolve.diagnosis.wording import unknowns_text
 from contoursolve.diagnostics import Severity
 from contoursolve.gcode import parse, parse_block
 from contoursolve.geometry import Length, Profile, assemble
-from contoursolve.reading import ContourForm, Dialect, ParsedContour, Sample, advance, check, read
+from contoursolve.reading import ContourForm, Control, ParsedContour, Sample, advance, check, read
 from contoursolve.solving import analyse, is_closed, points_with_two_solutions
 
 _OPTIONAL = re.compile(r"\{([^}]*)\}")
@@ -46,7 +46,7 @@ class Row(Struct, frozen=True):
         return f"{words} | {legality} | {determinacy}"
 
 
-def tabulate(form: ContourForm, dialect: Dialect) -> Iterator[Row]:
+def tabulate(form: ContourForm, dialect: Control) -> Iterator[Row]:
     """One row for every set of the optional words of a form's sample, smallest sets first."""
     sample = _sample(form)
     texts = [word for block in sample.blocks for word in _OPTIONAL.findall(block)]
@@ -59,7 +59,7 @@ MOST_TRIED = 1_000
 """Sets of words of a form among which the smallest legal ones are looked for."""
 
 
-def legal_samples(form: ContourForm, dialect: Dialect) -> Iterator[tuple[Row, str]]:
+def legal_samples(form: ContourForm, dialect: Control) -> Iterator[tuple[Row, str]]:
     """The smallest sets of words of a form's sample that are legal and make a contour: the row of each, and its
     blocks."""
     sample, found = _sample(form), list[frozenset[str]]()
@@ -79,7 +79,7 @@ def _lines(sample: Sample, chosen: frozenset[str]) -> list[str]:
     return [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in sample.blocks]
 
 
-def _row(form: ContourForm, dialect: Dialect, chosen: frozenset[str]) -> Row:
+def _row(form: ContourForm, dialect: Control, chosen: frozenset[str]) -> Row:
     sample = _sample(form)
     lines = _lines(sample, chosen)
     state = advance(

@@ -41,7 +41,7 @@ from contoursolve.diagnosis.window import Window, alone
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FaultKind
 from contoursolve.geometry import Given, Unit
-from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, check
+from contoursolve.reading import Control, Effect, ParsedContour, ReadIssue, check
 from contoursolve.solving import (
     Circuit,
     Status,
@@ -52,7 +52,7 @@ from contoursolve.solving import (
 
 def find_repairs(
     answer: Answer,
-    dialect: Dialect,
+    dialect: Control,
     window: Window | None = None,
 ) -> Repairs:
     """The repairs of a contour that was refused, or in which a word is ignored.
@@ -77,7 +77,7 @@ def find_repairs(
 
 def _find_repairs(
     answer: Answer,
-    dialect: Dialect,
+    dialect: Control,
     window: Window | None,
 ) -> Repairs:
     answer = _alone(answer, dialect)
@@ -129,7 +129,7 @@ def _of_words(answer: Answer, trial: Trial, drop_sets: DropSets) -> Iterator[Ite
     yield _lawful_alone(answer, trial)
 
 
-def _alone(answer: Answer, dialect: Dialect) -> Answer:
+def _alone(answer: Answer, dialect: Control) -> Answer:
     """The answer; of a contour that lacks words, and that is refused for what follows, that to its own blocks alone:
     what it lacks is to be mended."""
     claim = answer.claim
@@ -184,7 +184,7 @@ def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[
 
 
 def _legal_sets(
-    answer: Answer, dialect: Dialect, whole: Geometry, forced: tuple[Edit, ...]
+    answer: Answer, dialect: Control, whole: Geometry, forced: tuple[Edit, ...]
 ) -> Iterator[tuple[Edit, ...]]:
     """Words to drop and to add besides what is done in any case: every smallest set that makes the combination legal,
     and for a legal one what may be dropped or exchanged."""
@@ -238,7 +238,7 @@ def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[
 
 
 def _replacing(
-    claim: ParsedContour, dialect: Dialect, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
+    claim: ParsedContour, dialect: Control, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
 ) -> Iterator[tuple[Edit, ...]]:
     """Each word of a contradiction dropped, and the rest completed with other words."""
     present = frozenset(claim.words)
@@ -252,7 +252,7 @@ def _replacing(
                 yield from ((drop(claim.words[name]), *edits) for edits in product(*added))
 
 
-def _corrections(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, list[Edit]]]:
+def _corrections(claim: ParsedContour, dialect: Control) -> Iterator[tuple[str, list[Edit]]]:
     """Words whose value a rule refuses, with the values that mean the same or were meant."""
     for offence in check(dialect.rules, claim.form.roles, claim.stated()):
         if offence.rule.when is None or not offence.rule.when.reads_values:

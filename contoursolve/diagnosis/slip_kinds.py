@@ -15,7 +15,7 @@ from contoursolve.diagnosis.examine import LEADING
 from contoursolve.diagnosis.spelling import respelled
 from contoursolve.gcode import FACT, Word, mended
 from contoursolve.geometry import CornerShape, Plane, Unit
-from contoursolve.reading import Address, Dialect, Effect, Lexicon, Modes, ParsedContour, WithoutPoint
+from contoursolve.reading import Address, Control, Effect, Lexicon, Modes, ParsedContour, WithoutPoint
 
 _WORD = re.compile(
     r"(?P<address>RND[ \t]+R|,?[ \t]*[A-Za-z](?![A-Za-z_#])|[A-Za-z]\w*=[A-Za-z]+(?=\()|#?[A-Za-z]\w*?(?=[ \t]*=)"
@@ -72,7 +72,7 @@ class Speech(Struct, frozen=True):
         return cls(claim.lexicon, claim.form.allowed, shapes, claim, turned_axis(claim.before.plane))
 
     @classmethod
-    def of_control(cls, dialect: Dialect, turned: str) -> "Speech":
+    def of_control(cls, dialect: Control, turned: str) -> "Speech":
         """Those of a control, outside its contours."""
         lexicon = dialect.modes.lexicon
         return cls(lexicon, frozenset(lexicon.addresses), turned=turned)

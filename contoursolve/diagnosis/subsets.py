@@ -15,7 +15,7 @@ from contoursolve.diagnosis.spelling import answerable
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import Word
 from contoursolve.geometry import BlockRole
-from contoursolve.reading import ContourForm, Dialect, ParsedContour, Rule, check, is_refused_by_values
+from contoursolve.reading import ContourForm, Control, ParsedContour, Rule, check, is_refused_by_values
 
 MOST_CHECKED = 2_000
 """Sets of words of one contour that the rules are asked about."""
@@ -166,7 +166,7 @@ class DropSets(NamedTuple):
     is_complete: bool
 
 
-def find_drop_sets(answer: Answer, dialect: Dialect) -> DropSets:
+def find_drop_sets(answer: Answer, dialect: Control) -> DropSets:
     """The sets of words near what is wrong that may be left out, whatever the path is then.
 
     Of a contour of many blocks, each word alone, those that a finding is about first.
@@ -200,7 +200,7 @@ class _Combination:
 
     key: Hashable
     claim: ParsedContour = field(compare=False)
-    dialect: Dialect = field(compare=False)
+    dialect: Control = field(compare=False)
 
 
 class _Sets(NamedTuple):

@@ -12,7 +12,7 @@ from contoursolve.diagnosis.spelling import meant_in
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Word, lookalike_at, parse_block
-from contoursolve.reading import Dialect, Effect, Modes, ParsedContour, ReadIssue, State, codes_of
+from contoursolve.reading import Control, Effect, Modes, ParsedContour, ReadIssue, State, codes_of
 
 
 def forgotten_codes(answer: Answer, modes: Modes) -> Iterator[tuple[Edit, ...]]:
@@ -48,7 +48,7 @@ _OF_A_LINE = (
 
 def explain_commas(
     context: Context,
-    dialect: Dialect,
+    dialect: Control,
     blocks: Sequence[Block],
     states: tuple[State, State],
     previous: tuple[Sequence[Block], State] | None = None,
@@ -80,7 +80,7 @@ def explain_commas(
 
 
 def explain_letters(
-    context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
+    context: Context, dialect: Control, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
 ) -> Iterator[Diagnostic]:
     """The findings about a block, the first of some, that is a contour if letters of its G code are the digits that
     they look like: with these digits as the fix, if it is solved then. `before` is the state before it."""
@@ -106,7 +106,7 @@ _OF_WORDS = (ReadIssue.WORD_UNKNOWN, ReadIssue.WORD_MISTYPED)
 
 
 def _read(
-    dialect: Dialect, blocks: Sequence[Block], edits: Sequence[Edit], before: State
+    dialect: Control, blocks: Sequence[Block], edits: Sequence[Edit], before: State
 ) -> tuple[ParsedContour | None, str]:
     """The contour that begins with the first of some blocks when it is edited, if one does; and its text then."""
     (text,) = apply_edits(blocks[:1], edits)
@@ -115,7 +115,7 @@ def _read(
 
 
 def _tried(
-    dialect: Dialect, block: Block, found: ParsedContour | None, edits: Sequence[Edit], replacement: str
+    dialect: Control, block: Block, found: ParsedContour | None, edits: Sequence[Edit], replacement: str
 ) -> Iterator[Fix]:
     """The edits of a block as a fix, if they make a contour that is solved."""
     if found is not None and examine(found, dialect, Policy.ENFORCE, depth=Depth.VERDICT).contour:

@@ -12,7 +12,7 @@ from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span, typing_distance
 from contoursolve.gcode import Block, FaultKind, Word
-from contoursolve.reading import Bearing, Code, Dialect, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
+from contoursolve.reading import Bearing, Code, Control, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
 
 _SHORTEST = 2
 """Letters of an address by which no other one is meant."""
@@ -355,7 +355,7 @@ def _unknown_code(context: Context, word: Word, modes: Modes) -> Iterator[Diagno
     yield report(context, row, Basis.RULE, [word], name=name, advice=advice)
 
 
-def explain_call(context: Context, name: str, dialect: Dialect) -> Iterator[Diagnostic]:
+def explain_call(context: Context, name: str, dialect: Control) -> Iterator[Diagnostic]:
     """A subprogram that is nowhere, and has almost the name of a command."""
     near = sorted((distance, each) for each in dialect.modes.syntax.codes if (distance := _apart(name, each)) == 1)
     if near:

@@ -15,7 +15,7 @@ from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
 from contoursolve.gcode import Block
 from contoursolve.geometry import Start, Unit
-from contoursolve.reading import Dialect, Effect, ParsedContour, ReadIssue, State, advance, arc_of, faults_of, leave
+from contoursolve.reading import Control, Effect, ParsedContour, ReadIssue, State, advance, arc_of, faults_of, leave
 from contoursolve.solving import ArcSegment, Contour, LineSegment, Point, Segment, opposes
 from contoursolve.tolerance import AGREEMENT
 
@@ -85,7 +85,7 @@ class Window(Struct, frozen=True, dict=True):
     own: tuple[Block, ...]
     behind: tuple[Block, ...]
     state: State
-    dialect: Dialect
+    dialect: Control
     examine: Callable[[Sequence[Block], State, tuple[tuple[Sequence[Block], State], ...]], Iterable[WindowPart]]
 
     @cached_property
@@ -267,7 +267,7 @@ def path_of(seen: Seen, lines: Collection[int]) -> Contour | None:
     return Contour(elements[0].start, elements[-1].end, {}, tuple(elements), plane)
 
 
-def alone(answer: Answer, dialect: Dialect) -> Window:
+def alone(answer: Answer, dialect: Control) -> Window:
     """The window of a contour around which nobody looks."""
 
     def examined(blocks: Sequence[Block], state: State, _: object) -> Iterator[WindowPart]:

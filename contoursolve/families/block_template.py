@@ -10,14 +10,14 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve import gcode
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, Depth, join, named_in_program, typed_text, with_value
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
 from contoursolve.gcode import FACT, Directive, Program, Word, call
 from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run, start_text
-from contoursolve.reading import Dialect, ReadIssue
+from contoursolve.reading import Control, ReadIssue
 from contoursolve.solving import Point
 
 
@@ -289,7 +289,7 @@ class SweepSpec(Struct, frozen=True):
     block: str
     names: tuple[str, ...]
     start: str | None
-    control: str | Dialect | None
+    control: str | Control | None
     facts: tuple[str, ...]
     units: str
     rules: str
@@ -313,7 +313,7 @@ class SweepSpec(Struct, frozen=True):
             unread = run(program, replace(asked, facts=()))
             if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
-            raise UnknownControlError(f"the block does not show its control: {' or '.join(DIALECTS)}")
+            raise UnknownControlError(f"the block does not show its control: {' or '.join(CONTROLS)}")
         program = gcode.spelled(program, dialect.modes.syntax)
         from contoursolve.families.variables import numbered  # noqa: PLC0415 - it raises errors of this module
 
@@ -325,7 +325,7 @@ class BlockOptions(TypedDict, total=False):
     """Options of every question about a block: how it is read (see `family`)."""
 
     start: str | Mapping[str, float] | None
-    control: str | Dialect | None
+    control: str | Control | None
     facts: Iterable[str]
     units: str
     rules: str
@@ -338,7 +338,7 @@ def spec_of(  # noqa: PLR0913 - what `family` takes
     names: Iterable[str] = (),
     *,
     start: str | Mapping[str, float] | None = None,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
     facts: Iterable[str] = (),
     units: str = "mm",
     rules: str = "enforce",

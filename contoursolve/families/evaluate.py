@@ -33,7 +33,7 @@ from contoursolve.families.free_words import Examples, check_block, examples_of
 from contoursolve.families.solutions_of_rows import names_of_solutions, without_defaults
 from contoursolve.families.word_values import TOOL, Ranges, ranges_of, stretches
 from contoursolve.numeric import Array
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.solving import REASONS, Status, StatusCode
 
 STRETCH = 65_536
@@ -124,7 +124,7 @@ def family(
     *,
     vary: Mapping[str, ArrayLike],
     start: str | Mapping[str, float] | None = None,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
     facts: Iterable[str] = (),
     paired: bool = False,
     units: str = "mm",

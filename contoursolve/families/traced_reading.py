@@ -19,7 +19,7 @@ from contoursolve.gcode import FACT, Block, Word
 from contoursolve.geometry import assemble
 from contoursolve.numeric import Affine
 from contoursolve.program import attach
-from contoursolve.reading import Dialect, ParsedContour, advance, leave, reach_of, read
+from contoursolve.reading import Control, ParsedContour, advance, leave, reach_of, read
 from contoursolve.solving import analyse, joints_among
 
 
@@ -277,7 +277,7 @@ class _Marking:
 
 
 def _first_contour(
-    dialect: Dialect, blocks: Sequence[Block], before: Sequence[Block], template: Template, like: ParsedContour
+    dialect: Control, blocks: Sequence[Block], before: Sequence[Block], template: Template, like: ParsedContour
 ) -> ParsedContour | None:
     """The contour at the place of another one. What begins there is read with all that stands before it."""
     state, first = dialect.initial_state(template.asked.unit), like.blocks[0].line

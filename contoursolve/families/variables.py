@@ -8,7 +8,7 @@ from contoursolve.families.errors import FamilyError
 from contoursolve.gcode import Program
 from contoursolve.numeric import Variable
 from contoursolve.program import choose
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 Places = Mapping[str, tuple[int, int]]
 """By the name of a variable, the line and the column of the value that it is."""
@@ -67,7 +67,7 @@ def _number(
 
 
 def with_numbers(
-    block: str, control: str | Dialect | None, settings: Mapping[str, str] | None, values: Mapping[str, float]
+    block: str, control: str | Control | None, settings: Mapping[str, str] | None, values: Mapping[str, float]
 ) -> str:
     """A block with numbers for all of its variables. Raises FamilyError for one without a value, and as `choose`."""
     program = gcode.parse(block, "<block>")

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from lsprotocol import types
 
 from contoursolve import (
-    DIALECTS,
+    CONTROLS,
     Answer,
     Block,
-    Dialect,
+    Control,
     Status,
     Word,
 )
@@ -202,7 +202,7 @@ class Completer:
                 yield from self._words(answer)
         elif begun is not None:
             self.begin = begun.start("code") + 1
-            for each in DIALECTS.values() if dialect is None else (dialect,):
+            for each in CONTROLS.values() if dialect is None else (dialect,):
                 yield from self._blocks(each)
 
     def _words(self, answer: Answer) -> Iterator[types.CompletionItem]:
@@ -211,7 +211,7 @@ class Completer:
             detail = "fixed by the other words" if each.contour is not None else ""
             yield self._item(each.text, each.text.replace("?", "${1}"), each.meaning, detail, each.address, number)
 
-    def _blocks(self, dialect: Dialect) -> Iterator[types.CompletionItem]:
+    def _blocks(self, dialect: Control) -> Iterator[types.CompletionItem]:
         key = dialect.name, *sorted(dialect.modes.settings.items())
         if key not in _LEGAL:
             _LEGAL[key] = dialect.examples

@@ -16,7 +16,7 @@ class Pages:
         self._folder = TemporaryDirectory(prefix="contoursolve-", ignore_cleanup_errors=True)
         atexit.register(self._folder.cleanup)
 
-    def uri(self, code: str, dialect: "contoursolve.Dialect | None") -> str:
+    def uri(self, code: str, dialect: "contoursolve.Control | None") -> str:
         """The address of the page about a rule; empty if there is none."""
         name = f"{dialect.name}-{code}.md" if dialect is not None else f"{code}.md"
         path = Path(self._folder.name) / name

@@ -400,13 +400,13 @@ for _name, _make in _COMMANDS.items():
 @server.command("contoursolve.controls")
 def controls() -> Any:
     """The controls that can be chosen."""
-    return [{"name": each.name, "title": each.title} for each in contoursolve.DIALECTS.values()]
+    return [{"name": each.name, "title": each.title} for each in contoursolve.CONTROLS.values()]
 
 
 @server.command("contoursolve.explain")
 async def explain(code: str, control: str) -> None:
     """Show the page about a rule."""
-    uri = server.pages.uri(code, contoursolve.DIALECTS.get(control))
+    uri = server.pages.uri(code, contoursolve.CONTROLS.get(control))
     if uri:
         await server.show(uri, code)
 

@@ -28,7 +28,7 @@ from contoursolve.geometry import Pick, Unit
 from contoursolve.notebook.block_place import BlockPlace
 from contoursolve.output import stated_words
 from contoursolve.program import Changes, Result, UnknownControlError, changed, changes_of
-from contoursolve.reading import Dialect, Lexicon
+from contoursolve.reading import Control, Lexicon
 from contoursolve.solving import Status
 from contoursolve.tool_radius import FROM_PROGRAM, Tool, ToolReport, make_tool, radius_in, read_tool, tool_in
 
@@ -124,7 +124,7 @@ def begin(
         place = BlockPlace(lines[0] - 1, len(result.program.blocks) - lines[-1])
     # A reader may take out the word by which the control is recognised.
     is_recognised = options.get("control") is None
-    kept = {**options, "control": options["control"] if isinstance(options.get("control"), Dialect) else result.control}
+    kept = {**options, "control": options["control"] if isinstance(options.get("control"), Control) else result.control}
     now = Exploration(text, kept, result, (text, place), place, {}, is_recognised, side, report, examine)
     _check_single(now)
     if tool is not None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, overload
 from contoursolve.diagnostics import importing
 from contoursolve.families import Family, FeasibleRegion, with_numbers
 from contoursolve.notebook.exploration import begin, rewrite_block
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 if TYPE_CHECKING:
     from contoursolve.notebook.explorer import Explorer
@@ -23,7 +23,7 @@ def explore(
     *,
     line: int | None = None,
     start: str | None = None,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
     units: str = "mm",
     rules: str = "enforce",
     facts: Iterable[str] = (),
@@ -39,7 +39,7 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     *,
     line: int | None = None,
     start: str | None = None,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
     units: str = "mm",
     rules: str = "enforce",
     facts: Iterable[str] = (),

@@ -106,7 +106,7 @@ def _expansion(program: "OpenProgram", text: str | None, summary: "Summary") -> 
 def converted(program: "OpenProgram", control: str, settings: Mapping[str, str]) -> Product:
     """A program in the words of another control, with the settings of both, or why there is none."""
     from contoursolve.api import convert  # noqa: PLC0415 - as above
-    from contoursolve.controls import DIALECTS  # noqa: PLC0415 - as above
+    from contoursolve.controls import CONTROLS  # noqa: PLC0415 - as above
 
     try:
         found = convert(program.text, control, control=program.dialect, settings=settings, name=program.name)
@@ -115,7 +115,7 @@ def converted(program: "OpenProgram", control: str, settings: Mapping[str, str])
     difference = found.comparison.difference if found.comparison else None
     if difference is not None:
         return Product(found.text, f"the new program is another path: {difference.reason}")
-    return _telling(found.text, found.summary, DIALECTS[control].title, "convert")
+    return _telling(found.text, found.summary, CONTROLS[control].title, "convert")
 
 
 def _telling(text: str | None, summary: "Summary", target: str, command: str) -> Product:

@@ -5,7 +5,7 @@ from itertools import islice
 from math import isnan
 from typing import Any
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count, join, states_in
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
 from contoursolve.families import (
@@ -35,7 +35,7 @@ from contoursolve.output import (
     word_tolerance_lines,
 )
 from contoursolve.program import Result
-from contoursolve.reading import Dialect, Lexicon, Rule
+from contoursolve.reading import Control, Lexicon, Rule
 from contoursolve.solving import Contour, Sketch
 from contoursolve.tolerance import AGREEMENT
 
@@ -63,7 +63,7 @@ def text_of(record: Shown) -> Iterable[str]:
     return str(record).split("\n")
 
 
-def _reads_by(dialect: Dialect, lexicon: Lexicon) -> bool:
+def _reads_by(dialect: Control, lexicon: Lexicon) -> bool:
     own = dialect.modes.lexicon
     return any(each is lexicon for each in (own, *own.others.values()))
 
@@ -71,7 +71,7 @@ def _reads_by(dialect: Dialect, lexicon: Lexicon) -> bool:
 def control_of(answer: Answer) -> str | None:
     """The control whose words a contour was read with, if it is one that is built in."""
     lexicon = answer.claim.lexicon
-    return next((name for name, each in DIALECTS.items() if _reads_by(each, lexicon)), None)
+    return next((name for name, each in CONTROLS.items() if _reads_by(each, lexicon)), None)
 
 
 def result_of(answer: Answer) -> Result:
@@ -154,7 +154,7 @@ def _rule(rule: Rule) -> list[str]:
 
 def controls_of(rule: Rule) -> list[str]:
     """The controls that have a rule."""
-    return [name for name, dialect in DIALECTS.items() if rule in (*dialect.rules, *dialect.catalogue)]
+    return [name for name, dialect in CONTROLS.items() if rule in (*dialect.rules, *dialect.catalogue)]
 
 
 def _family(family: Family) -> Iterator[str]:

@@ -9,10 +9,10 @@ from msgspec import Struct
 from contoursolve.diagnosis import tabulate
 from contoursolve.diagnostics import Alarm, Source, members
 from contoursolve.output.plain_text import columns
-from contoursolve.reading import THIS_CONTROL, Dialect, Rule, ZeroMove, ZeroRow
+from contoursolve.reading import THIS_CONTROL, Control, Rule, ZeroMove, ZeroRow
 
 
-def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
+def catalogue_lines(dialects: Iterable[Control]) -> list[str]:
     """One line a rule: code, severity, evidence, the control's alarm, message."""
     lines: list[str] = []
     for dialect in dialects:
@@ -27,7 +27,7 @@ def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
     return lines
 
 
-def catalogue_data(dialects: Iterable[Dialect]) -> dict[str, Any]:
+def catalogue_data(dialects: Iterable[Control]) -> dict[str, Any]:
     """The same as plain data for JSON, with the advice and the examples of each rule: schema contoursolve/rules/1."""
     controls = [
         {
@@ -48,14 +48,14 @@ def catalogue_data(dialects: Iterable[Dialect]) -> dict[str, Any]:
 _FIELDS = "code severity message=title advice note source alarm wrong=rejected right=accepted"
 
 
-def _zero_lines(dialect: Dialect) -> Iterator[str]:
+def _zero_lines(dialect: Control) -> Iterator[str]:
     """Lines about what moves the coordinate system."""
     for row in _moves_of_zero(dialect):
         yield f"zero {dialect.name}: {row.names}: {row.move.value} ({row.source})"
     yield ""
 
 
-def _moves_of_zero(dialect: Dialect) -> Iterator[ZeroRow]:
+def _moves_of_zero(dialect: Control) -> Iterator[ZeroRow]:
     """The moves of the coordinate system, rows that are alike as one: of codes in a row, the first and the last one."""
     table, names = dialect.modes.zero, dict[tuple[ZeroMove, Source], list[str]]()
     for name, row in table.names.items():
@@ -77,7 +77,7 @@ def _moves_of_zero(dialect: Dialect) -> Iterator[ZeroRow]:
 _NUMBERED = re.compile(r"(.*?)(\d+)")
 
 
-def _setting_lines(dialect: Dialect) -> Iterator[str]:
+def _setting_lines(dialect: Control) -> Iterator[str]:
     """Lines of the settings, for what the manual leaves open: each with its values, the default one marked."""
     for setting in dialect.settings:
         name = f"{dialect.name}.{setting.name}"
@@ -96,7 +96,7 @@ def _setting_lines(dialect: Dialect) -> Iterator[str]:
         yield ""
 
 
-def word_set_lines(dialects: Iterable[Dialect]) -> Iterator[str]:
+def word_set_lines(dialects: Iterable[Control]) -> Iterator[str]:
     """Legality and determinacy of every set of words of every form."""
     for dialect in dialects:
         sampled = [form for form in dialect.forms if form.table.sample is not None]
@@ -137,7 +137,7 @@ def rule_lines(rule: Rule, controls: Sequence[str]) -> list[str]:
     return lines
 
 
-def rule_page(code: str, dialects: Iterable[Dialect]) -> str:
+def rule_page(code: str, dialects: Iterable[Control]) -> str:
     """A page of Markdown about a rule: what is wrong and what to do, with blocks that are wrong and right.
 
     It names the place in the manual of each control that has the rule. Raises LookupError if none has it.
@@ -145,7 +145,7 @@ def rule_page(code: str, dialects: Iterable[Dialect]) -> str:
     found = [(each, rule) for each in dialects for rule in each.catalogue if rule.code == code]
     if not found:
         raise LookupError(f"no rule has the code {code!r}")
-    alike: dict[tuple[str, ...], list[tuple[Dialect, Rule]]] = {}
+    alike: dict[tuple[str, ...], list[tuple[Control, Rule]]] = {}
     for dialect, rule in found:
         alike.setdefault((rule.title, rule.advice, *rule.rejected), []).append((dialect, rule))
     pages = []
@@ -183,7 +183,7 @@ def _plainly(number: str) -> str:
     return number.strip().lower().removeprefix("ps").lstrip("0")
 
 
-def alarm_rows(dialects: Iterable[Dialect]) -> Iterator[AlarmRow]:
+def alarm_rows(dialects: Iterable[Control]) -> Iterator[AlarmRow]:
     """The alarms of controls: those of their rules, and those about the radius of a tool."""
     from contoursolve.controls import TOOL_FACTS  # noqa: PLC0415 - few ask for alarms
     from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - the same

@@ -6,17 +6,17 @@ from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, json_text
 from contoursolve.output.baseline import subjects_of
 from contoursolve.program import Result, changes_of
-from contoursolve.reading import Dialect, Rule
+from contoursolve.reading import Control, Rule
 
 _LEVEL = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _COMMAND = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
 
-def to_sarif(results: Sequence[Result], version: str, own: Dialect | None = None) -> str:
+def to_sarif(results: Sequence[Result], version: str, own: Control | None = None) -> str:
     """One SARIF log (OASIS SARIF 2.1.0): every rule of the catalogue declared, every finding a result. `own` is a
     control that is not built in.
 
@@ -25,7 +25,7 @@ def to_sarif(results: Sequence[Result], version: str, own: Dialect | None = None
     """
     from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - only here
 
-    controls = [*DIALECTS.values(), *([own] if own else [])]
+    controls = [*CONTROLS.values(), *([own] if own else [])]
     known = {rule.code: rule for dialect in controls for rule in dialect.rules}
     told = {finding.code for result in results for finding in result.diagnostics}
     rules = sorted((known | {kind.code: kind.rule for kind in ToolFaultKind if kind.code in told}).items())

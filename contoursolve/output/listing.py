@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, ContourState, count, join, labels_of, rank, states_in, statuses_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
@@ -308,7 +308,7 @@ def closing_lines(result: Result, tally: "Totals | None" = None) -> Iterator[str
     """For which control a program was read and what shows that, and what was found in all: of a result that is only
     the frame of a stream, as it was counted."""
     if result.control is not None:
-        own = DIALECTS.get(result.control)
+        own = CONTROLS.get(result.control)
         sign = what_shows(result.program.blocks, own) if own else ""
         whence = f"from {sign}" if sign else "as told above" if result.is_concluded else "as asked for"
         yield f"control: {own.title if own else result.control} ({whence})"

@@ -12,7 +12,7 @@ from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block, OpenFile, Program, parse
 from contoursolve.postprocess import POSTS, ExpansionOptions, Left, MovedProgram, Rewritten, Summary, rewrite
 from contoursolve.program import Result, Run, SolveOptions, renumbered
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.tool_radius import (
     ToolError,
     ToolFaultKind,
@@ -57,7 +57,7 @@ class BesideTool(Struct, frozen=True):
 
     source: OpenFile
     blocks: Mapping[int, Block]
-    dialect: Dialect | None
+    dialect: Control | None
     writer: MovedProgram
 
     def say_at_home(self, summary: Summary) -> None:

@@ -10,7 +10,7 @@ import htpy as h
 from markupsafe import Markup
 from msgspec import Struct
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count
 from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
 from contoursolve.gcode import Block
@@ -161,7 +161,7 @@ def _lighting(result: Result) -> str:
 
 def _conditions(result: Result, places: PageAnchors) -> h.Element:
     """The control, and everything apart from the program that the result depends on."""
-    dialect = DIALECTS.get(result.control or "")
+    dialect = CONTROLS.get(result.control or "")
     rows = [("program", result.program.name)]
     rows.append(("control", f"{dialect.title} ({dialect.name})" if dialect else result.control or "not known"))
     if result.policy is not Policy.ENFORCE:

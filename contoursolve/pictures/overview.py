@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison import Motion, Travel, follow
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, statuses_text
 from contoursolve.geometry import SECOND, Length, Plane, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
@@ -256,7 +256,7 @@ def _role(answer: Answer, solved: Role = Role.INK) -> Role:
 def _moves(result: Result) -> list[PlaneMove]:
     """The moves at a feed that are joined to a contour, before it or after it, in the plane of that contour, and the
     rapid moves that lead to these or away from them; nothing for a control that nobody has described."""
-    dialect = DIALECTS.get(result.control or "")
+    dialect = CONTROLS.get(result.control or "")
     if dialect is None:
         return []
     axes = tuple(dict.fromkeys(axis for answer in result.answers for axis in answer.plane.axes))
@@ -290,7 +290,7 @@ def _moves(result: Result) -> list[PlaneMove]:
 
 def plain_trail(result: Result, like: Answer) -> list[Trail]:
     """The feed moves of a program as it is where a contour stood, which needs none any more."""
-    dialect = DIALECTS.get(result.control or "")
+    dialect = CONTROLS.get(result.control or "")
     if dialect is None:
         return []
     axes = like.plane.axes

@@ -19,11 +19,11 @@ from contoursolve.postprocess.wordings import (
     WrittenWord,
     changed_axes,
 )
-from contoursolve.reading import Dialect, State
+from contoursolve.reading import Control, State
 from contoursolve.solving import ArcSegment, Segment
 
 
-def language_of(target: Dialect) -> Language | None:
+def language_of(target: Control) -> Language | None:
     """The language of a target that writes lines and arcs in a row; None for another target."""
     return target.find.language if isinstance(target.find, ChainFinder) else None
 
@@ -38,7 +38,7 @@ class ChainWordings(GCodeSpeller):
     """The words of a language for elements of a contour."""
 
     def __init__(
-        self, drawn: ContourDrawing, dialect: Dialect, state: State, language: Language, around: HostProgram | None
+        self, drawn: ContourDrawing, dialect: Control, state: State, language: Language, around: HostProgram | None
     ) -> None:
         super().__init__(drawn, dialect, state, around)
         self.language = language

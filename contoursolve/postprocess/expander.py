@@ -37,7 +37,7 @@ from contoursolve.reading import (
     STANDING_ALONE,
     Code,
     ContourBlock,
-    Dialect,
+    Control,
     Diameter,
     ParsedContour,
     ReadIssue,
@@ -83,7 +83,7 @@ class Expander:
     """Format of arc centres: coordinates or distances from the start, and the additional decimals."""
 
     def __init__(
-        self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, dialect: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
         self.dialect = dialect
         self.modes = dialect.modes

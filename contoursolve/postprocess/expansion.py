@@ -14,14 +14,14 @@ from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import SAME, machine_of
 from contoursolve.postprocess.restating import InGCodes, InOwnWords
 from contoursolve.program import Batch, Line, Lines, Request, attach, each_block, machine_for, walk
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 __all__ = ["OPENING", "expand_lines", "lines_of_facts", "opening_of"]
 
 
 def expand_lines(
     lines: Lines,
-    dialect: Dialect,
+    dialect: Control,
     asked: Request,
     options: ExpansionOptions,
     summary: Summary,
@@ -67,7 +67,7 @@ def lines_of_facts(program: Program, asked: Request) -> dict[int, tuple[Directiv
     return {block.line: worded for block in attached.blocks if worded and worded[0] in block.directives}
 
 
-def opening_of(options: ExpansionOptions, dialect: Dialect, unit: Length, summary: Summary) -> str:
+def opening_of(options: ExpansionOptions, dialect: Control, unit: Length, summary: Summary) -> str:
     """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
     text = options.post.opening.get(machine_of(dialect), "") if summary.replaced else ""
     if summary.unit is not None and dialect.writing is not None:

@@ -9,7 +9,7 @@ from contoursolve.diagnosis import legal_samples
 from contoursolve.geometry import Arc, Line
 from contoursolve.postprocess.contour_drawing import DrawnElement, size_as
 from contoursolve.postprocess.wordings import CornerWay, GCodeSpeller, Wording, WrittenBlock, WrittenWord
-from contoursolve.reading import ContourForm, Dialect, check, stated_sets
+from contoursolve.reading import ContourForm, Control, check, stated_sets
 from contoursolve.solving import LineSegment
 
 
@@ -64,7 +64,7 @@ _USES: dict[object, tuple[tuple[ContourForm, frozenset[str]], ...]] = {}
 refuses may be right by another."""
 
 
-def _uses(dialect: Dialect) -> tuple[tuple[ContourForm, frozenset[str]], ...]:
+def _uses(dialect: Control) -> tuple[tuple[ContourForm, frozenset[str]], ...]:
     """The sets of words by which each form of a control may be stated, but for those of corners."""
     key = dialect.name, dialect.forms, *sorted(dialect.modes.settings.items())
     if key not in _USES:
@@ -72,7 +72,7 @@ def _uses(dialect: Dialect) -> tuple[tuple[ContourForm, frozenset[str]], ...]:
     return _USES[key]
 
 
-def _sets(dialect: Dialect) -> Iterator[tuple[ContourForm, frozenset[str]]]:
+def _sets(dialect: Control) -> Iterator[tuple[ContourForm, frozenset[str]]]:
     for form in (each for each in dialect.forms if each.is_contour):
         if form.table.sample is not None:
             sets: Sequence[frozenset[str]] = [frozenset(row.addresses) for row, _ in legal_samples(form, dialect)]

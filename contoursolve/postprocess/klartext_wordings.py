@@ -20,7 +20,7 @@ from contoursolve.postprocess.wordings import (
     WrittenWord,
     changed_axes,
 )
-from contoursolve.reading import Dialect, State
+from contoursolve.reading import Control, State
 from contoursolve.solving import ArcSegment, LineSegment, Segment
 
 CORNERS = {"ROUNDING": CornerShape.FILLET, "CHAMFER": CornerShape.CHAMFER_SETBACK}
@@ -42,7 +42,7 @@ class KlartextWordings(Speller):
     corner_shapes = CORNERS
 
     def __init__(
-        self, drawn: ContourDrawing, dialect: Dialect, state: State, answer: Answer, program: SmallProgram
+        self, drawn: ContourDrawing, dialect: Control, state: State, answer: Answer, program: SmallProgram
     ) -> None:
         super().__init__(drawn, dialect, state)
         self.answer, self.program, self.tries = answer, program, MOST_TRIED

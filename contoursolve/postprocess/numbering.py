@@ -8,7 +8,7 @@ from math import hypot, sqrt
 
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
-from contoursolve.reading import Dialect, Effect, Modes, State, apply_modes, codes_of, rows_of
+from contoursolve.reading import Control, Effect, Modes, State, apply_modes, codes_of, rows_of
 from contoursolve.tolerance import ARC_START
 
 SHORT, LONG = 9_999, 99_999
@@ -21,7 +21,7 @@ _NUMBER = re.compile(r"(?:[NPQ]|GOTO)[ \t]*([0-9]{1,5})(?![0-9])", re.IGNORECASE
 """Block numbers, and numbers of blocks to which a program may jump; in comments, too."""
 
 
-def numbers_of(lines: Iterable[str], dialect: Dialect) -> "Numbers":
+def numbers_of(lines: Iterable[str], dialect: Control) -> "Numbers":
     """The block numbers of a program, in the spelling of its control."""
     return Numbers(lines, dialect.writing.number if dialect.writing is not None else _NUMBER)
 

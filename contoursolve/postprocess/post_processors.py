@@ -6,7 +6,7 @@ from enum import Enum
 
 from contoursolve.controls import FANUC_MILL as FANUC_CONTROL, PLAIN
 from contoursolve.geometry import Length
-from contoursolve.reading import Code, Dialect, Effect, Modes, NumberFormat, WithoutPoint
+from contoursolve.reading import Code, Control, Effect, Modes, NumberFormat, WithoutPoint
 
 
 class Arcs(Enum):
@@ -86,7 +86,7 @@ class Post:
     without_point: WithoutPoint | None
     opening: Mapping[MachineKind, str] = field(default_factory=dict)
     readings: Mapping[MachineKind, SupportedCodes] = field(default_factory=dict)
-    target: Dialect | None = None
+    target: Control | None = None
     """The control in whose own words contours are written, as far as it has them."""
     modes: Modes | None = None
     """The tables of the target: its codes for units and for X as a diameter, and how its comments look."""
@@ -258,7 +258,7 @@ FANUC = Post(
 POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
 
 
-def machine_of(dialect: Dialect) -> MachineKind:
+def machine_of(dialect: Control) -> MachineKind:
     """The kind of machine of a control."""
     return MachineKind.LATHE if dialect.plane.code == "G18" else MachineKind.MILL
 
@@ -284,7 +284,7 @@ _OFFSETS = {"siemens-840d": "D1", "siemens-808d": "D1", "isg": "D{tool}"}
 """The cutting edge of the tool, or its record (assumed)."""
 
 
-def post_of(target: Dialect) -> Post:
+def post_of(target: Control) -> Post:
     """A control as a target in whose own words contours are written: it reads the codes of its tables, and any M."""
     codes, numbers = target.modes.codes, target.modes.lexicon.numbers
     reading = SupportedCodes(

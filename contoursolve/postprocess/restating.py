@@ -19,7 +19,7 @@ from contoursolve.reading import (
     Around,
     Carried,
     ContourBlock,
-    Dialect,
+    Control,
     ParsedContour,
     Restated,
     State,
@@ -36,7 +36,7 @@ class _Expander(Expander):
     has_motions = False
 
     def __init__(
-        self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, dialect: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
         super().__init__(dialect, options, summary, lines, numbers)
         self.writing = cast("Writing", dialect.writing)
@@ -65,7 +65,7 @@ class InOwnWords(_Expander):
     has_absolute_centers = True
 
     def __init__(
-        self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, dialect: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
         super().__init__(dialect, options, summary, lines, numbers)
         self.own = self.writing.own()
@@ -103,7 +103,7 @@ class InGCodes(_Expander):
     """All of a program in G codes; what has none is a comment."""
 
     def __init__(
-        self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, dialect: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
         super().__init__(dialect, options, summary, lines, numbers)
         self.plain = self.writing.plain()

@@ -29,7 +29,7 @@ from contoursolve.program import (
     for_machine,
     named_control,
 )
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _BATCH = 1 << 16
 """Characters that are encoded at once."""
@@ -73,7 +73,7 @@ def rewrite(
     options: ExpansionOptions,
     asked: Request,
     *,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
     settings: Mapping[str, str] | None = None,
     progress: Callable[[float], None] = lambda _: None,
     writer: Writer | None = None,
@@ -100,7 +100,7 @@ def rewrite(
         lines: Iterable[str | object] = source.lines()
     else:
         dialect = configure(dialect, settings)
-        if not isinstance(control, Dialect):
+        if not isinstance(control, Control):
             dialect = for_machine(dialect, settings or {}, source.lines())
         asked = asked.of(dialect, source.lines)
         check_start(asked)
@@ -137,7 +137,7 @@ def rewrite(
     return Rewritten(body, place, source.encode(opening), dialect.name if dialect else None, summary)
 
 
-def _recognise(recogniser: Recogniser, blocks: Iterable[Block]) -> Dialect | None:
+def _recognise(recogniser: Recogniser, blocks: Iterable[Block]) -> Control | None:
     """The control that blocks are for. Where its words are its own, it is known at once."""
     for block in blocks:
         recogniser.look(block)

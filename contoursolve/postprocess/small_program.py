@@ -7,7 +7,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison import Motion, ToolPath, Travel, along, compare, follow
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Depth
 from contoursolve.gcode import comment_out, parse, parse_block
 from contoursolve.geometry import Length
@@ -15,7 +15,7 @@ from contoursolve.postprocess.contour_drawing import ContourDrawing
 from contoursolve.postprocess.post_processors import SAME, MachineKind, machine_of
 from contoursolve.postprocess.wordings import REFERENCE, HostProgram, WrittenBlock, said
 from contoursolve.program import Request, run
-from contoursolve.reading import Dialect, Diameter, ReadIssue, State, advance
+from contoursolve.reading import Control, Diameter, ReadIssue, State, advance
 from contoursolve.solving import Point
 
 _ISO = ("%", "O0001"), ("M30", "%"), ".nc"
@@ -38,12 +38,12 @@ _UNITS_OFF = 2
 """A contour with rounded words is read back to within so many units of the last decimal of its control."""
 
 
-def ending_of(target: Dialect) -> str:
+def ending_of(target: Control) -> str:
     """The end of the name of a file with a program for a control, with its dot."""
     return _FRAMES.get(target.name, _ISO)[2]
 
 
-def says_unit(target: Dialect, unit: Length) -> bool:
+def says_unit(target: Control, unit: Length) -> bool:
     """Whether a program for a control can say its unit: by a code, or in its first line. Nobody has to say mm."""
     return (
         unit is Length.MM
@@ -70,7 +70,7 @@ class ReadBack(Struct, frozen=True):
 class SmallProgram:
     """The lines around the blocks of a contour for a control; or what stands for the program around them."""
 
-    def __init__(self, target: Dialect, drawn: ContourDrawing, around: HostProgram | None = None) -> None:
+    def __init__(self, target: Control, drawn: ContourDrawing, around: HostProgram | None = None) -> None:
         self.target, self.is_numbered, self.around = target, target.writing is not None, around
         self.opening = () if self.is_numbered else (*filter(None, (_opening(target, drawn),)),)
         self.told = () if around is not None else (*_stated(target), *comment_out(_MISSING, target.modes.syntax))
@@ -167,7 +167,7 @@ _LEFT, _NO_SIDE = 41, 40
 _REFERENCE = re.compile(f"{REFERENCE}(\\d+){REFERENCE}")
 
 
-def _opening(target: Dialect, drawn: ContourDrawing) -> str:
+def _opening(target: Control, drawn: ContourDrawing) -> str:
     """The block that says how the words of a program are read."""
     modes = target.modes
     rows, is_mill = modes.codes.values(), machine_of(target) is MachineKind.MILL
@@ -182,9 +182,9 @@ def _opening(target: Dialect, drawn: ContourDrawing) -> str:
     return " ".join(codes)
 
 
-def _stated(target: Dialect) -> Sequence[str]:
+def _stated(target: Control) -> Sequence[str]:
     """The comment that states the control and its settings; none of a control that is known by its own tables alone."""
-    if target.name not in DIALECTS:
+    if target.name not in CONTROLS:
         return ()
     stated = (f"{name}: {value}" for name, value in target.modes.settings.items() if name != "machine")
     return comment_out(", ".join((f"contoursolve control: {target.name}", *stated)), target.modes.syntax)

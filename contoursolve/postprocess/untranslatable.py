@@ -12,7 +12,7 @@ from contoursolve.diagnosis import join
 from contoursolve.gcode import Block, Macro, Word
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import Other, Post, Risk, SupportedCodes
-from contoursolve.reading import Dialect, Diameter, Effect, State, WithoutPoint, rows_of
+from contoursolve.reading import Control, Diameter, Effect, State, WithoutPoint, rows_of
 
 _NO_COMPENSATION = 40
 
@@ -75,7 +75,7 @@ def _looking_for(addresses: str, is_counting: bool) -> re.Pattern[str]:
 class Watch:
     """Looks at every block that is not replaced."""
 
-    def __init__(self, post: Post, dialect: Dialect, reading: SupportedCodes | None) -> None:
+    def __init__(self, post: Post, dialect: Control, reading: SupportedCodes | None) -> None:
         self.post = post
         self.reading = reading
         self.control = dialect.name

@@ -14,7 +14,7 @@ from contoursolve.geometry import Arc, CornerShape, Unit, Values as Known, scala
 from contoursolve.postprocess.contour_drawing import EXACT, ContourDrawing, DrawnElement, size_as
 from contoursolve.postprocess.emit import Format, emit, parts_of
 from contoursolve.postprocess.post_processors import SAME, Arcs
-from contoursolve.reading import ContourForm, Dialect, State
+from contoursolve.reading import ContourForm, Control, State
 from contoursolve.solving import ArcSegment, Point, Segment
 
 REFERENCE = "@"
@@ -113,7 +113,7 @@ class Speller:
     """The words that make the corner behind an element, each with the shape that it makes."""
 
     def __init__(
-        self, drawn: ContourDrawing, dialect: Dialect, state: State, around: HostProgram | None = None
+        self, drawn: ContourDrawing, dialect: Control, state: State, around: HostProgram | None = None
     ) -> None:
         self.around, self.line = around, 0 if around is not None and around.is_rapid else 1
         self.drawn, self.dialect, self.modes = drawn, dialect, dialect.modes

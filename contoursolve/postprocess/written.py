@@ -26,7 +26,7 @@ from contoursolve.postprocess.wordings import (
     said,
 )
 from contoursolve.program import for_kind
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.solving import Point
 
 MOST_CANDIDATES = 8
@@ -89,7 +89,7 @@ class WrittenContours(Struct, frozen=True):
     reason: str = ""
 
 
-def write_contour(answer: Answer, target: Dialect, *, most: int = MOST_CANDIDATES) -> WrittenContours:
+def write_contour(answer: Answer, target: Control, *, most: int = MOST_CANDIDATES) -> WrittenContours:
     """The wordings of a solved contour for a control. Raises ConversionError if it has no path, or one of no length."""
     drawn = draw(answer)
     if not drawn.elements:
@@ -141,7 +141,7 @@ Moves = Mapping[str, tuple[MotionBlock, ...]]
 """The moves for each element of a contour, by its name."""
 
 
-def translate(answer: Answer, target: Dialect, here: Point, form: Format, *, is_rapid: bool) -> Moves | None:
+def translate(answer: Answer, target: Control, here: Point, form: Format, *, is_rapid: bool) -> Moves | None:
     """The moves of a solved contour in the words of a target that writes lines and arcs in a row, in a program where
     the tool is really `here`; None if the target refuses it, has no words for any of it, or it has no length."""
     if language_of(target) is None or answer.contour is None:
@@ -193,7 +193,7 @@ class _Search:
     def __init__(
         self,
         drawings: Sequence[ContourDrawing],
-        target: Dialect,
+        target: Control,
         answer: Answer,
         around: HostProgram | None = None,
         *,

@@ -7,7 +7,7 @@ from itertools import zip_longest
 from msgspec import Struct
 from msgspec.structs import replace as replace_fields
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, Depth, coordinates, join, status_text
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import Block, Program, telling
@@ -24,7 +24,7 @@ from contoursolve.program.recognise import (
     what_shows,
 )
 from contoursolve.program.request import Request
-from contoursolve.reading import ArcIssue, Dialect, ReadIssue, Taken
+from contoursolve.reading import ArcIssue, Control, ReadIssue, Taken
 from contoursolve.solving import LineSegment, Segment
 from contoursolve.tolerance import ERROR_BOUND_WARNING
 
@@ -61,14 +61,14 @@ class _Reading(Struct, frozen=True):
 
 
 def choose_alike(
-    control: str | Dialect | None,
+    control: str | Control | None,
     program: Program,
     asked: Request,
     settings: Mapping[str, str] | None = None,
-    recognise_by: Callable[[Iterable[Block]], Dialect | None] | None = None,
-) -> Dialect | None:
+    recognise_by: Callable[[Iterable[Block]], Control | None] | None = None,
+) -> Control | None:
     """The control as `choose` finds it, or else the first of those that have the words of a program and read it alike;
-    the others are told by it (`Dialect.taken`). `asked` says from where and how the program is examined.
+    the others are told by it (`Control.taken`). `asked` says from where and how the program is examined.
 
     Raises UnknownControlError, which tells what they read differently, and SettingError.
     """
@@ -87,7 +87,7 @@ def choose_alike(
     own = stated_settings(block.text for block in program.blocks) | dict(settings or {})
     if not names:
         return _by_arcs(program, asked, own)
-    readings = {name: _read(program, configure(DIALECTS[name], own), asked) for name in names}
+    readings = {name: _read(program, configure(CONTROLS[name], own), asked) for name in names}
     readers = [*readings] if several else _taking_corners(readings)
     if not any(each.outcomes for each in readings.values()):
         if several is None:
@@ -98,32 +98,32 @@ def choose_alike(
         if not _is_alike(contour):
             said, made = _differences(dict(zip(readers, contour, strict=True)))
             raise UnknownControlError(said, readers, made)
-    own_dialect = configure(DIALECTS[first], own)
+    own_dialect = configure(CONTROLS[first], own)
     if not others:
         return own_dialect
     is_told_alike = len({readings[name].findings for name in readers}) == 1
     if is_told_alike and any(each.has_errors for each in readings.values()):
-        full = (_read(program, configure(DIALECTS[name], own), asked, Depth.FULL) for name in readers)
+        full = (_read(program, configure(CONTROLS[name], own), asked, Depth.FULL) for name in readers)
         is_told_alike = len({each.findings for each in full}) == 1
     return _first_of(readers, own_dialect, is_told_alike=is_told_alike)
 
 
-def _by_arcs(program: Program, asked: Request, own: Mapping[str, str]) -> Dialect | None:
+def _by_arcs(program: Program, asked: Request, own: Mapping[str, str]) -> Control | None:
     """The first control of those for which a program without a contour may be, where all of them tell something of an
     arc; None where one of them does not."""
     names, common = readers_of_arcs(program), frozenset[int]()
     findings = set[frozenset[Hashable]]()
     for name in names:
-        reading = _read(program, configure(DIALECTS[name], own), asked)
+        reading = _read(program, configure(CONTROLS[name], own), asked)
         common = common & reading.arcs if findings else reading.arcs
         findings.add(reading.findings)
         if not common:
             return None
-    first = configure(DIALECTS[names[0]], own) if names else None
+    first = configure(CONTROLS[names[0]], own) if names else None
     return first and _first_of(names, first, is_told_alike=len(findings) == 1)
 
 
-def _first_of(names: Sequence[str], first: Dialect, *, is_told_alike: bool) -> Dialect:
+def _first_of(names: Sequence[str], first: Control, *, is_told_alike: bool) -> Control:
     """The first of some controls that cut the same path, with what its reader is told of them."""
     if len(names) == 1:
         return first
@@ -133,11 +133,11 @@ def _first_of(names: Sequence[str], first: Dialect, *, is_told_alike: bool) -> D
 
 
 def _choose(
-    control: str | Dialect | None,
+    control: str | Control | None,
     program: Program,
     settings: Mapping[str, str] | None,
-    recognise_by: Callable[[Iterable[Block]], Dialect | None] | None,
-) -> tuple[Dialect | None, tuple[str, ...], SeveralControlsError | None]:
+    recognise_by: Callable[[Iterable[Block]], Control | None] | None,
+) -> tuple[Control | None, tuple[str, ...], SeveralControlsError | None]:
     """The control as `choose` finds it; or else the names of those that may read a program alike, and what it shows of
     several."""
     try:
@@ -147,7 +147,7 @@ def _choose(
     return found, turned_with_corners(program.blocks) if found is None else (), None
 
 
-def _read(program: Program, dialect: Dialect, asked: Request, depth: Depth = Depth.VERDICT) -> _Reading:
+def _read(program: Program, dialect: Control, asked: Request, depth: Depth = Depth.VERDICT) -> _Reading:
     """Read a program as a control does; with a depth other than VERDICT, its fixes are looked for, too."""
     own = asked.of(dialect, lambda: (block.text for block in program.blocks))
     running = Run(program, replace_fields(own, depth=depth))

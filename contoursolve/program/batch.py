@@ -12,7 +12,7 @@ from contoursolve.diagnosis import Answer, Policy, context_of, is_counted_start,
 from contoursolve.gcode import Word
 from contoursolve.geometry import Length, Line, Profile, System, assemble
 from contoursolve.numeric import Compiled, inverse_norms
-from contoursolve.reading import ContourForm, Dialect, ParsedContour, Rule, WithoutPoint, is_refused_by_values
+from contoursolve.reading import ContourForm, Control, ParsedContour, Rule, WithoutPoint, is_refused_by_values
 from contoursolve.solving import (
     ROUNDING,
     CheckOutputs,
@@ -66,7 +66,7 @@ class Batch(Struct):
     The answers are those of `examine`: the same outputs of the same function, checked in columns.
     """
 
-    dialect: Dialect
+    dialect: Control
     policy: Policy
     is_proven: bool
     kinds: dict[Hashable, Kind] = field(default_factory=dict)

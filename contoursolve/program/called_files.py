@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.execution import Call, CallKind, Library, MacroLanguage, Surroundings, When
 from contoursolve.gcode import Block, Syntax, parse_block
 
@@ -32,7 +32,7 @@ def blocks_of_called_files(lines: Iterable[str], around: Surroundings) -> list[B
 def _libraries(around: Surroundings) -> Sequence[tuple[MacroLanguage, Library]]:
     """A library of subprograms for each language."""
     languages: dict[str, tuple[MacroLanguage, Syntax]] = {}
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         language = dialect.modes.language
         if language is not None:
             languages.setdefault(language.name, (language, dialect.modes.syntax))

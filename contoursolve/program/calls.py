@@ -15,7 +15,7 @@ from contoursolve.geometry import Length
 from contoursolve.program.cycle_profiles import CycleProfile, begins_wrongly, profiles_of, turns_back
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import Dialect, ReadIssue, Rule, State, machine_in
+from contoursolve.reading import Control, ReadIssue, Rule, State, machine_in
 from contoursolve.solving import ArcSegment
 
 MOST_TOLD = 10
@@ -25,7 +25,7 @@ _ALIKE = 6
 """Decimals of mm to which two paths are compared."""
 
 
-def machine_for(program: Program, dialect: Dialect, around: Surroundings, unit: Length) -> Machine | None:
+def machine_for(program: Program, dialect: Control, around: Surroundings, unit: Length) -> Machine | None:
     """The machine that runs a program, which begins in a unit; None for one that neither calls, jumps nor computes."""
     limit = Limit(dialect.modes.most_blocks, f"{dialect.name}.{Limit().setting}")
     return machine_in(program, dialect.modes, around, unit, limit)
@@ -71,7 +71,7 @@ def in_text_order(
     asked: Request,
     told: Sequence[Diagnostic],
     profiles: list[CycleProfile],
-    dialect: Dialect,
+    dialect: Control,
     called: list[Answer],
 ) -> Iterator[Step]:
     """The steps of a program as it runs, each contour once, in the order in which the program is written. What is

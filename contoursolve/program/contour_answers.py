@@ -16,7 +16,7 @@ from contoursolve.program.outside_contours import NEAR
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Ahead, Pending
 from contoursolve.program.windows import Parts, near, window_of
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, axis_words, next_place
+from contoursolve.reading import Control, ParsedContour, ReadIssue, axis_words, next_place
 
 if TYPE_CHECKING:
     from contoursolve.diagnosis import Window
@@ -31,7 +31,7 @@ _MOST_NESTED = 2
 """Explanations of contours, one for the other, that are made while a program is followed ahead."""
 
 
-def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: Pending) -> Answer:
+def answer_to(asked: Request, dialect: Control, found: ParsedContour, pending: Pending) -> Answer:
     """The answer to a contour, with the values that it asks for filled in; its findings are not explained yet."""
     behind = islice(pending.view, pending.after, None)
     answer = examine(found, dialect, asked.policy, lambda: next_place(behind, found, dialect.modes), asked.depth)
@@ -53,7 +53,7 @@ _CUT_OFF = {"corner-without-next": "a corner", "end-missing": "a line by its ang
 """The elements that need the next one, by the ends of the codes of what is said where none follows."""
 
 
-def _at_call(finding: Diagnostic, answer: Answer, dialect: Dialect) -> Diagnostic:
+def _at_call(finding: Diagnostic, answer: Answer, dialect: Control) -> Diagnostic:
     """The finding about a contour right before a call or a return, behind which nobody looks for its next element."""
     what = next((each for code, each in _CUT_OFF.items() if finding.code.endswith(f"-{code}")), None)
     if what is None:
@@ -74,7 +74,7 @@ def _at_moved_zero(finding: Diagnostic, moving: Block) -> Diagnostic:
     return replace(finding, message=f"{finding.message}: {told}")
 
 
-def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts) -> Answer:
+def explained(asked: Request, dialect: Control, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts) -> Answer:
     """An answer with what is wrong, or hardly meant, explained, and how it is mended; `ahead` is before the contour,
     `parts` examines blocks that are tried."""
     if asked.depth in (Depth.VERDICT, Depth.TRIAL):
@@ -118,7 +118,7 @@ def _has_odd_points(answer: Answer) -> bool:
     return has_odd_points(answer)
 
 
-def _window(dialect: Dialect, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts, own: int = 0) -> "Window":
+def _window(dialect: Control, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts, own: int = 0) -> "Window":
     """The blocks around a contour; its own are as many more as `own` says. Behind it, no contour is cut in two, as far
     as so many blocks are known."""
     view, after = pending.view, pending.after + own
@@ -151,7 +151,7 @@ class Answers:
     looks_back = True
     """True where the lines before a contour run before it."""
 
-    def __init__(self, asked: Request, dialect: Dialect, parts: Parts) -> None:
+    def __init__(self, asked: Request, dialect: Control, parts: Parts) -> None:
         self.asked, self.dialect, self.parts = asked, dialect, parts
 
     def solve(self, found: ParsedContour, pending: Pending) -> Answer:
@@ -223,7 +223,7 @@ class AnswersInPasses(Answers):
 
     looks_back = False
 
-    def __init__(self, asked: Request, dialect: Dialect, parts: Parts) -> None:
+    def __init__(self, asked: Request, dialect: Control, parts: Parts) -> None:
         super().__init__(asked, dialect, parts)
         self._known: dict[object, Answer] = {}
         """By what is known before a contour, its blocks and those behind it."""

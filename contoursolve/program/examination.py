@@ -41,7 +41,7 @@ from contoursolve.program.told_outside import Outside
 from contoursolve.program.windows import further, near
 from contoursolve.reading import (
     WAITS,
-    Dialect,
+    Control,
     ParsedContour,
     PlainLines,
     Position,
@@ -109,7 +109,7 @@ class Examination:
     def __init__(
         self,
         asked: Request,
-        dialect: Dialect,
+        dialect: Control,
         together: Together | None = None,
         *,
         goes_on: bool = False,
@@ -368,7 +368,7 @@ class _OneByOne:
         return [each() for each in examine]
 
 
-def _findings_of_event(event: ProgramEvent, context: Context, dialect: Dialect) -> Iterator[Diagnostic]:
+def _findings_of_event(event: ProgramEvent, context: Context, dialect: Control) -> Iterator[Diagnostic]:
     """Findings about what happens between two blocks."""
     if event.kind in (EventKind.STOPPED, EventKind.MAY_STOP):
         stopped = report(context, context.row(ReadIssue.NOT_FOLLOWED), Basis.RULE, [], reason=event.reason)

@@ -4,11 +4,11 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from msgspec.structs import replace
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.gcode import ISO, MOST_TOGETHER, Block, Directive, Passage, parse_block
 from contoursolve.program.lookahead import Line
 from contoursolve.program.recognise import several_controls, sign_against, sign_of
-from contoursolve.reading import Dialect, PlainLines
+from contoursolve.reading import Control, PlainLines
 
 _USUAL = "\n"
 """End of a line of which nothing else is noted."""
@@ -20,7 +20,7 @@ class Lines:
     def __init__(
         self,
         lines: Iterable[str],
-        dialect: Dialect,
+        dialect: Control,
         facts: Mapping[int, tuple[Directive, ...]],
         *,
         is_certain: bool,
@@ -62,7 +62,7 @@ class Lines:
         if self._is_certain:
             return block
         self._own = self._own or sign_of(block, self._dialect)
-        for other in DIALECTS.showing(text):
+        for other in CONTROLS.showing(text):
             sign = sign_against(block, self._dialect, other) if other.name != self._dialect.name else ""
             if sign:
                 raise several_controls({self._dialect.name: self._own, other.name: sign})

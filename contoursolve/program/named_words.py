@@ -11,7 +11,7 @@ from contoursolve.diagnosis import Answer, Context, join, rank, report
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, ProgramError
 from contoursolve.gcode import ISO, Block, Named, NamedAs, Program, Syntax, Word, parse_block, read_named
 from contoursolve.program.request import Request
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue, contours_of
+from contoursolve.reading import Control, ParsedContour, ReadIssue, contours_of
 
 _MARK = re.compile(r"contoursolve\s*+:?+\s*+(?:trust|reference)", re.IGNORECASE)
 
@@ -38,7 +38,7 @@ def _named_beside(blocks: Iterable[Block]) -> list[tuple[Block, Named]]:
     return [(block, each) for block in blocks if block.named and block.says_something for each in block.named]
 
 
-def with_named(asked: Request, dialect: Dialect, program: Program) -> tuple[Request, tuple[Diagnostic, ...]]:
+def with_named(asked: Request, dialect: Control, program: Program) -> tuple[Request, tuple[Diagnostic, ...]]:
     """The request with the words that lines of their own name for the whole program, and the findings about them.
     Raises NamedWordError for those that are named apart from the program."""
     syntax = dialect.modes.syntax
@@ -66,7 +66,7 @@ def with_named(asked: Request, dialect: Dialect, program: Program) -> tuple[Requ
     return replace(asked, named=tuple(kept)), tuple(findings)
 
 
-def _lines_of_contours(asked: Request, dialect: Dialect, program: Program) -> list[int]:
+def _lines_of_contours(asked: Request, dialect: Control, program: Program) -> list[int]:
     before = dialect.initial_state(asked.unit)
     found = contours_of(program.blocks, dialect.find, dialect.modes, before, asked.start)
     return [each.blocks[0].line for each, _ in found]

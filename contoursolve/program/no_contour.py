@@ -7,7 +7,7 @@ from typing import Any, cast
 
 from msgspec.structs import replace
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Context, Depth, either, join, report
 from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span
 from contoursolve.gcode import (
@@ -29,7 +29,7 @@ from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import (
-    Dialect,
+    Control,
     PlainLines,
     ReadIssue,
     State,
@@ -50,7 +50,7 @@ _MOVING = frozenset("XYZUVWABCR")
 
 def conclusions(asked: Request, blocks: Iterable[Block]) -> Iterator[Diagnostic]:
     """Findings about the conclusions on the control, at the first block that shows it."""
-    own = cast("Dialect", asked.dialect)
+    own = cast("Control", asked.dialect)
     place = next((block.span for block in telling(blocks) if own.signs(block)), Span(1, 1, 2)) if own.taken else None
     for each in own.taken:
         context = Context(asked.rules, asked.unit, place=cast("Span", place))
@@ -67,7 +67,7 @@ def nothing_to_solve(asked: Request, blocks: Sequence[Block]) -> Diagnostic:
         found = _contour_with_comma(asked, blocks[:_LOOKED_AT])
         if found is not None:
             return found
-    triggers = [f"of {each.name}: {each.contours}" for each in ((own,) if own else DIALECTS.values())]
+    triggers = [f"of {each.name}: {each.contours}" for each in ((own,) if own else CONTROLS.values())]
     shown = what_shows(blocks, own) if own and _lacks_motion(own, blocks, asked.unit) else ""
     notes = [f"no G code of a motion is in force at {shown}: write G01"] if shown else []
     notes += _other_controls(own, blocks) if own and not shown else []
@@ -77,7 +77,7 @@ def nothing_to_solve(asked: Request, blocks: Sequence[Block]) -> Diagnostic:
     return replace(finding, notes=tuple(notes)) if notes else replace(finding, severity=slight)
 
 
-def _other_controls(own: Dialect, blocks: Sequence[Block]) -> Iterator[str]:
+def _other_controls(own: Control, blocks: Sequence[Block]) -> Iterator[str]:
     """Notes that other controls are to be tried, with the words that show them."""
     by_sign: dict[str, list[str]] = {}
     for name, sign in first_signs(blocks, own.name).items():
@@ -86,7 +86,7 @@ def _other_controls(own: Dialect, blocks: Sequence[Block]) -> Iterator[str]:
         yield f"{sign} is for {either(names)}: try --control {names[0] if len(names) == 1 else 'with one of them'}"
 
 
-def _lacks_motion(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> bool:
+def _lacks_motion(dialect: Control, blocks: Sequence[Block], unit: Length) -> bool:
     """Whether no motion is in force in the first block with a word of the control's contours."""
     first = next((block for block in telling(blocks) if dialect.signs(block)), None)
     if first is None or any(each.address not in dialect.modes.lexicon.addresses for each in dialect.signs(first)):
@@ -105,7 +105,7 @@ def _lacks_motion(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> bo
 
 def _contour_with_comma(asked: Request, blocks: Sequence[Block]) -> Diagnostic | None:
     """The first word that makes a contour for some control, if it has a comma."""
-    slips = ((name, slip) for name, dialect in DIALECTS.items() for slip in _slips_as(dialect, blocks, asked.unit))
+    slips = ((name, slip) for name, dialect in CONTROLS.items() for slip in _slips_as(dialect, blocks, asked.unit))
     for name, slip in slips:
         context = Context(asked.rules, asked.unit, place=slip.span)
         readers = _readers_of(slip.span, blocks, asked.unit)
@@ -122,14 +122,14 @@ def _readers_of(place: Span, blocks: Sequence[Block], unit: Length) -> list[str]
     axes = {word.address for block in blocks for word in block.words} & {*"XYZ"}
     return [
         name
-        for name, each in DIALECTS.items()
+        for name, each in CONTROLS.items()
         if axes <= each.modes.lexicon.addresses.keys()
         for claim, _ in contours_of(blocks, each.find, each.modes, each.initial_state(unit))
         if any(word.span == place for word in claim.words.values())
     ]
 
 
-def _slips_as(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> Iterator[Diagnostic]:
+def _slips_as(dialect: Control, blocks: Sequence[Block], unit: Length) -> Iterator[Diagnostic]:
     """The words that make a contour for a control with their comma, in the first lines of a program."""
     from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
@@ -179,13 +179,13 @@ def look_without_control(asked: Request, blocks: Sequence[Block]) -> Step:
     return Step((), unread_state(asked.unit), findings=tuple(found))
 
 
-def _control_of_digits(block: Block) -> Dialect | None:
+def _control_of_digits(block: Block) -> Control | None:
     """The control that a block shows if its letters are the digits that they look like."""
     meant = parse_block(" ".join(each.new for each in find_lookalikes(block)), block.line)
-    return next((each for each in DIALECTS.showing(meant.text) if each.signs(meant)), None)
+    return next((each for each in CONTROLS.showing(meant.text) if each.signs(meant)), None)
 
 
-def _state_before(asked: Request, dialect: Dialect, blocks: Sequence[Block], index: int) -> State:
+def _state_before(asked: Request, dialect: Control, blocks: Sequence[Block], index: int) -> State:
     """The state of a control before a block."""
     state = dialect.initial_state(asked.unit)
     for block in (*(asked.start.blocks if asked.start else ()), *islice(blocks, index)):

@@ -31,7 +31,7 @@ from contoursolve.program.running import KeptSteps
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.told_control import ToldControl
 from contoursolve.program.told_outside import Outside
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _LONGEST = 16
 """Lines of a part without contours and findings."""
@@ -103,7 +103,7 @@ class OpenProgram:
         self,
         text: str = "",
         *,
-        control: str | Dialect | None = None,
+        control: str | Control | None = None,
         units: str = "mm",
         rules: str = "enforce",
         settings: Mapping[str, str] | None = None,
@@ -141,7 +141,7 @@ class OpenProgram:
         )
 
     @property
-    def dialect(self) -> Dialect | None:
+    def dialect(self) -> Control | None:
         """The control; None where nothing tells it."""
         return self._control.dialect
 
@@ -204,7 +204,7 @@ class OpenProgram:
         """The options of its examination, with its control."""
         return replace(self._asked, dialect=self.dialect, around=surroundings_of(self.name))
 
-    def configure(self, control: str | Dialect | None, settings: Mapping[str, str]) -> None:
+    def configure(self, control: str | Control | None, settings: Mapping[str, str]) -> None:
         """Read the program as one for this control (None: as it shows), with these settings."""
         if (control, dict(settings)) != (self._control.named, self._control.settings):
             self._control.configure(control, settings)

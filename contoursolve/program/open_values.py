@@ -10,7 +10,7 @@ from contoursolve.diagnosis import DECIMALS, Answer, Depth, Policy, examine, joi
 from contoursolve.execution import MacroLanguage, Unknown, evaluate, variables_of, written
 from contoursolve.gcode import Block, parse_block
 from contoursolve.numeric import Variable, halve
-from contoursolve.reading import Dialect, ParsedContour, ReadIssue
+from contoursolve.reading import Control, ParsedContour, ReadIssue
 from contoursolve.solving import typed_limit
 
 _STEPS, _GROWTH, _SMALLEST = 48, 1.25, 0.05
@@ -23,7 +23,7 @@ _MOST = 3
 """Ranges that are told."""
 
 
-def tell_values(answer: Answer, dialect: Dialect, policy: Policy) -> Answer:
+def tell_values(answer: Answer, dialect: Control, policy: Policy) -> Answer:
     """The answer to a contour that depends on one variable of unknown value, with the ranges in which values that were
     tried make a contour, and what is wrong beside them."""
     language = dialect.modes.language
@@ -48,7 +48,7 @@ def _names(language: MacroLanguage, text: str) -> Iterator[str]:
 class _Search:
     """Values of one variable of a contour."""
 
-    def __init__(self, answer: Answer, dialect: Dialect, policy: Policy, name: str) -> None:
+    def __init__(self, answer: Answer, dialect: Control, policy: Policy, name: str) -> None:
         self.answer, self.dialect, self.policy, self.name = answer, dialect, policy, name
         self.decimals = DECIMALS[answer.unit.value]
 

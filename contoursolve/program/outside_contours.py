@@ -7,7 +7,7 @@ from itertools import repeat
 
 from msgspec.structs import replace
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import (
     Answer,
     Context,
@@ -39,7 +39,7 @@ from contoursolve.program.solve_queue import Ahead, Pending, Previous, Step
 from contoursolve.program.windows import Parts, last_of, window_of
 from contoursolve.reading import (
     COMMENTED,
-    Dialect,
+    Control,
     Effect,
     Lexicon,
     Modes,
@@ -121,7 +121,7 @@ def _context_of(asked: Request, block: Block) -> Context:
     return Context(asked.rules, asked.unit, place=block.span)
 
 
-def _is_clean(block: Block, dialect: Dialect, here: State | None) -> bool:
+def _is_clean(block: Block, dialect: Control, here: State | None) -> bool:
     """Whether a block has words alone, all read, and moves each axis once, as usual: there is nothing to say then."""
     if block.faults or block.directives or block.unmarked or block.named:
         return False
@@ -160,7 +160,7 @@ def _of_facts(asked: Request, block: Block) -> Iterator[Diagnostic]:
     yield from named_outside(asked, block)
 
 
-def _of_points(context: Context, block: Block, here: State, dialect: Dialect) -> Iterator[Diagnostic]:
+def _of_points(context: Context, block: Block, here: State, dialect: Control) -> Iterator[Diagnostic]:
     """Coordinates without a decimal point that count least increments, in a block that moves by them."""
     modes, rows = dialect.modes, dialect.modes.lexicon.addresses
     if COMMENTED in here.memory or block.macro is not None or any(modes.is_call(word) for word in block.words):
@@ -173,7 +173,7 @@ def _of_points(context: Context, block: Block, here: State, dialect: Dialect) ->
 
 
 def _of_vocabulary(
-    context: Context, block: Block, here: State, dialect: Dialect, previous: Previous | None
+    context: Context, block: Block, here: State, dialect: Control, previous: Previous | None
 ) -> Iterator[Diagnostic]:
     """Words and codes that the control has not."""
     modes, signs = dialect.modes, dialect.signs(block)
@@ -192,7 +192,7 @@ def _of_vocabulary(
             yield each
 
 
-def _of_words_beside(context: Context, block: Block, dialect: Dialect) -> Iterator[Diagnostic]:
+def _of_words_beside(context: Context, block: Block, dialect: Control) -> Iterator[Diagnostic]:
     """Words of corners and angles beside a code that uses the words of its block in its own way."""
     words = [word for word in block.words if is_corner_word(word.address, dialect.modes.lexicon)]
     codes = codes_of(block, dialect.modes) if words else ()
@@ -209,7 +209,7 @@ def _is_of_contour(previous: Previous | None, modes: Modes) -> bool:
 
 
 def _of_unread(
-    context: Context, block: Block, here: State, dialect: Dialect, previous: Previous | None
+    context: Context, block: Block, here: State, dialect: Control, previous: Previous | None
 ) -> Iterator[Diagnostic]:
     """That a block is not read, which is told once of several in a row."""
     unread, is_needed = dialect.modes.unread(block, here), bool(dialect.signs(block))
@@ -229,7 +229,7 @@ class _OfAllControls(Container[str]):
 
     @cached_property
     def _words(self) -> frozenset[str]:
-        return frozenset(each for dialect in DIALECTS.values() for each in self._find(dialect.modes.lexicon))
+        return frozenset(each for dialect in CONTROLS.values() for each in self._find(dialect.modes.lexicon))
 
     def __contains__(self, word: object) -> bool:
         return word in self._words
@@ -291,14 +291,14 @@ def _is_like_contour(block: Block, modes: Modes) -> bool:
     return any(mistyped_codes(word, modes) for word in words)
 
 
-def _may_draw(block: Block, dialect: Dialect) -> bool:
+def _may_draw(block: Block, dialect: Control) -> bool:
     """Whether a block has, or almost has, a word by which contours are known."""
     is_long = any(len(word.address) > 1 for word in block.words) or "," in block.text
     return is_long or bool(dialect.signs(block))
 
 
 def with_letters(
-    asked: Request, dialect: Dialect, blocks: Sequence[Block], before: State, found: Sequence[Diagnostic]
+    asked: Request, dialect: Control, blocks: Sequence[Block], before: State, found: Sequence[Diagnostic]
 ) -> Sequence[Diagnostic]:
     """The findings about the first of some blocks, with those about letters with digits in whose place it would be a
     contour."""
@@ -313,7 +313,7 @@ def with_letters(
 # Arcs ------------------------------------------------------------------------------------------------------------
 
 
-def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
+def with_arcs(asked: Request, dialect: Control, step: Step) -> Step:
     """A step with the findings about its arcs, if it is no contour: about those in plain lines as well."""
     if step.answer is not None or asked.policy is Policy.OFF or (not step.blocks and step.passage is None):
         return step
@@ -331,7 +331,7 @@ def with_arcs(asked: Request, dialect: Dialect, step: Step) -> Step:
     return replace(step, findings=(*step.findings, *found)) if found else step
 
 
-def _explain_arc(context: Context, dialect: Dialect, block: Block, before: State) -> Iterator[Diagnostic]:
+def _explain_arc(context: Context, dialect: Control, block: Block, before: State) -> Iterator[Diagnostic]:
     arc = arc_of(block, before, dialect.modes)
     if arc is not None:
         from contoursolve.diagnosis import explain_arc  # noqa: PLC0415 - many programs have none

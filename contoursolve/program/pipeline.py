@@ -23,7 +23,7 @@ from contoursolve.program.request import Request
 from contoursolve.program.running import KeptSteps, Running, lines_alone, steps_as_run, steps_written_out
 from contoursolve.program.solve_queue import Step, Together
 from contoursolve.program.told_outside import Outside
-from contoursolve.reading import Dialect, ReadIssue, contours_of, state_facts
+from contoursolve.reading import Control, ReadIssue, contours_of, state_facts
 
 if TYPE_CHECKING:
     from contoursolve.geometry import Statement
@@ -226,7 +226,7 @@ class Run:
             return steps_as_run(self._running, self.profiles, self.called)
         return self._examination(asked.dialect).steps(blocks)
 
-    def _examination(self, dialect: Dialect) -> Examination:
+    def _examination(self, dialect: Control) -> Examination:
         machine, goes_on = self._machine, self.asked.depth.is_full
         told = (block.text for block in telling(self.frame.program.blocks))
         kind = None if machine is not None else kind_of(told, dialect.modes.language)
@@ -267,7 +267,7 @@ def walk(
     well. One that returns `is_called` by others."""
     is_run = machine is not None and not is_whole
     is_called = is_called if machine is None else machine.is_for_calls
-    examination = Examination(asked, cast("Dialect", asked.dialect), together, is_run=is_run, is_called=is_called)
+    examination = Examination(asked, cast("Control", asked.dialect), together, is_run=is_run, is_called=is_called)
     if machine is None:
         return examination.steps(lines)
     if is_whole:

@@ -20,10 +20,10 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import UserError, did_you_mean
 from contoursolve.gcode import late_pattern, split_lines
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 OWN, SHARED = "contoursolve.toml", "pyproject.toml"
 
@@ -129,7 +129,7 @@ def restate_control(text: str, control: str, settings: Mapping[str, str]) -> str
 
 
 def _read_stated(control: str, others: Iterable[str]) -> dict[str, str]:
-    if control not in DIALECTS:
+    if control not in CONTROLS:
         raise SettingError(_no_control(control))
     settings = {CONTROL: control}
     for other in others:
@@ -142,7 +142,7 @@ def _read_stated(control: str, others: Iterable[str]) -> dict[str, str]:
 
 
 def _no_control(name: object) -> str:
-    return f"there is no control {name!r}; {did_you_mean(str(name), DIALECTS)}choose from {', '.join(DIALECTS)}"
+    return f"there is no control {name!r}; {did_you_mean(str(name), CONTROLS)}choose from {', '.join(CONTROLS)}"
 
 
 def read_setting(text: str) -> tuple[str, str]:
@@ -153,7 +153,7 @@ def read_setting(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def configure(dialect: Dialect, settings: Mapping[str, str] | None) -> Dialect:
+def configure(dialect: Control, settings: Mapping[str, str] | None) -> Control:
     """A control, which need not be built in, with those of the settings by `control.name` that are about it.
 
     Raises SettingError, naming what there is.
@@ -168,9 +168,9 @@ def check_settings(settings: Mapping[str, str]) -> None:
     _configured(settings, None)
 
 
-def _configured(settings: Mapping[str, str], own: Dialect | None) -> dict[str, Dialect]:
+def _configured(settings: Mapping[str, str], own: Control | None) -> dict[str, Control]:
     """The controls that settings are about, with these values; `own` is one that need not be built in."""
-    names = {*DIALECTS, own.name} if own else {*DIALECTS}
+    names = {*CONTROLS, own.name} if own else {*CONTROLS}
     values: dict[str, dict[str, str]] = {}
     for full, value in settings.items():
         if full == CONTROL:
@@ -182,7 +182,7 @@ def _configured(settings: Mapping[str, str], own: Dialect | None) -> dict[str, D
         values.setdefault(control, {})[name] = value
     try:
         return {
-            control: (own if own and control == own.name else DIALECTS[control]).configure(given)
+            control: (own if own and control == own.name else CONTROLS[control]).configure(given)
             for control, given in values.items()
         }
     except ValueError as error:
@@ -192,7 +192,7 @@ def _configured(settings: Mapping[str, str], own: Dialect | None) -> dict[str, D
 def _example() -> str:
     names = (
         f"{dialect.name}.{setting.name}={setting.default}"
-        for dialect in DIALECTS.values()
+        for dialect in CONTROLS.values()
         for setting in dialect.settings
     )
     return next(names, "")
@@ -249,7 +249,7 @@ def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
     for control, own in table.items():
         if control == TOOLS:
             continue
-        if control == CONTROL and own in DIALECTS:
+        if control == CONTROL and own in CONTROLS:
             settings[CONTROL] = own
             continue
         if control == CONTROL:
@@ -263,8 +263,8 @@ def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
         if not isinstance(own, dict):
             meant = did_you_mean(control, (CONTROL, BASELINE)) or "write [CONTROL] above it, such as [nct-99m]"
             raise SettingError(f"{_place(file, control)}: {control!r} stands in no table; {meant.strip()}")
-        if control not in DIALECTS:
-            meant = did_you_mean(control, (TOOLS, *DIALECTS)) or f"tables are: {TOOLS}, {', '.join(DIALECTS)}"
+        if control not in CONTROLS:
+            meant = did_you_mean(control, (TOOLS, *CONTROLS)) or f"tables are: {TOOLS}, {', '.join(CONTROLS)}"
             raise SettingError(f"{_place(file, control)}: there is no table [{control}]; {meant.strip()}")
         for name, value in own.items():
             if isinstance(value, (dict, list)):

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import islice
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import either, join
 from contoursolve.diagnostics import ProgramError
 from contoursolve.gcode import (
@@ -29,7 +29,7 @@ from contoursolve.reading import (
     POLAR_WORDS,
     SEMICOLON_COMMENT,
     Y_AXIS,
-    Dialect,
+    Control,
     ReadIssue,
     Taken,
 )
@@ -41,7 +41,7 @@ class UnknownControlError(ProgramError, ValueError):
     `said` is the message alone; `readings` are what the choices read differently, a line for each, which end the text.
     """
 
-    def __init__(self, said: str, choices: Iterable[str] = DIALECTS, readings: Iterable[str] = ()) -> None:
+    def __init__(self, said: str, choices: Iterable[str] = CONTROLS, readings: Iterable[str] = ()) -> None:
         self.said, self.choices, self.readings = said, tuple(choices), tuple(readings)
         super().__init__(self.text())
 
@@ -55,11 +55,11 @@ class SeveralControlsError(UnknownControlError):
 
 
 def choose(
-    control: str | Dialect | None,
+    control: str | Control | None,
     program: Program,
     settings: Mapping[str, str] | None = None,
-    recognise_by: Callable[[Iterable[Block]], Dialect | None] | None = None,
-) -> Dialect | None:
+    recognise_by: Callable[[Iterable[Block]], Control | None] | None = None,
+) -> Control | None:
     """The control of this name, or that is given as its tables, or else the one that a program states in a comment or
     is written for; with those of the settings by `control.name` that are about it. None if no block shows the control.
     Blocks are recognised by `recognise`, or by another way that is given.
@@ -68,7 +68,7 @@ def choose(
     SettingError if there is no such setting.
     """
     # Tables that are given say all of a control: what the program states of it is in them already.
-    stated = {} if isinstance(control, Dialect) else stated_settings(block.text for block in program.blocks)
+    stated = {} if isinstance(control, Control) else stated_settings(block.text for block in program.blocks)
     own = stated | dict(settings or {})
     found = named_control(control, own) or (recognise_by or partial(recognise, name=program.name))(program.blocks)
     if found is None:
@@ -77,12 +77,12 @@ def choose(
     configured = configure(found, own)
     return (
         configured
-        if isinstance(control, Dialect)
+        if isinstance(control, Control)
         else for_machine(configured, own, (each.text for each in in_passages(program.blocks)))
     )
 
 
-def for_machine(dialect: Dialect, settings: Mapping[str, str], lines: Iterable[str]) -> Dialect:
+def for_machine(dialect: Control, settings: Mapping[str, str], lines: Iterable[str]) -> Control:
     """A control that is on mills and on lathes, for the kind of machine that a program is for, if nothing states it: a
     lathe where X and Z move alone and no plane is selected."""
     turned = for_kind(dialect, settings, "lathe")
@@ -96,7 +96,7 @@ def for_machine(dialect: Dialect, settings: Mapping[str, str], lines: Iterable[s
     return replace(turned, taken=(*turned.taken, told))
 
 
-def for_kind(dialect: Dialect, settings: Mapping[str, str], kind: str) -> Dialect:
+def for_kind(dialect: Control, settings: Mapping[str, str], kind: str) -> Control:
     """A control that is on mills and on lathes, for one of these kinds of machine, if no setting states it."""
     name = f"{dialect.name}.{_MACHINE}"
     is_open = name not in settings and any(each.name == _MACHINE for each in dialect.settings)
@@ -137,18 +137,18 @@ _DIAMETERS = frozenset({"DIAMON", "DIAM90"})
 _OF_A_LATHE = frozenset({"G96", "G961", "G962", "LIMS", *_DIAMETERS})
 
 
-def named_control(control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:
+def named_control(control: str | Control | None, settings: Mapping[str, str] | None) -> Control | None:
     """The control of this name, or that is given as its tables, or else the one that the settings name; None if nothing
     names one. Raises UnknownControlError, which lists the choices."""
     wanted = control or (settings or {}).get(CONTROL)
-    return wanted if isinstance(wanted, Dialect) else find_dialect(wanted) if wanted else None
+    return wanted if isinstance(wanted, Control) else find_dialect(wanted) if wanted else None
 
 
-def find_dialect(control: str) -> Dialect:
+def find_dialect(control: str) -> Control:
     """The control of this name. Raises UnknownControlError, which lists the choices."""
-    if control not in DIALECTS:
-        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(DIALECTS)}")
-    return DIALECTS[control]
+    if control not in CONTROLS:
+        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(CONTROLS)}")
+    return CONTROLS[control]
 
 
 def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
@@ -174,7 +174,7 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
         shown.add(Y_AXIS)
     if stated & {"Z", "W"} and stated & _SHARED:
         shown.add(_CORNER_ON_Z)
-    for dialect in DIALECTS.showing(block.text):
+    for dialect in CONTROLS.showing(block.text):
         words = () if f"own {dialect.name}" in known else _signs(dialect, block)
         if words:
             shown.add(f"sign {dialect.name}")
@@ -196,7 +196,7 @@ def _shown_plainly(words: str) -> frozenset[str]:
     return frozenset(shown)
 
 
-def _signs(dialect: Dialect, block: Block) -> list[Word]:
+def _signs(dialect: Control, block: Block) -> list[Word]:
     """The words of a block that show a control."""
     return [word for word in dialect.signs(block) if word.address not in dialect.rare]
 
@@ -207,7 +207,7 @@ class Recogniser:
     def __init__(self, name: str = "") -> None:
         self.signs: dict[str, str] = {}
         """What first showed each control, by its name."""
-        self.begun: Dialect | None = None
+        self.begun: Control | None = None
         """The control whose programs alone begin as this one does."""
         self._own: set[str] = set()
         """The controls that words of their own showed."""
@@ -242,9 +242,9 @@ class Recogniser:
         if shown <= self._shown:
             return
         self.begun = self.begun or begun_by(block)
-        for name in DIALECTS:
+        for name in CONTROLS:
             if f"sign {name}" in shown and name not in self.signs:
-                self.signs[name] = _sign(_signs(DIALECTS[name], block), block)
+                self.signs[name] = _sign(_signs(CONTROLS[name], block), block)
             if f"own {name}" in shown:
                 self._own.add(name)
             if f"arc {name}" in shown:
@@ -260,7 +260,7 @@ class Recogniser:
     @property
     def is_sure(self) -> bool:
         """Whether words that only one control has showed it, and no other line can exclude it."""
-        return any(not DIALECTS[name].excluded_by for name in self._certain)
+        return any(not CONTROLS[name].excluded_by for name in self._certain)
 
     @property
     def _certain(self) -> set[str]:
@@ -269,7 +269,7 @@ class Recogniser:
 
     def _is_excluded(self, name: str) -> bool:
         """Whether the program is for another control, unless words that only this one has beside its sign say more."""
-        return f"sure {name}" not in self._shown and bool(DIALECTS[name].excluded_by & self._shown)
+        return f"sure {name}" not in self._shown and bool(CONTROLS[name].excluded_by & self._shown)
 
     @property
     def _kind(self) -> str:
@@ -280,25 +280,25 @@ class Recogniser:
             kinds = {each for each in kinds if f"sure {each}" in self._shown}
         return next(iter(kinds)) if len(kinds) == 1 else ""
 
-    def find(self) -> Dialect | None:
+    def find(self) -> Control | None:
         """The control; None if no block shows it. Raises UnknownControlError if they show more than one."""
         if self.begun is not None:
             return self.begun
         certain = self._certain
         signs = {name: each for name, each in self.signs.items() if not self._is_excluded(name)}
-        fitting = [name for name in DIALECTS if name in (certain or signs) and self._fits(DIALECTS[name])]
+        fitting = [name for name in CONTROLS if name in (certain or signs) and self._fits(CONTROLS[name])]
         if len(fitting) == 1 and (fitting == [*certain] or not certain):
-            return DIALECTS[fitting[0]]
+            return CONTROLS[fitting[0]]
         if signs:
             shown = {name: signs[name] for name in (not certain and fitting) or signs}
             raise several_controls(shown, SeveralControlsError if shown.keys() <= {*fitting} else UnknownControlError)
         return None
 
-    def may_be(self, dialect: Dialect) -> bool:
+    def may_be(self, dialect: Control) -> bool:
         """Whether the program may be for a control, for all that it shows."""
         return self._fits(dialect) and not self._is_excluded(dialect.name)
 
-    def _fits(self, dialect: Dialect) -> bool:
+    def _fits(self, dialect: Control) -> bool:
         """Whether it has all the words, and is for such a machine: a program for a mill that selects no plane has
         contours in X and Y."""
         shared = self._shown & _SHARED
@@ -355,7 +355,7 @@ _BEGIN = "PGM"
 _ABSOLUTE, _BESIDE_ABSOLUTE = 90, frozenset({0, 1, 18})
 
 
-def recognise(blocks: Iterable[Block], name: str = "") -> Dialect | None:
+def recognise(blocks: Iterable[Block], name: str = "") -> Control | None:
     """The control that a program, of this name, is written for; None if no block shows it.
 
     Raises UnknownControlError if its blocks show more than one.
@@ -377,7 +377,7 @@ def readers_of_arcs(program: Program) -> tuple[str, ...]:
     has_radius = _RADIUS.search(ISO.comment.sub(" ", program.text)) is not None
     return tuple(
         name
-        for name, each in DIALECTS.items()
+        for name, each in CONTROLS.items()
         if each.modes.arcs is not None and each.modes.arcs.read is None and recogniser.may_be(each)
         if not has_radius or each.modes.radius == "R"
     )
@@ -412,7 +412,7 @@ def turned_with_corners(blocks: Iterable[Block]) -> tuple[str, ...]:
     # A table of corner words says all of them: without I, K and R these make none.
     return tuple(
         name
-        for name, each in DIALECTS.items()
+        for name, each in CONTROLS.items()
         if is_turned and any(each.plane.diameters) and {word for word, *_ in each.corners} <= CORNERS_WITHOUT_COMMA
     )
 
@@ -429,15 +429,15 @@ _CYCLES = frozenset({*range(32, 36), *range(65, 68), *range(70, 95)})
 """Codes in whose blocks, and behind them, I, K and R mean something else."""
 
 
-def begun_by(block: Block) -> Dialect | None:
+def begun_by(block: Block) -> Control | None:
     """The control whose programs alone begin with such a line."""
     # Nearly no line has the word that all of these have.
     if _BEGIN not in block.text.upper():
         return None
-    return next((each for each in DIALECTS.showing(block.text) if _begins(each.signs(block))), None)
+    return next((each for each in CONTROLS.showing(block.text) if _begins(each.signs(block))), None)
 
 
-def begins_for_another(blocks: Iterable[Block], dialect: Dialect) -> bool:
+def begins_for_another(blocks: Iterable[Block], dialect: Control) -> bool:
     """Whether blocks begin as a program of another control does."""
     return any(begun_by(block) and not _begins(dialect.signs(block)) for block in islice(blocks, FIRST_LINES))
 
@@ -451,27 +451,27 @@ def several_controls(
 ) -> UnknownControlError:
     """That blocks show more than one control; `signs` say what shows each."""
     by_sign: dict[str, list[str]] = {}
-    for name in DIALECTS:
+    for name in CONTROLS:
         if name in signs:
             by_sign.setdefault(signs[name], []).append(name)
     places = "; ".join(f"{either(names)} by {sign}" for sign, names in by_sign.items())
-    reads = "; ".join(f"{name} has {DIALECTS[name].contours}" for name in DIALECTS if name in signs)
+    reads = "; ".join(f"{name} has {CONTROLS[name].contours}" for name in CONTROLS if name in signs)
     return kind(
         f"the program looks like more than one control ({places}); {reads}",
-        [name for name in DIALECTS if name in signs],
+        [name for name in CONTROLS if name in signs],
     )
 
 
-def what_shows(blocks: Iterable[Block], dialect: Dialect) -> str:
+def what_shows(blocks: Iterable[Block], dialect: Control) -> str:
     """The first sign that blocks are for a control; empty if there is none."""
     return next((sign for block in telling(blocks) for sign in [sign_of(block, dialect)] if sign), "")
 
 
 def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
     """The first sign of each control but one, by its name; the search ends behind the begin of a program."""
-    found, rest = dict[str, str](), {*DIALECTS}
+    found, rest = dict[str, str](), {*CONTROLS}
     for block in telling(blocks):
-        showing = (each for each in DIALECTS.showing(block.text) if each.name in rest)
+        showing = (each for each in CONTROLS.showing(block.text) if each.name in rest)
         signs = {each.name: words for each in showing if (words := each.signs(block))}
         begun = [name for name, words in signs.items() if _begins(words)]
         found |= {name: _sign(words, block) for name, words in signs.items()}
@@ -480,16 +480,16 @@ def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
         rest -= found.keys()
         if not rest:
             break
-    return {name: found[name] for name in DIALECTS if name in found and name != own}
+    return {name: found[name] for name in CONTROLS if name in found and name != own}
 
 
-def sign_of(block: Block, dialect: Dialect) -> str:
+def sign_of(block: Block, dialect: Control) -> str:
     """The sign that a block is for a control; empty if there is none."""
     words = dialect.signs(block)
     return _sign(words, block) if words else ""
 
 
-def sign_against(block: Block, dialect: Dialect, other: Dialect) -> str:
+def sign_against(block: Block, dialect: Control, other: Control) -> str:
     """The sign that a block is for another control and that is no word of this one; empty if there is none."""
     own = dialect.modes.lexicon.addresses
     foreign = [word for word in _signs(other, block) if word.address not in _SHARED or word.address not in own]

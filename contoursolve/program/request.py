@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.controls import COMMON_RULES, DIALECTS
+from contoursolve.controls import COMMON_RULES, CONTROLS
 from contoursolve.diagnosis import Depth, Policy
 from contoursolve.diagnostics import choice_of
 from contoursolve.execution import ALONE, Surroundings, check_names, surroundings_of
 from contoursolve.gcode import ISO, Directive, Named, NamedAs, Program, parse, read_directive, read_named, spelled
 from contoursolve.geometry import Length
 from contoursolve.program.called_files import blocks_of_called_files
-from contoursolve.reading import Dialect, Rule
+from contoursolve.reading import Control, Rule
 
 if TYPE_CHECKING:
     from contoursolve.geometry import Statement
@@ -28,7 +28,7 @@ T = TypeVar("T")
 class Request(Struct, frozen=True):
     """Options of an examination; made once for each program, where it comes in."""
 
-    dialect: Dialect | None
+    dialect: Control | None
     """Its control; None where nothing tells it, so that its characters alone are examined."""
     unit: Length = Length.MM
     """Of the numbers before any code that says it."""
@@ -45,7 +45,7 @@ class Request(Struct, frozen=True):
     is_strict: bool = False
     """Whether every line is told of, and not only that on which a contour depends."""
 
-    def of(self, dialect: Dialect, lines: Callable[[], Iterable[str]] | None = None) -> "Request":
+    def of(self, dialect: Control, lines: Callable[[], Iterable[str]] | None = None) -> "Request":
         """The same for a program of this control, as which the start point is read, too. Raises VariableNameError
         where a value is stated of what is none of its variables, nor one that its `lines` declare."""
         if self.around.values and dialect.modes.language is not None:
@@ -67,7 +67,7 @@ class Request(Struct, frozen=True):
 class ReadingKeywords(TypedDict, total=False):
     """Keywords that say as what a program is read."""
 
-    control: "str | Dialect | None"
+    control: "str | Control | None"
     units: str
     rules: str
     settings: "Mapping[str, str] | None"
@@ -108,7 +108,7 @@ class FollowKeywords(SolveKeywords, CheckKeywords, total=False):
 class SolveOptions(Struct, frozen=True, kw_only=True):
     """The keywords of `solve` and its kin, as they are stated; see there."""
 
-    control: "str | Dialect | None" = None
+    control: "str | Control | None" = None
     start: "str | Mapping[str, float] | None" = None
     units: str = "mm"
     rules: str = "enforce"
@@ -121,7 +121,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     reference: "str | Iterable[str]" = ()
     strict: bool = False
 
-    def request(self, name: str, dialect: Dialect | None = None) -> Request:
+    def request(self, name: str, dialect: Control | None = None) -> Request:
         """The request for the program of this name, for a control; a text alone is one fact. Raises ValueError where
         units, rules or depth is none of its choices."""
         start = start_text(self.start)
@@ -140,7 +140,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
             self.strict,
         )
         if dialect is None and asked.around.values:
-            check_names(asked.around.values, [each.modes.language for each in DIALECTS.values() if each.modes.language])
+            check_names(asked.around.values, [each.modes.language for each in CONTROLS.values() if each.modes.language])
         return asked.of(dialect) if dialect is not None else asked
 
 

@@ -26,7 +26,7 @@ from contoursolve.program.lookahead import View
 from contoursolve.reading import (
     WAITS,
     Awaited,
-    Dialect,
+    Control,
     End,
     Modes,
     ParsedContour,
@@ -115,7 +115,7 @@ class Queue:
 
     def __init__(
         self,
-        dialect: Dialect,
+        dialect: Control,
         together: Together | None,
         answers: Answering,
         *,

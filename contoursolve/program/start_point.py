@@ -7,7 +7,7 @@ from contoursolve.diagnostics import Diagnostic, UserError
 from contoursolve.geometry import Length
 from contoursolve.program.outside_contours import findings_of_block
 from contoursolve.program.request import Request
-from contoursolve.reading import TURNED, Dialect, ParsedContour, State, advance
+from contoursolve.reading import TURNED, Control, ParsedContour, State, advance
 
 
 class StartError(UserError, ValueError):
@@ -22,7 +22,7 @@ class StartCount(Struct, frozen=True):
     """True where X counted diameters, if codes switch that; None if they do not, and behind the first contour."""
 
 
-def state_before(asked: Request, dialect: Dialect) -> tuple[State, tuple[Diagnostic, ...]]:
+def state_before(asked: Request, dialect: Control) -> tuple[State, tuple[Diagnostic, ...]]:
     """The modal state before a program, behind the block that states its start point apart; and what is found about
     that block."""
     state, found = dialect.initial_state(asked.unit), list[Diagnostic]()
@@ -57,7 +57,7 @@ def compare_count(
     return StartCount(here.unit), tuple(told)
 
 
-def _code_of_x(state: State, dialect: Dialect | None) -> str:
+def _code_of_x(state: State, dialect: Control | None) -> str:
     """The code by which X is what it is in a state."""
     codes = dialect.modes.codes.values() if dialect else ()
     return next((code.text for code in codes if code.diameter is state.diameter), state.plane.code)

@@ -18,7 +18,7 @@ from contoursolve.program.recognise import (
     shown_of_machine,
 )
 from contoursolve.program.request import Request
-from contoursolve.reading import Dialect, ReadIssue
+from contoursolve.reading import Control, ReadIssue
 
 
 class ToldControl:
@@ -26,11 +26,11 @@ class ToldControl:
 
     def __init__(self, lines: OpenLines, name: str, asked: Request) -> None:
         self._lines, self._name, self._asked = lines, name, asked
-        self.named: str | Dialect | None = None
+        self.named: str | Control | None = None
         """The control that somebody named; None: as the program shows."""
         self.settings: dict[str, str] = {}
         """The settings that somebody gave; what a comment in the program states counts more."""
-        self.dialect: Dialect | None = None
+        self.dialect: Control | None = None
         """The control; None where nothing tells it."""
         self.is_stated = False
         """Whether a comment in the program states it."""
@@ -43,7 +43,7 @@ class ToldControl:
         self._shown: Counter[str] | None = None
         """How many lines show what of the control; None where they are not asked."""
 
-    def configure(self, named: str | Dialect | None, settings: Mapping[str, str]) -> None:
+    def configure(self, named: str | Control | None, settings: Mapping[str, str]) -> None:
         """Take the control that is named (None: as the program shows), with these settings."""
         self.named, self.settings = named, dict(settings)
         self.find()
@@ -62,7 +62,7 @@ class ToldControl:
             named = {self.named, self.settings.get(CONTROL)} - {None}
             self.is_ambiguous = isinstance(error, UnknownControlError) and not named
 
-    def _recognise(self, blocks: Iterable[Block]) -> Dialect | None:
+    def _recognise(self, blocks: Iterable[Block]) -> Control | None:
         """The control that blocks show, as `recognise` does; it is kept what they show."""
         recogniser, self._shown = Recogniser(self._name), Counter()
         for block in blocks:
@@ -119,6 +119,6 @@ def _shown(line: str) -> frozenset[str]:
     return shown_by(parse_block(line.rstrip("\r\n"), 1))
 
 
-def _alike(one: Dialect, other: Dialect) -> bool:
+def _alike(one: Control, other: Control) -> bool:
     """Whether two are the same control with the same settings."""
     return one is other or (one.name == other.name and one.modes.settings == other.modes.settings)

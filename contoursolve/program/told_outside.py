@@ -24,7 +24,7 @@ from contoursolve.diagnosis import Answer, are_points_usual, corner_words, moves
 from contoursolve.diagnostics import Diagnostic, Fix, Span
 from contoursolve.gcode import Block, FaultKind, Passage, Word, parse_block, words_of
 from contoursolve.program.lookahead import Line, each_block
-from contoursolve.reading import Dialect, ReadIssue, State, apply_modes
+from contoursolve.reading import Control, ReadIssue, State, apply_modes
 
 _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
     {ReadIssue.COMMA_MISSING, ReadIssue.COMMA_WORD_UNKNOWN, ReadIssue.ASKED_NOTHING, ReadIssue.FACT_UNMARKED}
@@ -39,7 +39,7 @@ _WAITING = frozenset(
 class Outside:
     """One pass over the findings outside the contours of one program, which tells some of them."""
 
-    def __init__(self, dialect: Dialect | None, *, is_strict: bool = False) -> None:
+    def __init__(self, dialect: Control | None, *, is_strict: bool = False) -> None:
         self.is_strict = is_strict
         self._signs = dialect.signs if dialect else _no_signs
         self._modes = dialect.modes if dialect else None

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from contoursolve.gcode import Block, Passage, Syntax, parse_block, words_of
 from contoursolve.program.solve_queue import Ahead, Previous
-from contoursolve.reading import Dialect, Modes, State, advance, advance_plainly
+from contoursolve.reading import Control, Modes, State, advance, advance_plainly
 
 if TYPE_CHECKING:
     from contoursolve.diagnosis import Window, WindowPart
@@ -66,7 +66,7 @@ def window_of(
     own: Sequence[Block],
     behind: Sequence[Block],
     state: State,
-    dialect: Dialect,
+    dialect: Control,
     parts: Parts,
 ) -> "Window":
     """Blocks in a state, with what is ahead of them, as far as it is near, and some blocks behind."""

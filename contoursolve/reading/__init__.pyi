@@ -41,7 +41,7 @@ from .dialect import (
     SEMICOLON_COMMENT as SEMICOLON_COMMENT,
     Y_AXIS as Y_AXIS,
     Behind as Behind,
-    Dialect as Dialect,
+    Control as Control,
     LegalBlock as LegalBlock,
     Taken as Taken,
 )

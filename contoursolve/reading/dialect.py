@@ -51,7 +51,7 @@ class Taken(Struct, frozen=True):
 
 
 Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, NAMED_FILE = "Y", "polar words", "comment behind ;", "ending of the file"
-"""Marks of a program, by which `Dialect.excluded_by` says that it is for another control."""
+"""Marks of a program, by which `Control.excluded_by` says that it is for another control."""
 
 
 class LegalBlock(Struct, frozen=True):
@@ -65,7 +65,7 @@ class LegalBlock(Struct, frozen=True):
 
 
 @dataclass(frozen=True, slots=True)
-class Dialect:
+class Control:
     """One control, as tables. It need not be built in: every function takes one as `control`.
 
     A relative of a control has a name of its own and the tables in which it differs:
@@ -145,7 +145,7 @@ class Dialect:
         """The things that it is taken to accept, in any of its forms."""
         return tuple(dict.fromkeys(each for form in self.forms for each in form.assumptions))
 
-    def configure(self, values: Mapping[str, str]) -> "Dialect":
+    def configure(self, values: Mapping[str, str]) -> "Control":
         """The control with other values of its settings.
 
         Raises ValueError, naming what there is, if there is no such setting or no such value.

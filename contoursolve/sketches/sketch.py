@@ -12,7 +12,7 @@ from contoursolve.controls import DRAWINGS
 from contoursolve.diagnosis import Answer, EquationSystem
 from contoursolve.diagnostics import UserError, from_above, hash_of
 from contoursolve.gcode import write_whole
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 VERSION = 1
 """The version of a sketch's file."""
@@ -84,7 +84,7 @@ class ContourSketch(Struct, frozen=True):
     __hash__ = hash_of
 
     @property
-    def control(self) -> Dialect:
+    def control(self) -> Control:
         """The tables by which it is read."""
         return DRAWINGS[self.part]
 

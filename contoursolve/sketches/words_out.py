@@ -3,12 +3,12 @@
 from collections.abc import Mapping
 from typing import overload
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, status_text
 from contoursolve.diagnostics import UserError
 from contoursolve.postprocess import WrittenContours, write_contour
 from contoursolve.program import Result, configure, find_dialect
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.sketches.known_part import solve_sketch
 from contoursolve.sketches.sketch import ContourSketch
 
@@ -19,7 +19,7 @@ class UnfinishedError(UserError, ValueError):
 
 @overload
 def write(
-    contour: Answer | Result | ContourSketch, control: str | Dialect, *, settings: Mapping[str, str] | None = None
+    contour: Answer | Result | ContourSketch, control: str | Control, *, settings: Mapping[str, str] | None = None
 ) -> WrittenContours: ...
 
 
@@ -31,7 +31,7 @@ def write(
 
 def write(
     contour: Answer | Result | ContourSketch,
-    control: str | Dialect | None = None,
+    control: str | Control | None = None,
     *,
     settings: Mapping[str, str] | None = None,
 ) -> WrittenContours | tuple[WrittenContours, ...]:
@@ -57,8 +57,8 @@ def write(
     """
     if control is None:
         answer = _answer_of(contour)
-        return tuple(write_contour(answer, configure(DIALECTS[name], settings), most=1) for name in DIALECTS)
-    target = control if isinstance(control, Dialect) else configure(find_dialect(control), settings)
+        return tuple(write_contour(answer, configure(CONTROLS[name], settings), most=1) for name in CONTROLS)
+    target = control if isinstance(control, Control) else configure(find_dialect(control), settings)
     return write_contour(_answer_of(contour), target)
 
 

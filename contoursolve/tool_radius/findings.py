@@ -30,7 +30,7 @@ from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence,
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment, along, minus, shifted, typed_limit
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of, within
@@ -323,7 +323,7 @@ def _once(found: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
 
 def runs_beside(
     result: Result, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()
-) -> tuple[Dialect, ToolPath, ToolRules, list[CuttingRun]]:
+) -> tuple[Control, ToolPath, ToolRules, list[CuttingRun]]:
     """The control of a solved program, its path, the ground on which its runs are looked at, and the runs. Raises
     ToolError."""
     if (dialect := asked.dialect) is None:
@@ -343,7 +343,7 @@ def _crossing(made: OffsetPath) -> list[ToolFault]:
 class ToolFindings:
     """Faults as findings about the lines and words of one program."""
 
-    def __init__(self, result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> None:
+    def __init__(self, result: Result, dialect: Control, asked: Request, wanted: ToolRequest) -> None:
         self.result, self.dialect, self.asked, self.wanted = result, dialect, asked, wanted
         self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
         self.broken, self.said = set[int](), set[tuple[ToolFaultKind, WordInForce | None]]()

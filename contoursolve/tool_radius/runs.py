@@ -13,7 +13,7 @@ from contoursolve.comparison import ROUGHING, Motion, Step, ToolPath, Travel, Un
 from contoursolve.controls import TOOL_FACTS, ToolEffect, ToolFacts
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane, Turn, cross
-from contoursolve.reading import Dialect, Effect, rows_of
+from contoursolve.reading import Control, Effect, rows_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
 from contoursolve.tool_radius.clearance import foot_on
@@ -149,7 +149,7 @@ def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = F
     return last > first + 1 and dist(at, foot_on(on, at)) <= AGREEMENT
 
 
-def find_runs(path: ToolPath, asked: ToolRequest, dialect: Dialect) -> list[CuttingRun]:
+def find_runs(path: ToolPath, asked: ToolRequest, dialect: Control) -> list[CuttingRun]:
     """The runs of a program. Raises ToolError."""
     stock = _Stock(asked, path.blocks, dialect)
     texts = {side: dialect.modes.codes[side.code].text for side in ToolSide}
@@ -172,7 +172,7 @@ def find_runs(path: ToolPath, asked: ToolRequest, dialect: Dialect) -> list[Cutt
     return [stock.left(run, found) for run in found] if is_stated else found
 
 
-def find_bare(path: ToolPath, asked: ToolRequest, dialect: Dialect, found: Sequence[CuttingRun]) -> list[CuttingRun]:
+def find_bare(path: ToolPath, asked: ToolRequest, dialect: Control, found: Sequence[CuttingRun]) -> list[CuttingRun]:
     """The cutting moves that a program with G41 or G42 makes without them, on the side to which the tip points; none of
     a tool that nothing states, and none that lead to contours or away."""
     stock, bare = _Stock(asked, path.blocks, dialect), list[CuttingRun]()
@@ -387,7 +387,7 @@ def segment_of(step: Travel, axes: Sequence[str], unknown: float = 0.0) -> Segme
 class _Stock:
     """The tools that a program states, by the places from which on they are in use, in the blocks as they run."""
 
-    def __init__(self, asked: ToolRequest, blocks: Sequence[Block], dialect: Dialect) -> None:
+    def __init__(self, asked: ToolRequest, blocks: Sequence[Block], dialect: Control) -> None:
         self.asked, self.blocks, self.settings = asked, blocks, settings_of(dialect)
         # Such a control turns in its plane Z X, with X as diameter or radius.
         self.has_lathe = dialect.diameter is not None or dialect.plane.axes == _TURNED

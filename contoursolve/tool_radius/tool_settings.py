@@ -2,7 +2,7 @@
 
 from msgspec import Struct
 
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.tool_radius.tool import OutsideCorner
 
 
@@ -34,7 +34,7 @@ _CHOSEN = {
 """The field of what is not usual, by the name of a setting and its value."""
 
 
-def settings_of(dialect: Dialect) -> ToolSettings:
+def settings_of(dialect: Control) -> ToolSettings:
     """The values that a control has."""
     names = {each.name.removeprefix("tool-"): each for each in dialect.settings if each.name.startswith("tool-")}
     own = {name: dialect.modes.convention(each).value for name, each in names.items()}

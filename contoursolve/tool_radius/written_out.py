@@ -10,14 +10,14 @@ from contoursolve.execution import Call, CallKind, EventKind, Machine, MacroLang
 from contoursolve.gcode import Block, comment_out, parse_block
 from contoursolve.geometry import Length
 from contoursolve.program import Run, lines_alone, machine_for
-from contoursolve.reading import Dialect, State, TakenBlocks, Ways, advance
+from contoursolve.reading import Control, State, TakenBlocks, Ways, advance
 from contoursolve.tool_radius.tool import ToolError
 
 _KEPT = frozenset("NFSTMDG")
 """Words beside G70 that hold for the finishing pass."""
 
 
-def written_out(run: Run, dialect: Dialect, *, is_inline: bool) -> list[Block]:
+def written_out(run: Run, dialect: Control, *, is_inline: bool) -> list[Block]:
     """The blocks of a program that has calls or cycles with profiles; none of a plain one. Raises ToolError."""
     program, language = run.frame.program, dialect.modes.language
     machine = machine_for(program, dialect, run.asked.around, run.asked.unit)
@@ -41,7 +41,7 @@ def written_out(run: Run, dialect: Dialect, *, is_inline: bool) -> list[Block]:
     return blocks
 
 
-def _followed(machine: Machine, dialect: Dialect, unit: Length) -> Iterator[Block | ProgramEvent]:
+def _followed(machine: Machine, dialect: Control, unit: Length) -> Iterator[Block | ProgramEvent]:
     """The lines of a program without calls, while somebody follows its modes: SAVE brings some of them back."""
 
     def take(held: Sequence[Block], index: int, state: State, _: bool) -> TakenBlocks:

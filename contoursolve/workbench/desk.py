@@ -20,7 +20,7 @@ from msgspec import ValidationError, convert
 from msgspec.structs import replace
 
 import contoursolve
-from contoursolve.controls import DIALECTS, DRAWINGS, ChainFinder, words_of_drawing
+from contoursolve.controls import CONTROLS, DRAWINGS, ChainFinder, words_of_drawing
 from contoursolve.diagnosis import word_keys
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import typed_places
@@ -167,7 +167,7 @@ def _hello(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
                 "may_be_target": isinstance(each.find, ChainFinder),
                 "machines": [kind.value for kind in MachineKind if machine_of(for_kind(each, {}, kind.value)) is kind],
             }
-            for name, each in DIALECTS.items()
+            for name, each in CONTROLS.items()
         ],
         "folder": desk.folder.name if desk.folder is not None else "",
         "may_write": desk.folder is not None,
@@ -176,7 +176,7 @@ def _hello(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
         "drawing_words": {
             part: {kind: dict(words_of_drawing(part, kind)) for kind in ("line", "arc")} for part in DRAWINGS
         },
-        "examples": [{"control": name, "title": each.title} for name, each in DIALECTS.items()],
+        "examples": [{"control": name, "title": each.title} for name, each in CONTROLS.items()],
     }
 
 
@@ -218,7 +218,7 @@ def _kept(desk: Desk, action: Mapping[str, Any], name: str) -> FileText:
 def _example(control: str) -> tuple[str, str]:
     """The name and the text of a small program with a mistake, for a control: a corner that does not fit, if it has an
     example of that."""
-    dialect = DIALECTS.get(control)
+    dialect = CONTROLS.get(control)
     if dialect is None:
         raise ActionError(f"{control!r} is no control here")
     rules = sorted(dialect.catalogue, key=lambda rule: not rule.code.endswith("corner-too-large"))
@@ -394,7 +394,7 @@ ACTIONS: dict[str, Answering] = {
 def _control_of(action: Mapping[str, Any]) -> str | None:
     """The control that an action chooses; None where it chooses none."""
     control: str | None = read_field(action, "control", str, None)
-    if control is not None and control not in DIALECTS:
+    if control is not None and control not in CONTROLS:
         raise ActionError(f"{control!r} is no control here")
     return control
 

@@ -20,7 +20,7 @@ from contoursolve.notebook import project_settings
 from contoursolve.output import effect_of
 from contoursolve.postprocess import machine_of
 from contoursolve.program import CONTROL, OpenProgram, changes_of
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 from contoursolve.solving import Status
 from contoursolve.workbench.explored import Explored
 from contoursolve.workbench.fields import Data
@@ -306,7 +306,7 @@ class ProgramView:
         return {"line": span.line, "from": begin, "to": _units(text[: max(span.end_column, span.column + 1) - 1])}
 
 
-def _control(dialect: Dialect) -> Data:
+def _control(dialect: Control) -> Data:
     return {"name": dialect.name, "title": dialect.title, "machines": [machine_of(dialect).value]}
 
 

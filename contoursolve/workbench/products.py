@@ -8,7 +8,7 @@ from typing import Any
 
 import contoursolve
 from contoursolve.comparison import Document, verify
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import importing
 from contoursolve.execution import NamedVariable, named_variables
 from contoursolve.notebook import (
@@ -139,10 +139,10 @@ _SWITCHES = ("comments", "inline", "keep_going", "keep_untranslated")
 
 def _convert(view: ProgramView, action: Mapping[str, Any]) -> Data:
     control = read_field(action, "to", str)
-    if control not in DIALECTS:
+    if control not in CONTROLS:
         raise ActionError(f"{control!r} is no control here")
     settings = {name: value for name, value in view.settings.items() if name != CONTROL}
-    return _program(view, converted(view.program, control, settings), f"-{control}{ending_of(DIALECTS[control])}")
+    return _program(view, converted(view.program, control, settings), f"-{control}{ending_of(CONTROLS[control])}")
 
 
 def _program(view: ProgramView, made: Product, ending: str) -> Data:

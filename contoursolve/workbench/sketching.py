@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from contoursolve import sketches
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import plain
 from contoursolve.postprocess import NumberGround, WrittenContour, WrittenContours, WrittenWord, ending_of
 from contoursolve.sketches import ContourSketch
@@ -30,11 +30,11 @@ def words_of_sketch(action: Mapping[str, Any]) -> Data:
     sketch, control = _sketch(action), read_field(action, "control", str, "")
     if not control:
         return {"rows": [_row(each) for each in sketches.write(sketch)]}
-    if control not in DIALECTS:
+    if control not in CONTROLS:
         raise ActionError(f"{control!r} is no control here")
     written = sketches.write(sketch, control)
     candidates = [_candidate(each) for each in written.candidates]
-    return {**_row(written), "ending": ending_of(DIALECTS[control]), "candidates": candidates}
+    return {**_row(written), "ending": ending_of(CONTROLS[control]), "candidates": candidates}
 
 
 def _row(written: WrittenContours) -> Data:

@@ -26,7 +26,7 @@ from manual import alarms_page, control_page, manuals, rule_page, setting_anchor
 
 import contoursolve
 from contoursolve import pictures
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.geometry import Unit
 
 ROOT = Path(__file__).parents[2]
@@ -197,7 +197,7 @@ def rules_index() -> Iterator[str]:
     yield "| assumed | our choice where the pages that we have are silent |\n"
     yield "## The controls\n"
     yield "| control | words | rules | printed | derived | assumed |\n|---|---|--:|--:|--:|--:|"
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         grades = [rule.source.evidence.value for rule in dialect.catalogue]
         counts = [len(grades), *map(grades.count, ("printed", "derived", "assumed"))]
         words = f"[words]({dialect.name}/words.md)"
@@ -210,7 +210,7 @@ def counted_from() -> Iterator[str]:
     """What X is and from where angles count, of all controls."""
     yield "\n## Is X a diameter or a radius? From where does an angle count?\n"
     yield "| control | X | angle of a line | settings about it |\n|---|---|---|---|"
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         rows = dialect.modes.lexicon.addresses
         angles = [
             f"`{row.address}`: {row.meaning}"
@@ -254,7 +254,7 @@ def reference_page() -> Iterator[str]:
 def try_page() -> str:
     """The page of the workbench, with what it shows before Python is there, and where Python comes from."""
     text = (TRY / "page.md").read_text(encoding="utf-8")
-    controls = [{"name": name, "title": dialect.title} for name, dialect in DIALECTS.items()]
+    controls = [{"name": name, "title": dialect.title} for name, dialect in CONTROLS.items()]
     hello = {
         "controls": controls,
         "examples": [{"control": each["name"], "title": each["title"]} for each in controls],

@@ -15,7 +15,7 @@ from jsonschema import Draft202012Validator
 
 from contoursolve import solve
 from contoursolve.cli import main
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.solving import certify
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
@@ -80,7 +80,7 @@ def test_exit_status_is_0_without_errors_and_1_with_errors(status, arguments):
         (("solve",), "missing PROGRAM"),
         (("check",), "missing PROGRAM"),
         (("solve", SHAFT, *ONE), "give either a PROGRAM or --block, not both\n"),
-        (("solve", SHAFT, "--control", "fanuc"), "is not one of " + ", ".join(f"'{name}'" for name in DIALECTS)),
+        (("solve", SHAFT, "--control", "fanuc"), "is not one of " + ", ".join(f"'{name}'" for name in CONTROLS)),
         (("solve", SHAFT, "--units", "cubit"), "'cubit' is not one of 'mm', 'inch'"),
         (("solve", SHAFT, "--rules", "perhaps"), "'perhaps' is not one of"),
         (("solve", SHAFT, "--format", "xml"), "'xml' is not one of"),
@@ -155,7 +155,7 @@ def test_the_catalogue_as_json_has_the_fields_that_the_page_lists():
         for control in document["controls"]:
             Draft202012Validator({"items": exact, "minItems": 1}).validate(control[kind])
     told = {control["name"]: {rule["code"] for rule in control["rules"]} for control in document["controls"]}
-    assert told == {name: {rule.code for rule in dialect.catalogue} for name, dialect in DIALECTS.items()}
+    assert told == {name: {rule.code for rule in dialect.catalogue} for name, dialect in CONTROLS.items()}
 
 
 # --- JSON ------------------------------------------------------------------------------------------

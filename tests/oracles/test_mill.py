@@ -23,7 +23,7 @@ from oracle_corners import miss
 from oracle_nct import Run, runs
 
 from contoursolve import Result, check, solve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics.finding import Applicability, Severity
 from contoursolve.output.document import to_json
 
@@ -142,7 +142,7 @@ def test_blocks_that_nobody_drew_are_solved_or_refused_as_the_sheet_says(instanc
 def subsets() -> Iterator[tuple[str, list[str]]]:
     """Every set of the optional words of every form's sample."""
     optional = re.compile(r"\{([^}]*)\}")
-    for form in DIALECTS["nct-99m"].forms:
+    for form in CONTROLS["nct-99m"].forms:
         texts = [word for block in form.table.sample.blocks for word in optional.findall(block)]
         for kept in product((True, False), repeat=len(texts)):
             keep = iter(kept)

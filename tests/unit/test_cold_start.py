@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from contoursolve import DIALECTS
+from contoursolve import CONTROLS
 
 COUNTED = """
 import re, sys
@@ -52,7 +52,7 @@ def test_the_solve_of_one_block_loads_the_tables_of_its_control_alone(
     path.write_text(program, encoding="utf-8")
     modules, patterns, names = loaded_by("solve", str(path))
     tables = {name.split(".")[2] for name in names if name.startswith("contoursolve.controls.")}
-    assert tables & {name.replace("-", "_").split("_8")[0] for name in DIALECTS} == {control}
+    assert tables & {name.replace("-", "_").split("_8")[0] for name in CONTROLS} == {control}
     assert (modules <= most[0], patterns <= most[1]) == (True, True), (modules, patterns)
     assert not names & {"sympy", "scipy", "htpy", "pygls"}
 

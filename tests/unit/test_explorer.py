@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import contoursolve
-from contoursolve import DIALECTS, Status
+from contoursolve import CONTROLS, Status
 from contoursolve.notebook import Conversation, begin
 
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
@@ -324,7 +324,7 @@ CONFLICTING = FRAME.format("2 FL AN+60 LEN50\n3 FL X+80 Y+20 AN-30")
 # A corner beside a departure is not solved, so that there is nothing to draw.
 APART = FRAME.format("2 L X+40 Y+0\n3 RND R5\n4 DEP LT LEN5").replace("99 END", "5 END")
 TNC = {"control": "heidenhain"}
-RULES = [rule for rule in DIALECTS["heidenhain"].catalogue if rule.code.startswith("heidenhain-")]
+RULES = [rule for rule in CONTROLS["heidenhain"].catalogue if rule.code.startswith("heidenhain-")]
 ACCEPTED = {text for rule in RULES for text in rule.accepted} - {APART}
 READ = [
     *((text, START, seed) for text in (WHOLE, "G112 X60. I10. K-8. R10. P1. Q1.") for seed in range(2)),

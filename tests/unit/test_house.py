@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 import contoursolve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.solving import RefusalKind
 
 FLOORS = (
@@ -276,7 +276,7 @@ PUBLIC = """
     solve check fix explain parse system family ranges find sensitivity tolerances expand convert write draw export
     report explore read_sketch read_dxf
     errors editing tables pictures
-    Program Block Word Dialect DIALECTS Sketch ContourSketch SketchElement SketchCorner OpenProgram
+    Program Block Word Control CONTROLS Sketch ContourSketch SketchElement SketchCorner OpenProgram
     Result Answer Contour LineSegment ArcSegment Status Solution Solutions EquationSystem Diagnosis
     Diagnostic Severity Basis Fix FixedProgram
     Family FeasibleRange FeasibleRegion FoundValues Sensitivity Tolerances ToleranceRange
@@ -297,7 +297,7 @@ def test_the_front_door_has_few_names():
 
 def test_no_control_stands_in_where_none_is_named():
     """Who needs one says which; where nothing tells it, what holds for all of them counts."""
-    by_name = re.compile(r"""DIALECTS\[["'].*""")
+    by_name = re.compile(r"""CONTROLS\[["'].*""")
     assert [(short(module), found) for module in MODULES for found in by_name.findall(code_of(module))] == []
 
 
@@ -318,9 +318,9 @@ def literals(module: Path) -> Iterator[str]:
 
 def test_no_control_is_known_below_the_tables_of_the_controls():
     """Not by its name, its words or its codes: what differs is a field of a table."""
-    names = {part for name in DIALECTS for part in name.split("-")} - {"lathe", "mill", "cnc"}
+    names = {part for name in CONTROLS for part in name.split("-")} - {"lathe", "mill", "cnc"}
     named = re.compile(rf"\b({'|'.join(sorted(names))}|sinumerik|klartext|tnc)\b", re.IGNORECASE)
-    lexicons = [dialect.modes.lexicon for dialect in DIALECTS.values()]
+    lexicons = [dialect.modes.lexicon for dialect in CONTROLS.values()]
     addresses = {each for one in lexicons for each in (*one.addresses, *one.spelling.names)}
     words = {each for each in addresses if len(each.lstrip(",#")) > 1}
     found = []

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 import contoursolve
-from contoursolve import DIALECTS
+from contoursolve import CONTROLS
 from contoursolve.__main__ import commands
 from contoursolve.controls import GEOMETRY_RULES, NCT_99M
 from contoursolve.program import FollowKeywords, SolveOptions
@@ -181,7 +181,7 @@ def test_the_other_commands_take_them_too(run):
     Path("r.json").write_text(run("solve", "p.nc", "--format", "json", *mine)[1], encoding="utf-8")
     assert run("verify", "p.nc", "r.json", *mine)[0] == 0
     told = run("verify", "p.nc", "r.json")[1]
-    assert f"unknown control 'mine'; choose from {', '.join(DIALECTS)}, or name the tables" in told
+    assert f"unknown control 'mine'; choose from {', '.join(CONTROLS)}, or name the tables" in told
     broken = run("check", "--block", PAIR.replace("Q-1", ",R2 ,C2"), "--format", "sarif", *mine)
     assert '"ruleId": "nct-two-corners"' in broken[1]
 
@@ -206,7 +206,7 @@ def test_verify_checks_forms_that_are_not_built_in(run, block, status):
 @pytest.mark.parametrize(
     ("control", "said"),
     [
-        ("tables_of_mine:OTHER", "tables_of_mine.py) has no contoursolve.Dialect of the name 'OTHER'"),
+        ("tables_of_mine:OTHER", "tables_of_mine.py) has no contoursolve.Control of the name 'OTHER'"),
         ("tables_of_mine:", "of the name ''"),
         ("absent_tables:MINE", "absent_tables cannot be imported: ModuleNotFoundError"),
         ("tables_of_mine.py:MINE", "; write the module without .py, tables_of_mine:NAME"),

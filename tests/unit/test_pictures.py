@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import pytest
 from click.testing import CliRunner
-from fuzzing import CONTROLS, examples, mutate
+from fuzzing import NAMED, examples, mutate
 
 import contoursolve
 from contoursolve.__main__ import commands
@@ -181,7 +181,7 @@ def test_random_blocks_of_every_status_are_drawn(seed):
     for _ in range(4):
         text, start = random_block(draw)
         answers = contoursolve.solve(f"{text} {HOSTILE}", start=start, **options).answers
-        control = draw.choice(CONTROLS)
+        control = draw.choice(NAMED)
         text = draw.choice(examples(control))
         for _ in range(draw.randrange(1, 4)):
             text = mutate(text, draw)

@@ -4,7 +4,7 @@ import pytest
 from click.testing import CliRunner
 
 from contoursolve.cli import main
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import Evidence
 
 CIRCLES = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\nG3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1\n"
@@ -51,7 +51,7 @@ def test_a_setting_that_there_is_not_is_refused(text):
 
 def test_the_catalogue_lists_every_assumption_and_every_setting_with_its_values():
     printed = CliRunner().invoke(main, ["rules"]).output
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         for each in dialect.assumptions:
             assert f"assumption {dialect.name}.{each.name}: {each.meaning} ({each.source})" in printed
             assert each.source.evidence is Evidence.ASSUMED

@@ -5,7 +5,7 @@ import re
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import DIALECTS, Status, expand, solve
+from contoursolve import CONTROLS, Status, expand, solve
 from contoursolve.cli import main
 from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.output.document import to_json
@@ -269,7 +269,7 @@ ENDS = {
 LIKE = {"siemens-840d": "siemens", "siemens-808d": "siemens", "isg": "isg", KLARTEXT: KLARTEXT}
 
 
-@pytest.mark.parametrize("control", [each for each in DIALECTS if each not in ("cnc-pilot", "yasnac-lx3")])
+@pytest.mark.parametrize("control", [each for each in CONTROLS if each not in ("cnc-pilot", "yasnac-lx3")])
 def test_an_end_and_a_call_in_one_block_is_told_whatever_their_order(control):
     """How a CNC PILOT calls is on no page that we have."""
     text, call, ends = ENDS[LIKE.get(control, "fanuc")]

@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.families import FamilyError
 
 START = "G00 X40. Z0.\n"
@@ -124,9 +124,9 @@ def test_formulas_with_the_empty_variable_are_those_with_0():
 @pytest.mark.parametrize(
     ("control", "name", "told"),
     [
-        *((each, "foo.bar", "there is no variable FOO.BAR") for each in DIALECTS),
-        *((each, "#-1", "there is no variable #-1") for each in DIALECTS),
-        *((each, "yasnac-lx3.foo", "a setting is stated with --set") for each in DIALECTS),
+        *((each, "foo.bar", "there is no variable FOO.BAR") for each in CONTROLS),
+        *((each, "#-1", "there is no variable #-1") for each in CONTROLS),
+        *((each, "yasnac-lx3.foo", "a setting is stated with --set") for each in CONTROLS),
         *((each, "R100", "write #100") for each in MACRO_B),
         ("siemens-840d", "#100", "variables are called R100 or a name such as _ANG: write R100"),
         ("isg", "#100", "write P100"),

@@ -3,7 +3,7 @@
 import pytest
 
 import contoursolve
-from contoursolve import DIALECTS, Severity, Status
+from contoursolve import CONTROLS, Severity, Status
 from contoursolve.diagnostics.source import Evidence
 
 MILL = "G17 G90 G0 X0 Y0\n"
@@ -103,7 +103,7 @@ def test_predefined_words_neither_move_nor_shift(command):
     text = f"G18 G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\n{command}\nG1 Z-20 RND=2\nX52\nM30"
     result = contoursolve.solve(text, control=SINUMERIK)
     assert (result.diagnostics, result.answers[0].contour.end) == ((), (-20.0, 26.0))
-    (row,) = (each for each in DIALECTS[SINUMERIK].modes.codes.values() if each.name == "WAITS")
+    (row,) = (each for each in CONTROLS[SINUMERIK].modes.codes.values() if each.name == "WAITS")
     assert row.source.evidence is Evidence.ASSUMED
 
 

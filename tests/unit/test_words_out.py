@@ -42,11 +42,11 @@ def test_the_command_says_why_it_writes_nothing(
 
 
 def check_all(
-    answer: contoursolve.Answer, found: contoursolve.WrittenContours, control: contoursolve.Dialect | None = None
+    answer: contoursolve.Answer, found: contoursolve.WrittenContours, control: contoursolve.Control | None = None
 ) -> None:
     """Each candidate has no finding, and runs along the contour, over its whole length; the cheapest comes first."""
     assert found.candidates
-    inch, control = answer.unit.value == "inch", control or contoursolve.DIALECTS[found.control]
+    inch, control = answer.unit.value == "inch", control or contoursolve.CONTROLS[found.control]
     for each in found.candidates:
         told = contoursolve.check(each.program, control=control, strict=True)
         assert [one.code for one in told if one.code != "no-contour"] == []
@@ -68,7 +68,7 @@ def check_all(
 PARTS = 12
 
 
-def followed(text: str, control: contoursolve.Dialect, answer: contoursolve.Answer) -> list[Travel]:
+def followed(text: str, control: contoursolve.Control, answer: contoursolve.Answer) -> list[Travel]:
     """The cuts of a program."""
     result = contoursolve.solve(text, control=control)
     steps = follow(result, control, Length.MM, answer.plane.axes).steps
@@ -109,14 +109,14 @@ def test_a_control_of_the_other_kind_says_so():
     assert (found.candidates, found.reason) == ((), "the contour is milled, and this control is for lathes")
     shaft = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
     table = contoursolve.write(shaft)
-    assert [each.control for each in table] == [*contoursolve.DIALECTS]
+    assert [each.control for each in table] == [*contoursolve.CONTROLS]
     assert [each.control for each in table if each.candidates] == [
         *("yasnac-lx3", "fanuc-lathe", "haas-lathe", "siemens-840d", "siemens-808d", "isg", "cnc-pilot")
     ]
     lathe = contoursolve.write(shaft, "mitsubishi", settings={"mitsubishi.diameter": "on"})
     assert lathe.candidates[0].lines == ("G01 Z-30 ,R5", "X100 A120")
     assert "(contoursolve control: mitsubishi, diameter: on)" in lathe.candidates[0].program.split("\n")
-    check_all(shaft.answers[0], lathe, contoursolve.DIALECTS["mitsubishi"].configure({"diameter": "on"}))
+    check_all(shaft.answers[0], lathe, contoursolve.CONTROLS["mitsubishi"].configure({"diameter": "on"}))
 
 
 BY_LENGTH = """sketch = 1

@@ -17,7 +17,7 @@ from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Turn, assemble
 from contoursolve.reading import (
     COMMENTED,
-    Dialect,
+    Control,
     Effect,
     Modes,
     ParsedContour,
@@ -436,7 +436,7 @@ def reading(
     names: Mapping[str, str] | None = None,
     like: Mapping[str, str] | None = None,
     **parts: Mapping[str, Any],
-) -> Callable[[Dialect], Dialect]:
+) -> Callable[[Control], Control]:
     """The change that a value of a setting makes in the language of a control.
 
     `names` are addresses, each with the one whose row and name it takes, which is no word then; `like` are words
@@ -444,7 +444,7 @@ def reading(
     """
     names, like = names or {}, like or {}
 
-    def change(dialect: Dialect) -> Dialect:
+    def change(dialect: Control) -> Control:
         if not isinstance(dialect.find, ChainFinder):
             raise TypeError(f"{dialect.name} has no language")
         language, rows = dialect.find.language, dict(dialect.modes.lexicon.addresses)

@@ -13,10 +13,10 @@ from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.plain import LATHE
 from contoursolve.gcode import words_as
 from contoursolve.geometry import CornerShape
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _SHOWS = re.compile(SHOWS, re.IGNORECASE)
-CNC_PILOT = Dialect(
+CNC_PILOT = Control(
     name="cnc-pilot",
     title="HEIDENHAIN CNC PILOT 4290, DIN PLUS",
     modes=MODES,

@@ -18,7 +18,7 @@ from contoursolve.reading import (
     TOOL,
     Address,
     Code,
-    Dialect,
+    Control,
     Effect,
     Lexicon,
     Modes,
@@ -133,10 +133,10 @@ MODES = Modes(
 )
 
 
-def _with(address: str, **fields: Any) -> Callable[[Dialect], Dialect]:
+def _with(address: str, **fields: Any) -> Callable[[Control], Control]:
     """The change of a control in which a word has these other fields."""
 
-    def change(dialect: Dialect) -> Dialect:
+    def change(dialect: Control) -> Control:
         words = dialect.modes.lexicon
         rows = {**words.addresses, address: replace(words.addresses[address], **fields)}
         return replace(dialect, modes=replace(dialect.modes, lexicon=replace(words, addresses=rows)))

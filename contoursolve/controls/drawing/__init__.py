@@ -24,7 +24,7 @@ from contoursolve.controls.plain import LATHE, PLANES
 from contoursolve.diagnostics import OWN, Evidence, Source
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Plane
-from contoursolve.reading import Dialect, Lexicon, Modes, NumberFormat, ParsedContour, State, WithoutPoint
+from contoursolve.reading import Control, Lexicon, Modes, NumberFormat, ParsedContour, State, WithoutPoint
 
 _MEANING = Source(OWN, "what a drawing means", Evidence.DERIVED)
 
@@ -47,7 +47,7 @@ def _shows_nothing(_: Block) -> tuple[Word, ...]:
 _SPELLING = replace(SPELLING, before={**SPELLING.before, "rounding": "rounding ", "chamfer": "chamfer "}, names={})
 
 
-def _drawing(part: str, plane: Plane, words: PlaneWords) -> Dialect:
+def _drawing(part: str, plane: Plane, words: PlaneWords) -> Control:
     rows = rows_of(words, _MEANING, _MEANING, _MEANING, _MEANING, is_diameter=any(plane.diameters))
     lexicon = Lexicon(rows, NumberFormat(WithoutPoint.AS_WRITTEN, _MEANING), spelling=_SPELLING)
     modes = Modes(
@@ -56,7 +56,7 @@ def _drawing(part: str, plane: Plane, words: PlaneWords) -> Dialect:
         syntax=spelling("drawing", words, rf"{OF_SENSES}|CC?W(?!\w)", rf"{OF_CORNERS}|(?:ROUNDING|CHAMFER)[ \t]++"),
         follow=follow,
     )
-    return Dialect(
+    return Control(
         "drawing",
         f"a drawing of a {part} part",
         modes,
@@ -73,7 +73,7 @@ _WORDS: Mapping[str, tuple[Plane, PlaneWords]] = {
     part: (plane, PlaneWords(plane.axes, across=(), has_corners=True))
     for part, plane in (("turned", LATHE), ("milled", PLANES[17]))
 }
-DRAWINGS: Mapping[str, Dialect] = {part: _drawing(part, *row) for part, row in _WORDS.items()}
+DRAWINGS: Mapping[str, Control] = {part: _drawing(part, *row) for part, row in _WORDS.items()}
 """The drawings of parts, by how these are made."""
 
 

@@ -30,7 +30,7 @@ from contoursolve.controls.fanuc.rules import (
 from contoursolve.controls.own_words import OwnWords
 from contoursolve.controls.plain import LATHE, PLANES
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import Dialect, Modes, Rule, Setting
+from contoursolve.reading import Control, Modes, Rule, Setting
 
 
 def _signs(own: frozenset[str], block: Block) -> tuple[Word, ...]:
@@ -49,8 +49,8 @@ def _control(
     rules: tuple[Rule, ...],
     settings: tuple[Setting, ...],
     contours: str,
-) -> Dialect:
-    control = Dialect(
+) -> Control:
+    control = Control(
         name=name,
         title=title,
         modes=modes,

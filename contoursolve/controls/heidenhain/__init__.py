@@ -14,9 +14,9 @@ from contoursolve.controls.heidenhain.rules import RULES
 from contoursolve.controls.heidenhain.writer import WRITING
 from contoursolve.controls.plain import PLANES
 from contoursolve.execution import klartext
-from contoursolve.reading import Dialect, Modes
+from contoursolve.reading import Control, Modes
 
-_HEIDENHAIN = Dialect(
+_HEIDENHAIN = Control(
     name="heidenhain",
     title="HEIDENHAIN TNC, Klartext with free contours FK",
     modes=Modes(

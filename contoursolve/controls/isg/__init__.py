@@ -13,7 +13,7 @@ from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
 from contoursolve.controls.isg.rules import RULES
 from contoursolve.controls.plain import PLANES
 from contoursolve.gcode import Block, Word, words_as
-from contoursolve.reading import Dialect, Diameter
+from contoursolve.reading import Control, Diameter
 
 _CORNER = re.compile(r"G[ \t]*+(?:=[ \t]*+)?30[12]", re.IGNORECASE)
 """Most blocks have none of it, and need not be read again."""
@@ -30,7 +30,7 @@ def _signs(block: Block) -> tuple[Word, ...]:
     return tuple(word for word in words if word.address in _OWN or (word.address == "G" and word.number in codes))
 
 
-_ISG = Dialect(
+_ISG = Control(
     name="isg",
     title="ISG kernel: Beckhoff TwinCAT CNC, KUKA",
     modes=MODES,

@@ -11,7 +11,7 @@ from contoursolve.controls.mitsubishi.lexicon import MODES
 from contoursolve.controls.mitsubishi.rules import RULES
 from contoursolve.controls.plain import PLANES
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 
 def _signs(block: Block) -> tuple[Word, ...]:
@@ -23,7 +23,7 @@ def _signs(block: Block) -> tuple[Word, ...]:
     return tuple(word for word in block.words if word.address in shown)
 
 
-_MITSUBISHI = Dialect(
+_MITSUBISHI = Control(
     name="mitsubishi",
     title="Mitsubishi M70, M700, M800 and E70",
     modes=MODES,

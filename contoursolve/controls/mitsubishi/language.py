@@ -42,7 +42,7 @@ from contoursolve.controls.control_settings import (
     setting,
 )
 from contoursolve.controls.mitsubishi.lexicon import BOOK, LAST_CORNER, MODES, TURNED_PLANES, turned
-from contoursolve.reading import Assumption, ContourForm, Convention, Dialect, Modes, Sample, State, all_of, some
+from contoursolve.reading import Assumption, ContourForm, Control, Convention, Modes, Sample, State, all_of, some
 
 PICK_REQUIRED, STRAIGHT_ONLY = "@pick-required", "@straight-only"
 UNGUARDED, ALONG_ARC, PICKS_NOTHING = "@unguarded", "@along-arc", "@picks-nothing"
@@ -54,7 +54,7 @@ ONE_CORNER = "@one-corner"
 INCREMENTAL, HIGH_SPEED, TURNED = "@incremental", "@high-speed", "@turned"
 
 
-def _turning(dialect: Dialect) -> Dialect:
+def _turning(dialect: Control) -> Control:
     return replace_fields(dialect, plane=TURNED_PLANES[18], modes=turned(dialect.modes))
 
 

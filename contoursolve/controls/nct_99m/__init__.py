@@ -9,7 +9,7 @@ from contoursolve.controls.nct_99m.language import LANGUAGE, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, CODES_SOURCE, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import Dialect, Effect
+from contoursolve.reading import Control, Effect
 
 
 def _signs(block: Block) -> tuple[Word, ...]:
@@ -39,7 +39,7 @@ _MOVING = (Effect.MOTION, Effect.CYCLE, Effect.SINGLE)
 _OTHER_CODES = {number for number, code in CODES.items() if code.effect not in _MOVING}
 
 
-_NCT_99M = Dialect(
+_NCT_99M = Control(
     name="nct-99m",
     title="NCT 99M and 2000M milling controls",
     modes=MODES,

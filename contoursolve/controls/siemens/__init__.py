@@ -24,7 +24,7 @@ from contoursolve.controls.siemens.lexicon import AXIAL_MODES, BOOK, MODES, SYNT
 from contoursolve.controls.siemens.rules import RULES, RULES_REDUCING
 from contoursolve.execution import MacroLanguage
 from contoursolve.gcode import Block, Word, words_as
-from contoursolve.reading import Dialect, Diameter, Setting
+from contoursolve.reading import Control, Diameter, Setting
 
 _OWN = LANGUAGE.own
 
@@ -55,7 +55,7 @@ def _too_big(default: str) -> Setting:
 def _main_def(default: str) -> Setting:
     """The scope of what the main program defines."""
 
-    def change(dialect: Dialect, *, shows_main: bool) -> Dialect:
+    def change(dialect: Control, *, shows_main: bool) -> Control:
         made_by = cast("partial[MacroLanguage]", cast("MacroLanguage", dialect.modes.language).made_by)
         language = made_by.func(*made_by.args, shows_main=shows_main)
         return replace(dialect, modes=replace(dialect.modes, language=language))
@@ -71,7 +71,7 @@ def _main_def(default: str) -> Setting:
     )
 
 
-_840D = Dialect(
+_840D = Control(
     name="siemens-840d",
     title="SINUMERIK 840D sl, 828D and ONE",
     modes=AXIAL_MODES,

@@ -38,16 +38,16 @@ from contoursolve.controls.control_settings import (
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, TANGENT_ARC
 from contoursolve.geometry import CornerShape
-from contoursolve.reading import ContourForm, Convention, Dialect, Diameter, Modes, Sample, Setting, State, all_of, some
+from contoursolve.reading import ContourForm, Control, Convention, Diameter, Modes, Sample, Setting, State, all_of, some
 
 STRICT_ANGLE, NO_STEPS, ALONG_ARC = "@strict-angle", "@no-steps", "@along-arc"
 
 
-def _counting(diameter: Diameter) -> Callable[[Dialect], Dialect]:
+def _counting(diameter: Diameter) -> Callable[[Control], Control]:
     return lambda dialect: replace_fields(dialect, diameter=diameter)
 
 
-def _turning(dialect: Dialect) -> Dialect:
+def _turning(dialect: Control) -> Control:
     diameter = Diameter.ON if dialect.diameter is Diameter.BY_PLANE else dialect.diameter
     return replace_fields(dialect, plane=PLANES[18], diameter=diameter)
 

@@ -11,7 +11,7 @@ from contoursolve.controls.yasnac_lx3.g112 import G112_FORMS, G112_RULES
 from contoursolve.controls.yasnac_lx3.leaving import LEAVING_FORMS, LEAVING_RULES
 from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, BOOK, MODES, MOTION_AFTER
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import NAMED_FILE, POLAR_WORDS, SEMICOLON_COMMENT, Y_AXIS, Dialect
+from contoursolve.reading import NAMED_FILE, POLAR_WORDS, SEMICOLON_COMMENT, Y_AXIS, Control
 
 _OF_A_POCKET = frozenset("DJLQY")
 """Words of a circular pocket, which G12 is on Haas mills, and of no bevel or quarter circle."""
@@ -28,7 +28,7 @@ def _signs(block: Block) -> tuple[Word, ...]:
     return tuple(word for word in block.words if word.address == "G" and word.number in codes)
 
 
-_YASNAC_LX3 = Dialect(
+_YASNAC_LX3 = Control(
     name="yasnac-lx3",
     title="YASNAC LX3 lathe control",
     modes=MODES,

@@ -12,7 +12,7 @@ from contoursolve.execution import Assign, CodeLine, Known, Unknown, When, evalu
 from contoursolve.gcode import Block, Word, parse_block
 from contoursolve.numeric import Constant, Term, Variable
 from contoursolve.program import Lines
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 DECIMALS = 6
 """To which an example of a value is rounded: controls read no more."""
@@ -67,7 +67,7 @@ class FormulaLines(Lines):
     """The lines of a program on their way; `macros` are those that hold variables, by their numbers."""
 
     def __init__(
-        self, lines: Iterable[str], dialect: Dialect, *args: Any, lets: Mapping[str, float], **options: Any
+        self, lines: Iterable[str], dialect: Control, *args: Any, lets: Mapping[str, float], **options: Any
     ) -> None:
         super().__init__(lines, dialect, *args, **options)
         self.language, self.lets = dialect.modes.language, lets

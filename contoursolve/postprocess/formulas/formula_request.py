@@ -14,7 +14,7 @@ from contoursolve.postprocess.formulas.formula_lines import FormulaLines
 from contoursolve.postprocess.formulas.macro_targets import TARGETS
 from contoursolve.postprocess.formulas.scratch_variables import NoFormulasError, Scratch, read_scratch
 from contoursolve.postprocess.post_processors import POSTS, Post, find_post, post_of
-from contoursolve.reading import Dialect
+from contoursolve.reading import Control
 
 _LABELS = re.compile(r"(?:\b[NO]|\bLBL\s+)\s*(\d{1,8})", re.IGNORECASE)
 _VARIABLES = re.compile(r"[#RQ]\s*\d{1,5}", re.IGNORECASE)
@@ -44,7 +44,7 @@ class FormulaRequest(Struct, frozen=True, eq=False):
 
     def expander(self, *args: Any) -> FormulaExpander:
         """The pass over a program."""
-        dialect: Dialect = args[0]
+        dialect: Control = args[0]
         own = {"haas": "haas", "siemens": "sinumerik", "heidenhain": "klartext"}
         name = own.get(dialect.name.partition("-")[0], "fanuc") if self.target == "same" else self.target
         scratch = self.scratch or read_scratch(TARGETS[name].scratch)

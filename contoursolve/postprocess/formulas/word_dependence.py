@@ -12,7 +12,7 @@ from contoursolve.gcode import Block
 from contoursolve.geometry import Choice
 from contoursolve.numeric import Affine
 from contoursolve.postprocess.formulas.formula_lines import Free, MacroLine
-from contoursolve.reading import Dialect, Position, State
+from contoursolve.reading import Control, Position, State
 
 STEP = Decimal(1) / 1024
 """By how much a value is changed to see what follows it; a power of 2, so that quotients are exact."""
@@ -40,7 +40,7 @@ class Reader(Struct, frozen=True, eq=False):
     """The blocks of a contour, the state before them, and the values that follow variables: of words, and of the
     coordinates of the start point, mm."""
 
-    dialect: Dialect
+    dialect: Control
     policy: Policy
     blocks: tuple[Block, ...]
     macros: Mapping[int, MacroLine]
