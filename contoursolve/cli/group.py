@@ -18,12 +18,14 @@ COMMANDS = {
     "convert": "convert:convert",
     "write": "write:write",
     "diff": "diff:diff",
-    "plot": "pictures:plot",
+    "draw": "pictures:draw",
     "report": "pictures:report",
-    "sweep": "sweep:sweep_",
-    "range": "questions:range_",
+    "system": "solve:system",
+    "family": "sweep:family",
+    "ranges": "questions:ranges",
     "find": "questions:find",
     "sensitivity": "questions:sensitivity",
+    "tolerances": "questions:tolerances",
     "verify": "verify:verify",
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
@@ -31,6 +33,27 @@ COMMANDS = {
 }
 """Place of each command: a module of this room, and the name there. `contoursolve` itself adds the commands beside
 it."""
+
+ALIASES = (
+    ("plot", "", ("draw",)),
+    ("sweep", "", ("family",)),
+    ("range", "", ("ranges",)),
+    ("sensitivity", "--tolerance", ("tolerances",)),
+    ("sensitivity", "--keep", ("tolerances",)),
+    ("sensitivity", "--word", ("tolerances",)),
+    ("fix", "", ("check", "--fix")),
+)
+"""Other spellings that work, and no help lists: a command, the option that makes it another one, and that one."""
+
+
+def _spelled(args: list[str]) -> list[str]:
+    """The arguments with the command by its name in the help."""
+    name, rest = args[0], args[1:]
+    given = {each.partition("=")[0] for each in rest}
+    for command, option, instead in ALIASES:
+        if name == command and (not option or option in given):
+            return [*instead, *rest]
+    return args
 
 
 class _Commands(click.Group):
@@ -74,6 +97,7 @@ class _Commands(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """The command that is named, and the arguments behind it; of another name, the commands that it is close to."""
+        args = _spelled(args)
         name, names = args[0], self.list_commands(ctx)
         if ctx.resilient_parsing:  # as a shell asks for what may follow
             return super().resolve_command(ctx, args)

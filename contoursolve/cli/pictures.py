@@ -98,7 +98,7 @@ WrittenFile = tuple[Path, bytes, str]
 @common_options
 @tool_options
 @click.pass_context
-def plot(
+def draw(
     context: click.Context,
     /,
     program: str | None,
@@ -125,9 +125,9 @@ def plot(
     plane's axes: on a lathe Z to the right and X up, as radius. It is in mm, or in inches if all contours are.
 
     \b
-    contoursolve plot shaft.nc
-    contoursolve plot shaft.nc --line 71 -o journal.png
-    contoursolve plot --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf
+    contoursolve draw shaft.nc
+    contoursolve draw shaft.nc --line 71 -o journal.png
+    contoursolve draw --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf
     """
     loader = load([program] if program else [], blocks)[0]
     target = output if output is not None else named_after(program, SVG)

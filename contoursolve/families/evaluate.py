@@ -183,7 +183,7 @@ def solve_sweep(ready: CompiledSweep, workers: int | None = None, executor: Exec
     try:
         table = ready.empty(ready.ranges.count)
     except MemoryError as error:
-        told = "take fewer values, or write them to a file with `contoursolve sweep`"
+        told = "take fewer values, or write them to a file with `contoursolve family`"
         raise FamilyError(f"{ready.ranges.count:,} rows do not fit into memory ({error}); {told}") from None
 
     def fill(first: int, last: int) -> None:

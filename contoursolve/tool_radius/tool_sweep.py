@@ -114,7 +114,7 @@ def sweep_tools(
     # What is wrong with the tool is told before anything is solved.
     ToolTrials(as_it_stands, template.asked, wanted)
     if not values and not as_it_stands.answers:
-        raise FamilyError("the block has no contour words; contoursolve range --word tool tells which tools cut it")
+        raise FamilyError("the block has no contour words; contoursolve ranges --word tool tells which tools cut it")
     contours = compile_sweep(spec, Ranges(values, is_paired=is_paired))
     unit = contours.template.solve({word: float(each[0]) for word, each in values.items()}).unit
     own = asdict(contours) | {"ranges": Ranges({**values, TOOL: radii}, is_paired=is_paired), "tool": wanted}

@@ -328,3 +328,27 @@ def test_a_command_that_shows_no_proof_makes_none(count, save, monkeypatch):
         run(command, path)
         assert not made, command
     assert (run("solve", path)[0], len(made)) == (0, count)
+
+
+@pytest.mark.parametrize(
+    ("other", "own"),
+    [
+        (("plot", "a.nc", "-o", "a.svg"), ("draw", "a.nc", "-o", "a.svg", "--force")),
+        (("sweep", *ONE, "--vary", "A=170:190:10", "--quiet"), ("family", *ONE, "--vary", "A=170:190:10", "--quiet")),
+        (("range", *ONE, "--word", "P"), ("ranges", *ONE, "--word", "P")),
+        (("sensitivity", *ONE, "--tolerance", "A=0.1"), ("tolerances", *ONE, "--tolerance", "A=0.1")),
+        (("sensitivity", *ONE, "--keep=end Z=0.01"), ("tolerances", *ONE, "--keep=end Z=0.01")),
+        (("fix", "a.nc", "--diff"), ("check", "--fix", "a.nc", "--diff")),
+    ],
+)
+def test_other_spellings_do_the_same_and_no_help_lists_them(
+    other: tuple[str, ...], own: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.nc").write_text("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.\n", encoding="utf-8")
+    found, expected = (CliRunner().invoke(main, list(each)) for each in (other, own))
+    assert (found.exit_code, found.output) == (expected.exit_code, expected.output)
+    assert found.exit_code == 0
+    listed = re.findall(r"^  (\w+) ", CliRunner().invoke(main, ["--help"]).output, re.MULTILINE)
+    assert own[0] in listed
+    assert other[0] not in {*listed} - {"sensitivity"}

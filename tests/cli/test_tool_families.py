@@ -110,7 +110,7 @@ def test_a_contour_without_a_solution_and_a_program_without_one():
     assert (done.exit_code, "no cutting move goes beside a contour" in done.stderr) == (2, True)
     plain = ("--block", "G01 X30. Z-10.", "--start", "X20. Z0.")
     done = call("sweep", "--vary", "tool=1", *LATHE, "--side", "left", *plain)
-    assert (done.exit_code, "contoursolve range --word tool" in done.stderr) == (2, True)
+    assert (done.exit_code, "contoursolve ranges --word tool" in done.stderr) == (2, True)
 
 
 # find -------------------------------------------------------------------------------------------------------------

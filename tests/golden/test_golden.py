@@ -17,7 +17,7 @@ from contoursolve.controls import CONTROLS
 
 UNRECORDED = {
     "lsp": "what it says while it examines depends on the time; tests/cli/test_lsp.py asks it",
-    "sweep --dask": "needs a cluster",
+    "family --dask": "needs a cluster",
 }
 """What no record has, each with the reason."""
 
