@@ -19,7 +19,7 @@ def try_example(dialect: Control, rule: Rule, program: str, depth: str = "full")
     options: dict[str, Any] = {"depth": depth} | {
         _KEYWORDS[name]: words[at + 1] for at, name in enumerate(words) if name in _KEYWORDS
     }
-    for keyword, option in (("settings", "--set"), ("variables", "--let")):
+    for keyword, option in (("settings", "--setting"), ("variables", "--variable")):
         options[keyword] = dict(words[at + 1].split("=", 1) for at, name in enumerate(words) if name == option)
     name, _, text = rule.file.partition("\n")
     with TemporaryDirectory() as folder:

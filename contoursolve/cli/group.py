@@ -42,18 +42,21 @@ ALIASES = (
     ("sensitivity", "--keep", ("tolerances",)),
     ("sensitivity", "--word", ("tolerances",)),
     ("fix", "", ("check", "--fix")),
+    ("", "--bring", ("--goal",)),
+    ("", "--let", ("--variable",)),
+    ("", "--set", ("--setting",)),
 )
-"""Other spellings that work, and no help lists: a command, the option that makes it another one, and that one."""
+"""Other spellings that work, and no help lists: a command with the option, if any, that makes it another one; or an
+option of any command. Each with what is meant."""
 
 
 def _spelled(args: list[str]) -> list[str]:
-    """The arguments with the command by its name in the help."""
-    name, rest = args[0], args[1:]
-    given = {each.partition("=")[0] for each in rest}
-    for command, option, instead in ALIASES:
-        if name == command and (not option or option in given):
-            return [*instead, *rest]
-    return args
+    """The arguments with the command and its options by their names in the help."""
+    name, rest = args[0], [each.partition("=") for each in args[1:]]
+    given = {option for option, _, _ in rest}
+    own = {option: instead[0] for command, option, instead in ALIASES if not command}
+    of_command = ([*each] for command, option, each in ALIASES if command == name and (not option or option in given))
+    return [*next(of_command, [name]), *(own.get(option, option) + sign + value for option, sign, value in rest)]
 
 
 class _Commands(click.Group):
@@ -139,7 +142,7 @@ def main() -> None:
     FC FCT) and CNC PILOT (DIN PLUS), of SINUMERIK (ANG RND CHR CT), of the ISG kernel (#ANG #RND), of the NCT 99M
     (chapter 16) and of the YASNAC LX3 (G111, G112, G11, G12), with any further facts.
 
-    contoursolve reads words such as X40. as the control does, in a program and in options (--block, --start, --bring).
+    contoursolve reads words such as X40. as the control does, in a program and in options (--block, --start, --goal).
     On most lathes a number without a decimal point counts least increments, so X40 is 0.040 mm. Numbers alone
     (--vary, --within, --tolerance) and those in facts mean what they say, in mm or inches and degrees.
 

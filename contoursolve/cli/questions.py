@@ -130,7 +130,7 @@ def ranges(
     "gives the value of. 'tool' is the largest tool for all contours of PROGRAM, or of the block.",
 )
 @click.option(
-    "--bring",
+    "--goal",
     "goal",
     metavar="GOAL",
     help="A point and where it is wanted, in words as the control reads them: 'end Z-50.', 'V1 X44.', "
@@ -165,12 +165,12 @@ def find(
     control's least increment. It says how far the point is off then.
 
     With --word tool it finds the largest tool that cuts all contours of PROGRAM, and the largest for each. It says what
-    limits it. --block, --start and --fact may stand in for PROGRAM; --bring is not needed.
+    limits it. --block, --start and --fact may stand in for PROGRAM; --goal is not needed.
 
     Exit status: 0 found, 1 no such value, 2 could not run.
 
     \b
-    contoursolve find --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word A --bring "end Z-50."
+    contoursolve find --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word A --goal "end Z-50."
     contoursolve find part.nc --word tool --side right --tip 3
     """
     limits = read_within(within) if within else None
@@ -181,7 +181,7 @@ def find(
     if program is not None or not options["blocks"]:
         raise click.UsageError("give the block with --block; only --word tool takes a PROGRAM")
     if goal is None:
-        raise click.UsageError("missing --bring: name a point and where it is wanted, such as 'end Z-50.'")
+        raise click.UsageError("missing --goal: name a point and where it is wanted, such as 'end Z-50.'")
     with usage():
         found = find_values(word=word, goal=goal, within=limits, facts=facts, **read_options(options))
     if format_ == "json":
@@ -202,7 +202,7 @@ def _find_tool(
 ) -> None:
     """Print the largest tool for all contours of a program."""
     if goal is not None:
-        raise click.UsageError("--bring goes with a word of the block, not with --word tool")
+        raise click.UsageError("--goal goes with a word of the block, not with --word tool")
     (program,) = (read() for read in load([name] if name is not None else [], options.pop("blocks")))
     with usage(program.name):
         settings = settings_of(program, options.pop("assignments"))

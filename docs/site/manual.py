@@ -148,7 +148,7 @@ def control_page(manual: Manual) -> Iterator[str]:
         yield f"* **{plain(setting.meaning)}** ({plain(str(setting.source))})"
         for value, meaning in setting.values.items():
             default = ", the default" if value == setting.default else ""
-            yield f"    * `--set {dialect.name}.{setting.name}={value}`{default}: {plain(meaning)}"
+            yield f"    * `--setting {dialect.name}.{setting.name}={value}`{default}: {plain(meaning)}"
         if setting.bounds:
             yield f"    * {plain(setting.choices(''))}"
     yield "\n## Assumptions { #assumptions }\n"
@@ -219,7 +219,7 @@ def _variable_section(manual: Manual) -> Iterator[str]:
     example = right[-1] if is_followed else wrong[0]
     name = re.findall(r"#\d+|\b[RPQ]\d{1,3}\b", example.text)[0]
     yield f"\n## {name}, a variable\n"
-    value = f"Its value is that of the program, or of `--let {name}=NUMBER`" if is_followed else plain(rule.advice)
+    value = f"Its value is that of the program, or of `--variable {name}=NUMBER`" if is_followed else plain(rule.advice)
     yield f"A number may be a variable: `{name}`. {value[0].upper()}{value[1:]}.\n"
     yield f"* What goes wrong with it: [{rule.code}](../{manual.place(rule.code)})"
     if is_followed:

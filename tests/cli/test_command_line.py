@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from decimal import Decimal
@@ -339,6 +340,11 @@ def test_a_command_that_shows_no_proof_makes_none(count, save, monkeypatch):
         (("sensitivity", *ONE, "--tolerance", "A=0.1"), ("tolerances", *ONE, "--tolerance", "A=0.1")),
         (("sensitivity", *ONE, "--keep=end Z=0.01"), ("tolerances", *ONE, "--keep=end Z=0.01")),
         (("fix", "a.nc", "--diff"), ("check", "--fix", "a.nc", "--diff")),
+        (
+            ("find", *ONE, "--word", "A", "--bring", "end Z-50.", "--set=yasnac-lx3.bevel=setback"),
+            ("find", *ONE, "--word", "A", "--goal", "end Z-50.", "--setting=yasnac-lx3.bevel=setback"),
+        ),
+        (("solve", "a.nc", "--let", "#1=2."), ("solve", "a.nc", "--variable", "#1=2.")),
     ],
 )
 def test_other_spellings_do_the_same_and_no_help_lists_them(
@@ -351,4 +357,4 @@ def test_other_spellings_do_the_same_and_no_help_lists_them(
     assert found.exit_code == 0
     listed = re.findall(r"^  (\w+) ", CliRunner().invoke(main, ["--help"]).output, re.MULTILINE)
     assert own[0] in listed
-    assert other[0] not in {*listed} - {"sensitivity"}
+    assert own[0] == other[0] or other[0] not in {*listed} - {"sensitivity"}

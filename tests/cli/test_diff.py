@@ -169,7 +169,7 @@ def test_a_program_that_has_errors_has_no_path(diff):
         ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--tolerance", "0"), "tolerance"),
         ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--control", "unknown"), "linuxcnc"),
         (("-", PROGRAMS / "shaft.nc"), "say which with --control"),
-        ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--set", "x.y=z"), "no setting"),
+        ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--setting", "x.y=z"), "no setting"),
     ],
 )
 def test_what_cannot_run_ends_with_2(arguments, said):

@@ -42,7 +42,7 @@ CHAIN = "--start|X0 Y0|--block|FL AN+0 LEN20|--block|FCT DR+ R10 CCA+0|--block|F
         ("verify|arcs.nc|arcs.json", 0),
         (f"sweep|{CHAIN}|--vary|2:R=0,10,-1", 0),
         (f"range|{CHAIN}|--word|2:R", 0),
-        (f"find|{CHAIN}|--word|2:R|--bring|P3 Y20", 0),
+        (f"find|{CHAIN}|--word|2:R|--goal|P3 Y20", 0),
         (f"sensitivity|{CHAIN}", 0),
         ("write|sketch.toml|--to|fanuc-mill", 0),
         ("rules|--control|isg", 0),

@@ -194,7 +194,7 @@ def test_what_contours_rest_on_is_told_of_all_of_them():
         tolerances(block, **options),
         family(block, vary={"C": [1, 2]}, settings={"yasnac-lx3.bevel": "length"}, **options),
     ):
-        assert any("--set yasnac-lx3.bevel=" in line for line in rest_lines(found))
+        assert any("--setting yasnac-lx3.bevel=" in line for line in rest_lines(found))
 
 
 def test_rows_that_are_read_one_by_one_are_told():

@@ -290,7 +290,7 @@ verify part.nc result.json | verify right.nc result.json --format json | sweep {
 sweep {blocks} --vary tool=0.2:20:2.2 {tip} --quiet
 sweep {blocks} --vary {word}=-10:400:41 --quiet --plot a.svg --force
 sweep {blocks} --vary {word}=1:5:1 --vary {second}=0:90:45 --quiet --format json | range {blocks} --word {word}
-range {blocks} --word {word} --within -5:200 --format json | find {blocks} --word {word} --bring {goal}
+range {blocks} --word {word} --within -5:200 --format json | find {blocks} --word {word} --goal {goal}
 find part.nc --word tool {tip} | sensitivity {blocks} | sensitivity {blocks} --tolerance {word}=0.1 --format json
 sensitivity {blocks} --keep {kept} | write part.toml --to {control} | write part.toml --to {to} --all --format json
 facts"""
@@ -298,8 +298,10 @@ RUNS = [shlex.split(line) for line in re.split(r"[|\n]", COMMANDS) if line]
 ATOMS = (
     *("", "--", *" -=:,.@?()[\n\t\0\x1b\u7c97\u0663\udcff", "length of line 1 = 1e999", "Z of end of line 2 = ?"),
     *shlex.split("1e308 -1e308 1e-400 1e9999999999 nan inf -0 0.1 0x1 1_0 1:2:0 0:1:1e-99 '#1' G111 X1 A180. K V1"),
-    *shlex.split("--format json --control sys:x nct-99m --set a.b=c --rules off --units inch --block --start --fact"),
-    *shlex.split("/ .. ::x nowhere.nc part.nc right.nc @part.nc:B x.png -o start.X end --help --vary --word --bring"),
+    *shlex.split(
+        "--format json --control sys:x nct-99m --setting a.b=c --rules off --units inch --block --start --fact"
+    ),
+    *shlex.split("/ .. ::x nowhere.nc part.nc right.nc @part.nc:B x.png -o start.X end --help --vary --word --goal"),
 )
 
 

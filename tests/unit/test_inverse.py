@@ -89,7 +89,7 @@ run = partial(calling.run, "find", "--block", BLOCK, "--start", START)
 
 def test_the_status_of_the_command_says_whether_there_is_a_value():
     goals = ("end Z-50.", "end Z-50. X90.", "end Z900.", "nowhere")
-    assert [run("--word", "A", "--bring", goal)[0] for goal in goals] == [0, 0, 1, 2]
+    assert [run("--word", "A", "--goal", goal)[0] for goal in goals] == [0, 0, 1, 2]
 
 
 def test_what_is_written_for_a_fact_and_for_the_start_point():
@@ -120,10 +120,10 @@ def test_a_value_that_single_solves_do_not_confirm_leaves_the_list_open(give, mo
     found = find(BLOCK, "A", "end Z-50.", start=START)
     assert (found.hits, found.is_complete) == ((), False)
     assert found.doubts[0].endswith("deg: there is a value, and single solves do not confirm it")
-    _, output, _ = run("--word", "A", "--bring", "end Z-50.")
+    _, output, _ = run("--word", "A", "--goal", "end Z-50.")
     assert "no value (at least; that these are all is not proven)" in output
     assert f"  not proven: {found.doubts[0]}" in output
-    assert json.loads(run("--word", "A", "--bring", "end Z-50.", "--format", "json")[1])["doubts"] == [*found.doubts]
+    assert json.loads(run("--word", "A", "--goal", "end Z-50.", "--format", "json")[1])["doubts"] == [*found.doubts]
 
 
 def g111_of(rng):

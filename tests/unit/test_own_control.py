@@ -124,7 +124,7 @@ COMMANDS = {
     "plot": ("plot", "p.nc", "--force"),
     "sweep": ("sweep", *LINE, "--vary", ",A=0:80:1", "--workers", "2"),
     "range": ("range", *LINE, "--word", "X"),
-    "find": ("find", *LINE, "--word", ",A", "--bring", "end Y20"),
+    "find": ("find", *LINE, "--word", ",A", "--goal", "end Y20"),
     "sensitivity": ("sensitivity", *LINE),
     "explain": ("explain", "3017"),
 }

@@ -44,7 +44,7 @@ def test_a_project_file_that_makes_no_sense_is_an_error_that_names_it(tmp_path, 
 
 @pytest.mark.parametrize("text", ["nct-99m.circle-circle-q", "circle-circle-q=left", "nct-99m.q=1", "=", "nct-99m.=x"])
 def test_a_setting_that_there_is_not_is_refused(text):
-    outcome = CliRunner().invoke(main, ["solve", "--set", text, "--block", "G1 X1"])
+    outcome = CliRunner().invoke(main, ["solve", "--setting", text, "--block", "G1 X1"])
     assert outcome.exit_code == 2
     assert "Traceback" not in outcome.output
 
@@ -57,4 +57,4 @@ def test_the_catalogue_lists_every_assumption_and_every_setting_with_its_values(
             assert each.source.evidence is Evidence.ASSUMED
         for setting in dialect.settings:
             assert setting.default in setting.values
-            assert all(f"--set {dialect.name}.{setting.name}={value}" in printed for value in setting.values)
+            assert all(f"--setting {dialect.name}.{setting.name}={value}" in printed for value in setting.values)

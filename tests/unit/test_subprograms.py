@@ -234,7 +234,7 @@ def test_a_loop_that_may_never_end_is_followed_as_far_as_a_setting_says(setting,
     """Of its three blocks all run again in each pass but the first, and the head once more at the end."""
     text = f"#1=0\nWHILE[#1 LT {passes}]DO1\n#1=#1+1.\nEND1\nG0 X0. Y0.\nG1 X20. ,R1. F1.\nY20."
     result = solve(text, control=MILL, settings={f"{MILL}.most-blocks": setting} if setting else {})
-    told = "blocks run again: the program may never end; --set fanuc-mill.most-blocks=NUMBER follows more of them"
+    told = "blocks run again: the program may never end; --setting fanuc-mill.most-blocks=NUMBER follows more of them"
     most = f"{int(setting or 5_000):,}"
     assert not_followed(result) == ([] if line is None else [(line, f"more than {most} {told}")])
 
@@ -313,7 +313,7 @@ def test_a_jump_that_cannot_be_decided_is_not_written_out(name, keeps_going):
     control, text, line = UNDECIDED[name]
     inline = expand(text.format(line), control=control, inline=True, keep_going=keeps_going)
     (left,) = inline.summary.left
-    advice = "delete the block, or its /" if line.startswith("/") else "state its value by --let"
+    advice = "delete the block, or its /" if line.startswith("/") else "state its value by --variable"
     assert (inline.text, left.lines) == (None, (3,))
     assert re.fullmatch(rf"{re.escape(line)} cannot be decided: .+; {advice}, or leave out --inline", left.reason)
 
