@@ -36,11 +36,11 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, **options: Any) -> Pic
     """
     kind = type(record).__name__
     if kind not in _DRAWN:
-        raise TypeError(f"a {kind} has no picture; it is drawn of a contour, a program, a family, a range, or a sketch")
+        raise TypeError(f"{kind} has no picture; one is drawn of a contour, a program, a family, a range, or a sketch")
     make, known = _DRAWN[kind]
     unknown = next((name for name in options if name not in known), None)
     if unknown is not None:
-        raise TypeError(f"the picture of a {kind} has no option {unknown!r}; it has theme, {', '.join(known)}")
+        raise TypeError(f"a picture of {kind} has no option {unknown!r}; it has theme, {', '.join(known)}")
     return make(record, theme=theme, **options)
 
 

@@ -83,7 +83,7 @@ def test_random_contours_end_where_check_says(seed, tmp_path):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("range", "--word", "tool", "--word", "P", *NOSE), "sweep tries both: --vary tool=0.2:1.2:0.05"),
+        (("range", "--word", "tool", "--word", "P", *NOSE), "family tries both: --vary tool=0.2:1.2:0.05"),
         (("range", "--word", "tool", "--within", "-1:2", *NOSE), "the radius of a tool is not below 0"),
         (("range", "--word", "P", "--tip", "3"), "--tip goes with --word tool"),
         (("find", "--word", "tool", "--goal", "end Z1.", *NOSE), "--goal goes with a word of the block"),
