@@ -11,24 +11,43 @@ degrees.
 ['line 1', 'corner 1', 'line 2', 'corner 2']
 """
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
 
 from lazy_loader import attach_stub
 
-from contoursolve.diagnostics import register_renderer
-
-if TYPE_CHECKING:
-    from contoursolve.diagnostics import Renderer
+from contoursolve.diagnostics import register_functions
 
 __version__ = "0.1.0"
 
 __getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
 
 
-def _renderer() -> "Renderer":
-    from contoursolve.notebook import mime_bundle  # noqa: PLC0415 - when something is shown
+_ROOMS = {
+    "bundle": "notebook",
+    "completions": "diagnosis",
+    "construction_lines": "output",
+    "draw": "outcomes",
+    "legal_blocks": "diagnosis",
+    "list_solutions": "diagnosis",
+    "plot_record": "pictures",
+    "solve_sketch": "sketches",
+    "standing_alone": "notebook",
+    "stated_words": "output",
+    "status_text": "diagnosis",
+    "text_of": "notebook",
+    "tool_text": "output",
+    "ways_to_complete": "diagnosis",
+    "words_to_add": "diagnosis",
+    "write_sketch": "sketches",
+}
+"""The room of each function to which a method of a record in a room below leads."""
 
-    return mime_bundle
+
+def _function(name: str) -> Callable[..., Any]:
+    found: Callable[..., Any] = getattr(import_module(f"{__name__}.{_ROOMS[name]}"), name)
+    return found
 
 
-register_renderer(_renderer)
+register_functions(_function)

@@ -15,7 +15,7 @@ from contoursolve import diagnosis, gcode, program as programs
 from contoursolve.controls import ControlName
 from contoursolve.diagnosis import Depth
 from contoursolve.diagnostics import Diagnostic, LateModule, check_type, choice_of
-from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
+from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, decode, file_in_memory
 from contoursolve.program import (
     CheckKeywords,
     FollowKeywords,
@@ -43,18 +43,12 @@ else:
     postprocess, tool_radius = LateModule("contoursolve.postprocess"), LateModule("contoursolve.tool_radius")
 
 __all__ = [
-    "UnreadableProgramError",
-    "apply_fixes",
     "check",
-    "check_file",
     "convert",
     "expand",
+    "fix",
     "parse",
-    "read_program",
     "solve",
-    "solve_file",
-    "solve_program",
-    "solve_with_tool",
     "system",
 ]
 
@@ -63,28 +57,40 @@ MOST_DECIMALS = 8
 """Decimals of a length that can be asked for."""
 
 
-def parse(text: str, *, name: str = "<program>") -> Program:
-    """The blocks and words of a program's text, exactly as typed.
+def parse(text: str | Path, *, name: str = "<program>") -> Program:
+    """The blocks and words of a program's text, or of a file, exactly as typed.
+
+    A file is UTF-8 or Latin-1 text. Raises UnreadableProgramError if there is none, or it is not text.
 
     >>> parse("G111 X100. A180. K-30. B120.").blocks[0].words[1].text
     'X100.'
     """
-    check_type("text", text, str)
-    return gcode.parse(text, name)
+    check_type("text", text, str | Path)
+    return read_program(text) if isinstance(text, Path) else gcode.parse(text, name)
 
 
 @takes(SolveKeywords)
 def solve(
-    text: str,
+    program: str | Path | Program,
     *,
+    tool: str | None = None,
+    tip: int | None = None,
+    side: str | None = None,
+    outside: str | None = None,
     name: str = "<program>",
     **options: Unpack[SolveKeywords],
 ) -> Result:
     """Solve every contour of a program, or of a single block.
 
     Args:
-        text: the program, one or more lines.
-        control: its name, such as `fanuc-lathe`, or a control of your own as its tables (see `Dialect`); found from
+        program: its text, one or more lines; the `Path` of a file; or what `parse` gave. A file has the settings of the
+            project file beside it or above it, and `settings` on top of them.
+        tool: a tool that goes along: its radius in the unit of the program, and its tip on a lathe, such as
+            `"R0.8, tip 3"`; or `program` for what the program and the project file state.
+        tip: the number of its imaginary tip.
+        side: `left` or `right`, for a program without G41 or G42.
+        outside: the way around an outside corner, `roll` or `intersect`.
+        control: its name, such as `fanuc-lathe`, or a control of your own as its tables (see `Control`); found from
             the program where it is clear.
         start: words that give the start point, such as `"X40. Z0."`, as the control reads them; or `{"X": 40, "Z": 0}`.
         units: `mm` or `inch`, for numbers before any G20 or G21.
@@ -96,13 +102,16 @@ def solve(
         folders: where files with subprograms are, besides that of the program.
         trust: words that are right, such as `"Z-50. A120."`: no fix changes them, and a conflict names the others.
         reference: coordinates with which the end of the only contour is compared; they are not used.
-        name: what findings call the program.
+        name: what findings call a text.
 
     Returns:
-        Frozen records. `answers` has one for each contour, with its status and path (mm, X of a lathe as radius);
-        `diagnostics` are all findings.
+        Frozen records. `answers` has one for each contour, with its status and path (mm, X of a lathe as radius), and
+        `answer` is the only one; `diagnostics` are all findings. With a tool, `tool` has its `runs`: each has its
+        `path` (mm, X of a lathe as radius; None where the tool does not fit) and its `faults`.
 
     Raises:
+        UnreadableProgramError: there is no such file, or it is not text.
+        ToolError: there cannot be such a tool, or its side or tip is not stated.
         UnknownControlError: the control is unknown, or the program does not tell it.
         FactPlaceError: facts for a program of several contours.
         NamedWordError: a trusted word is not there, or a reference cannot be compared.
@@ -117,14 +126,29 @@ def solve(
     >>> solve("G111 X100. A180. B120.", start="X40. Z0.").answers[0].status.value
     'rejected'
     >>> asked = solve("G111 X100. A180. K-30. B120. P?", start="X40. Z0.", facts=["straight part of line 2 = 30."])
-    >>> f"{asked.answers[0].answers[0].value:.3f}"
+    >>> f"{asked.answer.asked[0].value:.3f}"
     '8.038'
+    >>> text = "G42 G01 X18. Z0.\\nX20. Z-1.\\nZ-20."
+    >>> found = solve(text, tool="R0.8, tip 3", control="fanuc-lathe", start="X0. Z0.").tool
+    >>> [f"{value:.4f}" for value in found.runs[0].path.end]
+    ['-20.8000', '10.0000']
     """
-    return follow_options(_read(text, name), SolveOptions(**options)).collect()
+    run = _follow(program, name, SolveOptions(**options))
+    if tool is None:
+        if (stated := tip if tip is not None else side or outside) is not None:
+            raise ValueError(f'{stated!r} is about a tool, and there is none: say tool="R0.8", or tool="program"')
+        return run.collect()
+    from contoursolve.tool_radius import look_at_tool, result_beside_tool, wanted_tool  # noqa: PLC0415 - only this
+
+    result = run.collect()
+    wanted = wanted_tool(result.program.name, tool, tip, side, outside)
+    return result_beside_tool(result, look_at_tool(result, run.asked, wanted))
 
 
 @takes(SolveKeywords)
-def system(text: str, *, name: str = "<program>", **options: Unpack[SolveKeywords]) -> diagnosis.EquationSystem:
+def system(
+    program: str | Path | Program, *, name: str = "<program>", **options: Unpack[SolveKeywords]
+) -> diagnosis.EquationSystem:
     """The system of equations of a block, or of a program with one contour.
 
     Arguments and errors as for `solve`; raises ValueError where there is no contour, or more than one.
@@ -144,18 +168,32 @@ def system(text: str, *, name: str = "<program>", **options: Unpack[SolveKeyword
     (-81.96152422706632, 50.0)
     """
     options.setdefault("depth", "verdict")
-    answers = follow_options(_read(text, name), SolveOptions(**options)).collect().answers
-    if len(answers) != 1:
-        raise ValueError(f"a system is that of one contour; the program has {len(answers)}")
-    return answers[0].system
+    return _follow(program, name, SolveOptions(**options)).collect().answer.system
 
 
-def _read(text: str, name: str) -> Program:
+def _follow(program: str | Path | Program, name: str, options: SolveOptions) -> Run:
+    """A text, a file or a program that was parsed before, as a stream."""
+    return follow_options(*_read(program, name, options))
+
+
+def _read(program: str | Path | Program, name: str, options: SolveOptions) -> tuple[Program, SolveOptions]:
+    """The blocks of a program; of a file with the settings that are found beside it."""
+    if isinstance(program, Program):
+        return program, options
+    if not isinstance(program, Path):
+        return _parsed(program, name), options
+    folder = Path() if str(program) == STANDARD_INPUT else program.parent
+    found = read_program(program)
+    stated = stated_settings(block.text for block in found.blocks) | dict(options.settings or {})
+    return found, replace(options, settings=find_settings(folder) | stated)
+
+
+def _parsed(text: str, name: str) -> Program:
     """The blocks of a text that is no name of a file."""
     if not isinstance(text, str):
-        raise TypeError(f"the program is a text (str), not {type(text).__name__}; solve_file reads a file")
+        raise TypeError(f"the program is a text (str), a Path or a Program, not {type(text).__name__}")
     if _FILE.fullmatch(text):
-        raise ValueError(f"{text} is the name of a file, not its text: call solve_file({text!r})")
+        raise ValueError(f"{text} is the name of a file, not its text: say Path({text!r})")
     return gcode.parse(text, name)
 
 
@@ -165,7 +203,7 @@ _FILE = re.compile(rf"[^\n]*(?:{'|'.join(map(re.escape, (*gcode.ENDINGS, '.txt')
 
 @takes(CheckKeywords)
 def check(
-    text: str,
+    program: str | Path | Program,
     *,
     name: str = "<program>",
     **options: Unpack[CheckKeywords],
@@ -178,12 +216,12 @@ def check(
     >>> [each.code for each in check("G00 X40. Z0.\\nG111 X100. A180. B120.")]
     ['g111-line-1', 'words-missing']
     """
-    return follow_options(_read(text, name), SolveOptions(**options, depth=_FINDINGS)).collect().diagnostics
+    return _follow(program, name, SolveOptions(**options, depth=_FINDINGS)).collect().diagnostics
 
 
 @takes(CheckKeywords)
-def apply_fixes(
-    text: str,
+def fix(
+    program: str | Path | Program,
     *,
     unsafe: bool = False,
     name: str = "<program>",
@@ -195,89 +233,17 @@ def apply_fixes(
     after each fix. A fix that leaves its error, or brings another one, is not applied; `left` says why. Line ends and
     all other characters stay as they are. Other arguments and errors as for `solve`.
 
-    >>> apply_fixes("G00 X40. Z0.\\r\\nG111 A135. I10. K-12. B180. Z-40.\\r\\n").text
+    >>> fix("G00 X40. Z0.\\r\\nG111 A135. I10. K-12. B180. Z-40.\\r\\n").text
     'G00 X40. Z0.\\r\\nG111 I10. K-12. B180. Z-40.\\r\\n'
     """
     from contoursolve.program import examined_result, likely_fixes, mend, safe_fixes  # noqa: PLC0415 - only this mends
 
-    asked = SolveOptions(**options, depth=_FINDINGS)
-    _read(text, name)
+    first, asked = _read(program, name, SolveOptions(**options, depth=_FINDINGS))
     return mend(
-        text,
-        lambda now: examined_result(now, follow_options(gcode.parse(now, name), asked).collect()),
+        first.text,
+        lambda now: examined_result(now, follow_options(gcode.parse(now, first.name), asked).collect()),
         likely_fixes if unsafe else safe_fixes,
     )
-
-
-@takes(SolveKeywords)
-def solve_file(
-    path: str | Path,
-    **options: Unpack[SolveKeywords],
-) -> Result:
-    """Solve every contour of a file; `-` is standard input.
-
-    Settings are those of the project file beside it or above it, and `settings` on top of them.
-    Raises UnreadableProgramError, SettingError, and as `solve`.
-    """
-    return _follow_file(path, SolveOptions(**options)).collect()
-
-
-@takes(CheckKeywords)
-def check_file(
-    path: str | Path,
-    **options: Unpack[CheckKeywords],
-) -> tuple[Diagnostic, ...]:
-    """The findings about a file, with arguments as for `check` and errors as for `solve_file`."""
-    return _follow_file(path, SolveOptions(**options, depth=_FINDINGS)).collect().diagnostics
-
-
-def _follow_file(path: str | Path, options: SolveOptions) -> Run:
-    check_type("path", path, str | PathLike, 'the name of a file, such as "part.nc"')
-    folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
-    program = read_program(path)
-    stated = stated_settings(block.text for block in program.blocks) | dict(options.settings or {})
-    return follow_options(program, replace(options, settings=find_settings(folder) | stated))
-
-
-@takes(SolveKeywords)
-def solve_program(
-    program: Program,
-    **options: Unpack[SolveKeywords],
-) -> Result:
-    """Solve every contour of a program that was parsed or read before; as `solve`."""
-    check_type("program", program, Program)
-    return follow_options(program, SolveOptions(**options)).collect()
-
-
-@takes(SolveKeywords)
-def solve_with_tool(
-    text: str,
-    tool: str = "program",
-    *,
-    tip: int | None = None,
-    side: tool_radius.SideName | None = None,
-    outside: tool_radius.OutsideName | None = None,
-    name: str = "<program>",
-    **options: Unpack[SolveKeywords],
-) -> tuple[Result, tool_radius.ToolReport]:
-    """Solve every contour of a program for a tool: its radius in the unit of the program, and its tip on a lathe, such
-    as `"R0.8, tip 3"`; or `program` for what the program and the project file state.
-
-    `tip`, `side` (`left` or `right`), `outside` (`roll` or `intersect`) are as the options of `contoursolve check`; all
-    others, and errors, as for `solve`. Raises ToolError, a ValueError, for a tool that there cannot be, or without its
-    side or tip. Returns the result with the findings about the tool, and its `runs`: each has its `path` (mm, X of a
-    lathe as radius; None where the tool does not fit) and its `faults`.
-
-    >>> text = "G42 G01 X18. Z0.\\nX20. Z-1.\\nZ-20."
-    >>> _, found = solve_with_tool(text, "R0.8, tip 3", control="fanuc-lathe", start="X0. Z0.")
-    >>> [f"{value:.4f}" for value in found.runs[0].path.end]
-    ['-20.8000', '10.0000']
-    """
-    from contoursolve.tool_radius import look_at_tool, result_beside_tool, wanted_tool  # noqa: PLC0415 - only this
-
-    run = follow_options(_read(text, name), SolveOptions(**options))
-    report = look_at_tool(result := run.collect(), run.asked, wanted_tool(name, tool, tip, side, outside))
-    return result_beside_tool(result, report), report
 
 
 @takes(FollowKeywords)

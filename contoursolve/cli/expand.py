@@ -111,7 +111,7 @@ wording_options = together(
     "has_formulas",
     is_flag=True,
     help="Write contours whose words hold variables as formulas of these, in the target's macro language. The values "
-    "of the variables in OLD, or of --let, are an example, at which the formulas are checked.",
+    "of the variables in OLD, or of --variable, are an example, at which the formulas are checked.",
 )
 @click.option(
     "--scratch",

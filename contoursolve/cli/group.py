@@ -18,12 +18,14 @@ COMMANDS = {
     "convert": "convert:convert",
     "write": "write:write",
     "diff": "diff:diff",
-    "plot": "pictures:plot",
+    "draw": "pictures:draw",
     "report": "pictures:report",
-    "sweep": "sweep:sweep_",
-    "range": "questions:range_",
+    "system": "solve:system",
+    "family": "sweep:family",
+    "ranges": "questions:ranges",
     "find": "questions:find",
     "sensitivity": "questions:sensitivity",
+    "tolerances": "questions:tolerances",
     "verify": "verify:verify",
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
@@ -31,6 +33,30 @@ COMMANDS = {
 }
 """Place of each command: a module of this room, and the name there. `contoursolve` itself adds the commands beside
 it."""
+
+ALIASES = (
+    ("plot", "", ("draw",)),
+    ("sweep", "", ("family",)),
+    ("range", "", ("ranges",)),
+    ("sensitivity", "--tolerance", ("tolerances",)),
+    ("sensitivity", "--keep", ("tolerances",)),
+    ("sensitivity", "--word", ("tolerances",)),
+    ("fix", "", ("check", "--fix")),
+    ("", "--bring", ("--goal",)),
+    ("", "--let", ("--variable",)),
+    ("", "--set", ("--setting",)),
+)
+"""Other spellings that work, and no help lists: a command with the option, if any, that makes it another one; or an
+option of any command. Each with what is meant."""
+
+
+def _spelled(args: list[str]) -> list[str]:
+    """The arguments with the command and its options by their names in the help."""
+    name, rest = args[0], [each.partition("=") for each in args[1:]]
+    given = {option for option, _, _ in rest}
+    own = {option: instead[0] for command, option, instead in ALIASES if not command}
+    of_command = ([*each] for command, option, each in ALIASES if command == name and (not option or option in given))
+    return [*next(of_command, [name]), *(own.get(option, option) + sign + value for option, sign, value in rest)]
 
 
 class _Commands(click.Group):
@@ -74,6 +100,7 @@ class _Commands(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """The command that is named, and the arguments behind it; of another name, the commands that it is close to."""
+        args = _spelled(args)
         name, names = args[0], self.list_commands(ctx)
         if ctx.resilient_parsing:  # as a shell asks for what may follow
             return super().resolve_command(ctx, args)
@@ -115,7 +142,7 @@ def main() -> None:
     FC FCT) and CNC PILOT (DIN PLUS), of SINUMERIK (ANG RND CHR CT), of the ISG kernel (#ANG #RND), of the NCT 99M
     (chapter 16) and of the YASNAC LX3 (G111, G112, G11, G12), with any further facts.
 
-    contoursolve reads words such as X40. as the control does, in a program and in options (--block, --start, --bring).
+    contoursolve reads words such as X40. as the control does, in a program and in options (--block, --start, --goal).
     On most lathes a number without a decimal point counts least increments, so X40 is 0.040 mm. Numbers alone
     (--vary, --within, --tolerance) and those in facts mean what they say, in mm or inches and degrees.
 

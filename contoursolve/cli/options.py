@@ -40,7 +40,7 @@ _OWN = "MODULE:NAME"
 
 
 class ControlType(click.ParamType):  # type: ignore[type-arg]  # generic in newer releases of click only
-    """The name of a control, or `package.module:NAME` of a Dialect, which is then given itself."""
+    """The name of a control, or `package.module:NAME` of a Control, which is then given itself."""
 
     name = "control"
 
@@ -66,9 +66,9 @@ class ControlType(click.ParamType):  # type: ignore[type-arg]  # generic in newe
 def control_option(
     help_: str, name: str = "--control", names: Iterable[str] = tuple(CONTROLS)
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """An option for a control; its value is a name, a Dialect, or None."""
+    """An option for a control; its value is a name, a Control, or None."""
     choices = [*names]
-    own = f"{help_} {_OWN} names a Dialect of your own in a Python module, also one in this folder."
+    own = f"{help_} {_OWN} names a Control of your own in a Python module, also one in this folder."
     return click.option(name, type=ControlType(choices), metavar=f"[{'|'.join((*choices, _OWN))}]", help=own)
 
 
@@ -87,7 +87,7 @@ def _load(module: str, name: str) -> Control:
     if not isinstance(found, Control):
         path = getattr(imported, "__file__", None)
         file = f" ({path})" if path else ""
-        raise TypeError(f"{module}{file} has no contoursolve.Dialect of the name {name!r}")
+        raise TypeError(f"{module}{file} has no contoursolve.Control of the name {name!r}")
     return found
 
 
@@ -136,7 +136,7 @@ units_option = click.option(
 
 
 settings_option = click.option(
-    "--set",
+    "--setting",
     "assignments",
     multiple=True,
     metavar="CONTROL.NAME=VALUE",
@@ -168,7 +168,7 @@ def _read_folders(_context: click.Context, _option: click.Parameter, folders: tu
 
 
 def _read_values(_context: click.Context, _option: click.Parameter, texts: tuple[str, ...]) -> dict[str, float]:
-    """The values of `--let`, by the names of the variables."""
+    """The values of `--variable`, by the names of the variables."""
     values = {}
     for text in texts:
         name, _, number = text.partition("=")
@@ -182,7 +182,7 @@ def _read_values(_context: click.Context, _option: click.Parameter, texts: tuple
 
 
 let_option = click.option(
-    "--let",
+    "--variable",
     "variables",
     multiple=True,
     metavar="NAME=NUMBER",
@@ -314,12 +314,12 @@ _SHARED = {
     "facts": "--fact",
     "trust": "--trust",
     "reference": "--reference",
-    "variables": "--let",
+    "variables": "--variable",
     "folders": "--path",
     "control": "--control",
     "units": "--units",
     "rules": "--rules",
-    "assignments": "--set",
+    "assignments": "--setting",
 }
 """Options that `check` has, too, by the names of their parameters."""
 
@@ -438,7 +438,7 @@ def naming(program: str = "", options: str = "") -> Iterator[None]:
 
 def settings_of(program: Program | OpenFile, assignments: Sequence[str]) -> dict[str, str]:
     """The settings of the project file beside a program, or here for what is no file; those that the program states on
-    top, and then those of `--set`. Raises SettingError."""
+    top, and then those of `--setting`. Raises SettingError."""
     folder = Path() if program.name.startswith("<") else Path(program.name).parent
     lines = program.lines() if isinstance(program, OpenFile) else (block.text for block in program.blocks)
     return find_settings(folder) | stated_settings(lines) | dict(map(read_setting, assignments))

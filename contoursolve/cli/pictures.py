@@ -69,7 +69,7 @@ _MARKS = (b'<svg xmlns="http://www.w3.org/2000/svg" id="cs-', b'<meta name="gene
 
 _DXF = ".dxf"
 
-WrittenContours = tuple[Path, bytes, str]
+WrittenFile = tuple[Path, bytes, str]
 """A file, its bytes, and what is in it."""
 
 
@@ -98,7 +98,7 @@ WrittenContours = tuple[Path, bytes, str]
 @common_options
 @tool_options
 @click.pass_context
-def plot(
+def draw(
     context: click.Context,
     /,
     program: str | None,
@@ -125,9 +125,9 @@ def plot(
     plane's axes: on a lathe Z to the right and X up, as radius. It is in mm, or in inches if all contours are.
 
     \b
-    contoursolve plot shaft.nc
-    contoursolve plot shaft.nc --line 71 -o journal.png
-    contoursolve plot --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf
+    contoursolve draw shaft.nc
+    contoursolve draw shaft.nc --line 71 -o journal.png
+    contoursolve draw --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf
     """
     loader = load([program] if program else [], blocks)[0]
     target = output if output is not None else named_after(program, SVG)
@@ -171,7 +171,7 @@ def _pictures(
     *,
     is_each: bool,
     is_whole: bool | None,
-) -> Iterator[WrittenContours]:
+) -> Iterator[WrittenFile]:
     """The pictures that are asked for."""
 
     def of_one(answer: Answer) -> bytes:
@@ -200,7 +200,7 @@ def _about(answer: Answer) -> str:
     return f"program line {answer.lines[0]}, {answer.state}"
 
 
-def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -> list[WrittenContours]:
+def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -> list[WrittenFile]:
     """The DXF drawing, if anything is solved."""
     with importing("dxf", "a DXF drawing"):
         from contoursolve.output import drawing_for_cad  # noqa: PLC0415 - needs an extra

@@ -19,7 +19,7 @@ from contoursolve.cli.block_options import (
 )
 from contoursolve.cli.options import FILE, FOUND_ERRORS, check_toolless, format_option, load, settings_of, side_options
 from contoursolve.cli.printing import print_json, print_lines
-from contoursolve.families import feasible, find_word, region, tolerance_for, tolerances
+from contoursolve.families import feasible, find as find_values, region, tolerance_for, tolerances as effects_of
 from contoursolve.output import (
     found_data,
     found_lines,
@@ -38,7 +38,7 @@ from contoursolve.program import check_start
 from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools, least_of, wanted_tool
 
 
-@click.command("range", short_help="Tell for which values of a word, or of two, a contour exists.")
+@click.command("ranges", short_help="Tell for which values of a word, or of two, a contour exists.")
 @block_options
 @format_option
 @click.option(
@@ -60,7 +60,7 @@ from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools, leas
 @side_options
 @fact_option
 @click.pass_context
-def range_(
+def ranges(
     context: click.Context,
     /,
     words: tuple[str, ...],
@@ -86,14 +86,14 @@ def range_(
     Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.
 
     \b
-    contoursolve range --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word P
-    contoursolve range --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
+    contoursolve ranges --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word P
+    contoursolve ranges --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --word tool --side right --tip 3
     """
     ranges = [read_within(each) for each in within]
     is_tool, stated = is_about_tool(words), dict[str, Any](tip=tip, side=side, outside=outside)
     if is_tool and len(words) > 1:
-        told = "sweep tries both: --vary tool=0.2:1.2:0.05 and --vary with the other word"
+        told = "family tries both: --vary tool=0.2:1.2:0.05 and --vary with the other word"
         raise click.UsageError(f"--word tool stands alone; {told}")
     if not is_tool:
         check_toolless(stated, "--word tool")
@@ -130,7 +130,7 @@ def range_(
     "gives the value of. 'tool' is the largest tool for all contours of PROGRAM, or of the block.",
 )
 @click.option(
-    "--bring",
+    "--goal",
     "goal",
     metavar="GOAL",
     help="A point and where it is wanted, in words as the control reads them: 'end Z-50.', 'V1 X44.', "
@@ -165,12 +165,12 @@ def find(
     control's least increment. It says how far the point is off then.
 
     With --word tool it finds the largest tool that cuts all contours of PROGRAM, and the largest for each. It says what
-    limits it. --block, --start and --fact may stand in for PROGRAM; --bring is not needed.
+    limits it. --block, --start and --fact may stand in for PROGRAM; --goal is not needed.
 
     Exit status: 0 found, 1 no such value, 2 could not run.
 
     \b
-    contoursolve find --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word A --bring "end Z-50."
+    contoursolve find --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word A --goal "end Z-50."
     contoursolve find part.nc --word tool --side right --tip 3
     """
     limits = read_within(within) if within else None
@@ -181,9 +181,9 @@ def find(
     if program is not None or not options["blocks"]:
         raise click.UsageError("give the block with --block; only --word tool takes a PROGRAM")
     if goal is None:
-        raise click.UsageError("missing --bring: name a point and where it is wanted, such as 'end Z-50.'")
+        raise click.UsageError("missing --goal: name a point and where it is wanted, such as 'end Z-50.'")
     with usage():
-        found = find_word(word=word, goal=goal, within=limits, facts=facts, **read_options(options))
+        found = find_values(word=word, goal=goal, within=limits, facts=facts, **read_options(options))
     if format_ == "json":
         print_json(found_data(found))
     else:
@@ -202,7 +202,7 @@ def _find_tool(
 ) -> None:
     """Print the largest tool for all contours of a program."""
     if goal is not None:
-        raise click.UsageError("--bring goes with a word of the block, not with --word tool")
+        raise click.UsageError("--goal goes with a word of the block, not with --word tool")
     (program,) = (read() for read in load([name] if name is not None else [], options.pop("blocks")))
     with usage(program.name):
         settings = settings_of(program, options.pop("assignments"))
@@ -218,12 +218,46 @@ def _find_tool(
     context.exit(0 if all(each.intervals for each in found.values()) else FOUND_ERRORS)
 
 
-@click.command("sensitivity", short_help="Tell which word moves a point most, and what tolerances come to.")
-@block_options
-@format_option
-@click.option(
+_point_option = click.option(
     "--point", metavar="POINT", default="end", show_default=True, help="The point: end, V2, 'corner 1.center', ..."
 )
+
+
+@click.command("sensitivity", short_help="Tell which word moves a point most.")
+@block_options
+@format_option
+@_point_option
+@fact_option
+def sensitivity(point: str, facts: tuple[str, ...], format_: str, **options: Any) -> None:
+    """Tell how far each word moves a point of a contour.
+
+    A row for each word: per unit, and by rounding to the control's least increment. 'contoursolve tolerances' adds the
+    effect of tolerances.
+
+    Exit status: 0 done, 2 could not run, or the block has no contour.
+
+    \b
+    contoursolve sensitivity --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
+    """
+    _print_effects({}, point, facts, format_, options)
+
+
+def _print_effects(
+    allowed: dict[str, float], point: str, facts: tuple[str, ...], format_: str, options: dict[str, Any]
+) -> None:
+    """Print by how much each word moves a point, and what its tolerance comes to."""
+    with usage():
+        found = effects_of(allowed=allowed, point=point, facts=facts, **read_options(options))
+    if format_ == "json":
+        print_json(tolerances_data(found))
+    else:
+        print_lines(tolerances_lines(found))
+
+
+@click.command("tolerances", short_help="Tell the effect of tolerances, or how far a word may be off.")
+@block_options
+@format_option
+@_point_option
 @click.option(
     "--tolerance",
     "allowed",
@@ -245,7 +279,7 @@ def _find_tool(
 )
 @fact_option
 @click.pass_context
-def sensitivity(
+def tolerances(
     context: click.Context,
     /,
     allowed: tuple[str, ...],
@@ -256,7 +290,7 @@ def sensitivity(
     format_: str,
     **options: Any,
 ) -> None:
-    """Tell how far each word moves a point of a contour.
+    """Tell the effect of tolerances on a point of a contour.
 
     A row for each word: per unit, by its tolerance, and by rounding to the control's least increment. Tolerances add up
     to first order, at worst and statistically (RSS); the block is also solved at all combinations of their limits.
@@ -265,7 +299,7 @@ def sensitivity(
     Exit status: 0 done, 2 could not run, or the block has no contour.
 
     \b
-    contoursolve sensitivity --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
+    contoursolve tolerances --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --tolerance A=0.1 --tolerance K=0.02
     """
     given: dict[str, float] = {}
@@ -281,19 +315,14 @@ def sensitivity(
         return
     if words:
         raise click.UsageError("--word says for which words --keep asks; give --keep, such as 'end Z=0.01'")
-    with usage():
-        found = tolerances(allowed=given, point=point, facts=facts, **read_options(options))
-    if format_ == "json":
-        print_json(tolerances_data(found))
-    else:
-        print_lines(tolerances_lines(found))
+    _print_effects(given, point, facts, format_, options)
 
 
 def _keep(text: str, words: Sequence[str], about: dict[str, Any], format_: str) -> None:
     """Print how far words may be off so that a result stays."""
     keep, within = _read_number("--keep", text, "RESULT=VALUE, such as 'end Z=0.01'")
     with usage():
-        names = words or [each.word for each in tolerances(**about).effects]
+        names = words or [each.word for each in effects_of(**about).effects]
         found = [tolerance_for(word=each, keep=keep, within=within, **about) for each in names]
     if format_ == "json":
         print_json({"schema": "contoursolve/tolerance/1", "words": [word_tolerance_data(each) for each in found]})

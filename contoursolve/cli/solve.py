@@ -1,4 +1,4 @@
-"""The command `solve`."""
+"""The commands `solve` and `system`."""
 
 from typing import Any
 
@@ -6,6 +6,7 @@ import click
 
 from contoursolve.cli.options import (
     FILE,
+    CouldNotRunError,
     common_options,
     explain_option,
     follow,
@@ -74,3 +75,38 @@ def solve(
         if run.is_strict or is_explained or tally.has_something:
             print_lines(closing_lines(run.frame, tally))
     context.exit(status_of(tally, tally.severities[Severity.ERROR]))
+
+
+@click.command(short_help="Print the system of equations of a contour.")
+@click.argument("program", required=False, type=FILE)
+@click.option("--line", type=click.IntRange(1), help="The contour that this line of PROGRAM belongs to.")
+@common_options
+def system(
+    program: str | None,
+    blocks: tuple[str, ...],
+    start: str | None,
+    line: int | None,
+    assignments: tuple[str, ...],
+    **options: Any,
+) -> None:
+    """Print the equations of the only contour of PROGRAM (a file, or - for standard input), or of the one on a line.
+
+    It says what each unknown and each value is, which word states which equation, what is still open, which conditions
+    must hold, and which words say the same.
+
+    Exit status: 0 done, 2 could not run, or there is no such contour.
+
+    \b
+    contoursolve system --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0."
+    contoursolve system shaft.nc --line 71
+    """
+    read = load([program] if program else [], blocks)[0]()
+    result = follow(read, start, assignments, {**options, "depth": "verdict"}).collect()
+    try:
+        answer = result.answer if line is None else result.contour_at(line)
+    except ValueError as error:
+        told = str(error).partition(";")[0] + ("; name one with --line" if len(result.answers) > 1 else "")
+        raise CouldNotRunError(told) from None
+    from contoursolve.output import system_lines  # noqa: PLC0415 - sympy is slow to import
+
+    print_lines(system_lines(answer.system))

@@ -164,7 +164,7 @@ def size(count: float) -> str:
     return f"{count:,.1f} TB"
 
 
-@click.command("sweep", short_help="Solve a block for many values of its words.")
+@click.command("family", short_help="Solve a block for many values of its words.")
 @block_options
 @click.option(
     "--vary",
@@ -207,7 +207,7 @@ def size(count: float) -> str:
 @click.option("--quiet", "is_quiet", is_flag=True, help="Do not show progress.")
 @format_option
 @click.pass_context
-def sweep_(
+def family(
     context: click.Context,
     /,
     varied: tuple[str, ...],
@@ -244,9 +244,9 @@ def sweep_(
     Exit status: 0 done, whatever became of the contours, 2 could not run, 130 stopped by Ctrl-C or SIGTERM.
 
     \b
-    contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
+    contoursolve family --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --vary A=170:190:0.1 --vary P=1,2,5 -o family.parquet
-    contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
+    contoursolve family --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --vary P=0.5:5:0.5 --vary tool=0.2:1.2:0.2 --side right --tip 3
     """
     if workers is not None and dask is not None:

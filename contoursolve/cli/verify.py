@@ -44,7 +44,7 @@ def verify(
     elements of the result: joints, tangency, senses, sizes, planes, and each answer to a ?. The status follows from how
     many unknowns the equations fix there. verify solves nothing. It shares with solve which contours a program has and
     what their words state. It also names what it did not check. It reads the program with the settings that RESULT.json
-    names. Give --block, --start, --fact, --let and --path as you gave them to solve.
+    names. Give --block, --start, --fact, --variable and --path as you gave them to solve.
 
     Exit status: 0 what was checked is right, 1 something is wrong, 2 could not run, or nothing could be checked.
 

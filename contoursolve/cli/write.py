@@ -31,7 +31,6 @@ from contoursolve.sketches import (
     UnfinishedError,
     solve_sketch,
     write as write_contour,
-    write_for_all,
 )
 
 SCHEMA = "contoursolve/write/1"
@@ -85,10 +84,7 @@ def write(
     folder = Path() if sketch == STANDARD_INPUT else Path(sketch).parent
     settings = find_settings(folder) | dict(map(read_setting, assignments))
     try:
-        if to is None:
-            several = write_for_all(drawn, settings=settings)
-        else:
-            several = (write_contour(drawn, to, settings=settings),)
+        several = (write_contour(drawn, to, settings=settings),) if to else write_contour(drawn, settings=settings)
     except UnfinishedError:
         print_lines(_open_lines(drawn, style_of_output()))
         context.exit(FOUND_ERRORS)

@@ -19,6 +19,7 @@ from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.program import Request, Result, Step as Passed, machine_for, walk
 from contoursolve.reading import (
     MOTIONS,
+    WORK,
     Around,
     Bearing,
     Code,
@@ -277,9 +278,16 @@ class _Follower:
                 named = Word("G", Decimal(code.number), False, _named(code), block.span)
                 yield self._unfollowed(replace(block, words=(named,)), f"{_named(code)}: {code.meaning}")
             if code.effect is Effect.NO_MOTION:
+                if self._sets_offsets(block):
+                    yield self._unfollowed(block, f"{_named(code)}: {code.meaning}")
                 return
             is_preset = is_preset or code.effect is Effect.PRESET
         yield from self._move(block, here, is_preset=is_preset)
+
+    def _sets_offsets(self, block: Block) -> bool:
+        """Whether a block changes work offsets in their table."""
+        rows = [row for row, _ in self.modes.zero.rows_in(block) if row.entries is not None]
+        return any(each.group == WORK for row in rows if row.entries for each in row.entries(block, ()))
 
     def _move(self, block: Block, here: State, *, is_preset: bool) -> Iterator[Step]:
         """A move by the block's coordinates, if it has any."""

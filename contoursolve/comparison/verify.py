@@ -105,7 +105,7 @@ def _dialect(program: Program, claims: ClaimedResult, control: str | Control | N
     shown = (each for each in CONTROLS.values() if any(map(each.signs, program.blocks)))
     dialect = wanted if isinstance(wanted, Control) else CONTROLS.get(wanted) if wanted else next(shown, None)
     if wanted and dialect is None:
-        choices = f"choose from {', '.join(DIALECTS)}, or name the tables of your own with --control MODULE:NAME"
+        choices = f"choose from {', '.join(CONTROLS)}, or name the tables of your own with --control MODULE:NAME"
         raise CannotVerifyError(f"unknown control {wanted!a}; {choices}")
     if dialect is None or not claims.settings:
         return dialect

@@ -56,7 +56,7 @@ _ON_LATHE = in_codes("G00 X40. Z0.\nG01 Z0. F0.2\n", "ZX", "KI", at=(0, 40), hal
 
 _LIST, _MANUAL = Book("FANUC alarm list"), Book("FANUC 16/18/160/180-C lathe operator's manual")
 _FANUC = ArcTable(both=BothStated.RADIUS_COUNTS, is_still=True, others=frozenset({POLAR}))
-_3403, _AS_LINE = Book("FANUC parameter 3403, bit 5").assumed("recalled"), "--set CONTROL.no-centre=line"
+_3403, _AS_LINE = Book("FANUC parameter 3403, bit 5").assumed("recalled"), "--setting CONTROL.no-centre=line"
 _RADII = _LIST.assumed("alarm 020: parameter 3410 says how much is allowed")
 _FANUC_SETTINGS = (
     arc_setting(
@@ -71,7 +71,7 @@ _FANUC_SETTINGS = (
 )
 _FANUC_ROWS = (
     row("arc-radii-differ", like=ARCS, source=_RADII, alarm=_alarm("020 OVER TOLERANCE OF RADIUS")),
-    row("arc-spiral", like=ARCS, source=_RADII, options="--set CONTROL.radius-difference=0"),
+    row("arc-spiral", like=ARCS, source=_RADII, options="--setting CONTROL.radius-difference=0"),
     row("arc-radius-small", like=ARCS, source=_LIST.assumed("arcs by R: no alarm is printed for it")),
     row("arc-moves-nothing", like=ARCS, source=_MANUAL.printed("circular interpolation: an arc of 0 deg")),
     row(
@@ -99,7 +99,7 @@ _OVER = row(
     "arc-over-half",
     like=ARCS,
     source=_MANUAL.printed("circular interpolation: by R less than 180 deg"),
-    options="--set CONTROL.negative-radius=error",
+    options="--setting CONTROL.negative-radius=error",
 )
 _STILL = row("arc-moves-nothing", like=ARCS, source=_MANUAL.assumed("that mills do so, too"))
 

@@ -44,7 +44,8 @@ GEOMETRY_RULES = (
     row("radius-difference", like=EVENTS,
         examples={"contour": "{arc_blocks}", "center": "{center_off}", "options": "--rules off"}),
     row("line-reversed", like=EVENTS,
-        examples={"contour": "{angled_block}", "degrees": "{opposite}", "options": "--set CONTROL.angle-sense=ray"}),
+        examples={
+            "contour": "{angled_block}", "degrees": "{opposite}", "options": "--setting CONTROL.angle-sense=ray"}),
     row("line-backwards", like=EVENTS),
     row("corner-too-large", like=EVENTS, examples={"size": "99."}),
     row("corners-overlap", like=EVENTS, examples={"contour": "{twice}", "each": "28."}),

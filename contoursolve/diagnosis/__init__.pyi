@@ -1,9 +1,16 @@
 from .additions import (
-    Addition as Addition,
-    LegalBlock as LegalBlock,
+    completions as completions,
     legal_blocks as legal_blocks,
     ways_to_complete as ways_to_complete,
     words_to_add as words_to_add,
+)
+from .answer_records import (
+    Addition as Addition,
+    AskedValue as AskedValue,
+    Completion as Completion,
+    Solution as Solution,
+    Solutions as Solutions,
+    StatedWord as StatedWord,
 )
 from .block_behind import report_behind as report_behind
 from .chosen_solution import chosen_solution as chosen_solution
@@ -37,7 +44,6 @@ from .equation_system import EquationSystem as EquationSystem
 from .examine import (
     MOST_CHOICES as MOST_CHOICES,
     Answer as Answer,
-    AskedValue as AskedValue,
     Depth as Depth,
     Policy as Policy,
     answer_question as answer_question,
@@ -96,8 +102,6 @@ from .slip_kinds import (
     mistyped_codes as mistyped_codes,
 )
 from .solutions import (
-    Solution as Solution,
-    Solutions as Solutions,
     certificate_text as certificate_text,
     decimals_of as decimals_of,
     list_solutions as list_solutions,

@@ -4,8 +4,8 @@ of a control."""
 from collections.abc import Iterator
 from itertools import islice
 
-from msgspec import Struct
-
+from contoursolve.diagnosis.answer_records import Addition, Completion
+from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.legality_table import legal_samples
@@ -13,7 +13,7 @@ from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.subsets import smallest_sets
 from contoursolve.diagnostics import checked
 from contoursolve.geometry import assemble
-from contoursolve.reading import Control, ParsedContour, check, read, stating
+from contoursolve.reading import Control, LegalBlock, ParsedContour, check, read, stating
 from contoursolve.solving import Contour, analyse
 
 MOST_ADDED = 3
@@ -22,61 +22,15 @@ MOST_ADDED = 3
 MOST_WAYS = 12
 
 
-class Addition(Struct, frozen=True):
-    """A word that a block may still take.
-
-    Attributes:
-        address: its address, such as `P` or `,A`.
-        meaning: what it states.
-        text: the word: with its value where the geometry fixes that, with `?` where it is still to be chosen.
-        line: the program line into which it goes.
-        replacement: all lines of the contour with it.
-        contour: the contour that the block has then; None where other words are missing, or the value is.
-    """
-
-    address: str
-    meaning: str
-    text: str
-    line: int
-    replacement: str
-    contour: Contour | None = None
-
-
-class LegalBlock(Struct, frozen=True):
-    """An example of a block, or of several, that a control accepts: the smallest set of words of its form, with values
-    that make a contour.
-
-    Attributes:
-        form: the name of the form, such as `G111`.
-        title: what the form draws.
-        addresses: the addresses of its words, in their order.
-        text: the block, one line for each.
-    """
-
-    form: str
-    title: str
-    addresses: tuple[str, ...]
-    text: str
-
-
 @checked
-def words_to_add(answer: Answer, dialect: Control) -> tuple[Addition, ...]:
+def words_to_add(answer: Answer) -> tuple[Addition, ...]:
     """Every word that the blocks of a contour may still take: no rule refuses it beside the others, and they do not say
-    already what it says.
-
-    >>> import contoursolve
-    >>> from contoursolve.controls import YASNAC_LX3
-    >>> answer = contoursolve.solve("G111 A135. K-10. B120. U40.", start="X40. Z0.").answers[0]
-    >>> [each.text for each in words_to_add(answer, YASNAC_LX3)]
-    ['P?', 'Q?', 'C?', 'D?']
-    """
-    claim = answer.claim
+    already what it says."""
+    claim, dialect = answer.claim, answer.read_by.dialect
     completing: dict[tuple[str, int], tuple[str, Contour | None]] = {}
     if answer.contour is None:
-        for repair in find_repairs(answer, dialect).repairs:
-            if len(repair.edits) == 1 and repair.edits[0].kind is EditKind.ADD:
-                edit = repair.edits[0]
-                completing[edit.address, edit.line] = edit.text, repair.contour
+        for edit, repair in _completing_alone(answer):
+            completing[edit.address, edit.line] = edit.text, repair.contour
     found, possible = [], {*_possible(claim, dialect)}
     for name, (address, index) in claim.vocabulary.items():
         line, row = claim.blocks[index].line, claim.lexicon.addresses.get(address)
@@ -91,19 +45,26 @@ def words_to_add(answer: Answer, dialect: Control) -> tuple[Addition, ...]:
 
 
 @checked
-def ways_to_complete(answer: Answer, dialect: Control) -> tuple[tuple[str, ...], ...]:
-    """The smallest sets of addresses that complete the blocks of a contour, each refused by no rule; nothing for one
-    that is complete.
+def completions(answer: Answer) -> tuple[Completion, ...]:
+    """Every single word that would complete the blocks of a contour."""
+    found = () if answer.contour is not None else _completing_alone(answer)
+    return tuple(Completion(edit.text, repair.replacement, repair.contour) for edit, repair in found)
 
-    >>> import contoursolve
-    >>> from contoursolve.controls import YASNAC_LX3
-    >>> answer = contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answers[0]
-    >>> ways_to_complete(answer, YASNAC_LX3)
-    (('X',), ('U',), ('I',), ('K',))
-    """
+
+def _completing_alone(answer: Answer) -> Iterator[tuple[Edit, Repair]]:
+    """The words of which one alone completes the blocks of a contour."""
+    for repair in find_repairs(answer, answer.read_by.dialect).repairs:
+        edit, *others = repair.edits
+        if not others and edit.kind is EditKind.ADD:
+            yield edit, repair
+
+
+def ways_to_complete(answer: Answer) -> tuple[tuple[str, ...], ...]:
+    """The smallest sets of addresses that complete the blocks of a contour, each refused by no rule; nothing for one
+    that is complete."""
     return tuple(
         tuple(answer.claim.vocabulary[name][0] for name in names)
-        for names in islice(_completing(answer.claim, dialect), MOST_WAYS)
+        for names in islice(_completing(answer.claim, answer.read_by.dialect), MOST_WAYS)
     )
 
 

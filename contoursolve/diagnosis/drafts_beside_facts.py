@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from decimal import Decimal
 from itertools import combinations, islice, product
 
+from contoursolve.diagnosis.answer_records import AskedValue
 from contoursolve.diagnosis.attempt import Trial
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
@@ -13,7 +14,7 @@ from contoursolve.diagnosis.drafts import (
     unreadable,
 )
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Why, add, change, drop, rounded, write_word
-from contoursolve.diagnosis.examine import Answer, AskedValue, problems
+from contoursolve.diagnosis.examine import Answer, problems
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, facts_at, spans_of
 from contoursolve.diagnosis.sample_drawing import sample_drawing
@@ -229,7 +230,7 @@ def _corrected(answer: Answer, twice: list[Diagnostic], trial: Trial) -> Iterato
             if not asking:
                 continue
             other = trial.examine((change(word, asking),))
-            for asked in other.answers if other else ():
+            for asked in other.asked if other else ():
                 if asked.value is not None and asked.question.word.text == asking:
                     yield (change(word, _with_value(word, _shown(asked, word, answer), lexicon), Why.AGREES),)
 

@@ -1,7 +1,7 @@
 """Edits of a block's text: words dropped, added, moved into a block of their own, or written with another value."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
 from enum import Enum, IntEnum
@@ -268,6 +268,29 @@ def read_edits(blocks: Sequence[Block], edits: Iterable[Edit], syntax: Syntax) -
             found += read_edited(block, text, syntax)
             found[-1] = replace_fields(found[-1], directives=(*found[-1].directives, *facts))
     return found
+
+
+def edits_of_words(
+    blocks: Sequence[Block], dropped: Iterable[str], added: Iterable[str], changed: Mapping[str, str]
+) -> list[Edit]:
+    """The edits that drop, add and change words of blocks by their addresses, or by line and address: `2:,A`. Raises
+    ValueError for a word that is not there, or more than once."""
+    edits = [drop(_only_word(blocks, address)) for address in dropped]
+    for address, text in changed.items():
+        if not isinstance(text, str):
+            raise TypeError(f"the new word for {address} is a text such as '{address}5.', not {text!r}")
+        edits.append(change(_only_word(blocks, address), text))
+    return edits + [Edit(EditKind.ADD, word, text=word, line=blocks[-1].line) for word in added]
+
+
+def _only_word(blocks: Sequence[Block], address: str) -> Word:
+    line, _, own = address.upper().rpartition(":")
+    words = [
+        word for block in blocks for word in block.words if word.address == own and line in ("", str(word.span.line))
+    ]
+    if len(words) != 1:
+        raise ValueError(f"the blocks have {len(words)} words {address}; exactly one can be dropped or changed")
+    return words[0]
 
 
 def with_value(word: Word, value: str, words: WordSpelling) -> str:

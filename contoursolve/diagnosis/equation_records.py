@@ -155,7 +155,9 @@ class NullSpace(Struct, frozen=True):
 
 
 class TiedWords(Struct, frozen=True):
-    """Words that say the same, and the equation of sympy that ties them; None where it has no formula."""
+    """Words that say the same, the equation of sympy that ties them (None where it has no formula), and whether their
+    values disagree."""
 
     words: tuple[str, ...]
     identity: "symbolic.Eq | None"
+    is_conflict: bool = False

@@ -29,7 +29,7 @@ from contoursolve.diagnosis.smallest_sets import smallest_sets
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
 from contoursolve.diagnostics import LateModule, Shown, Span
-from contoursolve.gcode import FACT, words_called
+from contoursolve.gcode import FACT, Word, words_called
 from contoursolve.geometry import (
     Corner,
     CornerShape,
@@ -240,6 +240,11 @@ class EquationSystem(Shown):
         return self._verdict.is_determined
 
     @property
+    def dof(self) -> int:
+        """The degrees of freedom: the unknowns less the rank."""
+        return len(self._system.unknowns) - self.rank
+
+    @property
     def free(self) -> FreeUnknowns:
         """The unknowns that nothing determines, as symbols. `free("K")` is the system without the value of a word."""
         return FreeUnknowns.of(map(self._symbols.scalar, self._verdict.free), self._without)
@@ -281,15 +286,25 @@ class EquationSystem(Shown):
         profile, system = self.profile, self._system
         if profile.start.is_known:
             sets = smallest_sets(self.claim, find_ties(profile, is_told=True), profile).found
-            facts = [(each.facts, assemble(each.profile), each.givens) for each in sets]
+            facts = [(each.facts, assemble(each.profile), each.givens, each.is_conflict) for each in sets]
         else:
             tied = [(*others, last) for last, others in circuits_of(system).items()]
-            facts = [(each, system, givens_of_facts(each, system)) for each in tied]
+            facts = [(each, system, givens_of_facts(each, system), False) for each in tied]
         found = []
-        for each, of, givens in facts:
+        for each, of, givens, is_conflict in facts:
             words = dict.fromkeys(word.text for name in givens if (word := profile.givens[name].word))
-            found.append(TiedWords(tuple(words), tie_of(of, each, self._symbols)))
+            found.append(TiedWords(tuple(words), tie_of(of, each, self._symbols), is_conflict))
         return tuple(found)
+
+    @property
+    def conflicts(self) -> tuple[TiedWords, ...]:
+        """The ties whose words disagree."""
+        return tuple(each for each in self.ties if each.is_conflict)
+
+    @property
+    def redundant(self) -> tuple[TiedWords, ...]:
+        """The ties whose words agree: one of each says nothing new."""
+        return tuple(each for each in self.ties if not each.is_conflict)
 
     @cached_property
     def conditions(self) -> tuple[SystemCondition, ...]:
@@ -359,6 +374,19 @@ class EquationSystem(Shown):
         places = {corner.name: self._places(corner) for corner in system.figure.corners}
         hand = HandCalculation(profile, system, symbols, self.values, chosen.scalars, chosen.solution.corners, places)
         return Derivation(tuple(hand.steps()))
+
+    def of_word(self, word: str | Word) -> tuple[tuple[Equation, ...], tuple[SystemCondition, ...]]:
+        """The equations that a word states, and the conditions in which it plays a part.
+
+        The word is `"B"`, or `"2:B"` with its line, or one of `words` of its answer. Raises ValueError for what is no
+        word of the contour."""
+        named = self._named(word) if isinstance(word, str) else ()
+        spans = (
+            {word.span} if not isinstance(word, str) else {each.word.span for each in named if each.word is not None}
+        )
+        symbols = {each.symbol for each in self.words if each.source and each.source.span in spans}
+        stated = tuple(each for each in self.statements if each.source and each.source.span in spans)
+        return stated, tuple(each for each in self.conditions if symbols & each.expression.free_symbols)
 
     # What can be done with it ------------------------------------------------------------------------------------
 

@@ -9,11 +9,19 @@ from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
 from math import dist, pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.diagnosis.answer_records import (
+    Addition,
+    AskedValue,
+    Completion,
+    Filled,
+    Solutions,
+    StatedWord,
+)
 from contoursolve.diagnosis.explain import (
     AGAINST,
     LEAVING_FREE,
@@ -43,8 +51,18 @@ from contoursolve.diagnosis.spelling import (
     tell_points,
     without_point,
 )
-from contoursolve.diagnosis.wording import ContourState, join, state_of
-from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, LateModule, Severity, Shown, Span, hash_of
+from contoursolve.diagnosis.wording import ContourState, coordinates, join, state_of
+from contoursolve.diagnostics import (
+    Basis,
+    Diagnosis,
+    Diagnostic,
+    LateModule,
+    Severity,
+    Shown,
+    Span,
+    from_above,
+    hash_of,
+)
 from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, Start, System, Unit, assemble
 from contoursolve.reading import (
     AT_ITS_LIMIT,
@@ -82,6 +100,7 @@ from contoursolve.tolerance import LENGTH
 if TYPE_CHECKING:
     from contoursolve.diagnosis import equation_system
     from contoursolve.diagnosis.edits import Edit
+    from contoursolve.diagnosis.hand_sheet import Derivation
     from contoursolve.gcode import Block, Word
 else:
     equation_system = LateModule("contoursolve.diagnosis.equation_system")
@@ -163,21 +182,6 @@ class Depth(Enum):
         return self in (Depth.FULL, Depth.FINDINGS)
 
 
-class AskedValue(Struct, frozen=True):
-    """A value that was asked for: mm (radius) or degrees; None where nothing determines it."""
-
-    question: Question
-    value: float | None
-
-
-class Filled(Struct, frozen=True):
-    """Blocks with the values that were asked for filled in, rounded to the least increment; they make the same
-    contour to within `deviation` mm."""
-
-    blocks: tuple[str, ...]
-    deviation: float
-
-
 class Answer(Shown, Struct, frozen=True):
     """The result for one contour of a program.
 
@@ -219,7 +223,8 @@ class Answer(Shown, Struct, frozen=True):
     read_by: ReadBy
     diagnosis: Diagnosis | None = None
     certificate: Certificate | None = None
-    answers: tuple[AskedValue, ...] = ()
+    asked: tuple[AskedValue, ...] = ()
+    """The values that were asked for with `?`."""
     alternatives: Alternatives | None = None
     filled: Filled | None = None
     calls: tuple[int, ...] = ()
@@ -242,6 +247,157 @@ class Answer(Shown, Struct, frozen=True):
     def system(self) -> equation_system.EquationSystem:
         """Its equations, what they leave open, and on which condition they determine it; by sympy, when it is asked."""
         return equation_system.EquationSystem(self.claim, self.profile, self.read_by)
+
+    @property
+    def solutions(self) -> Solutions | None:
+        """Every solution, each with what selects it and how sure it is, and whether these are all; None if nothing was
+        solved.
+
+        >>> import contoursolve
+        >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answer
+        >>> len(answer.solutions), answer.solutions.is_complete
+        (1, True)
+        """
+        found: Solutions | None = from_above("list_solutions", self)
+        return found
+
+    @property
+    def words(self) -> tuple[StatedWord, ...]:
+        """The words that state something about it, in the order of the program.
+
+        >>> import contoursolve
+        >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.").answer
+        >>> [(each.key, each.value, each.unit, each.fixes) for each in answer.words][2:]
+        [('K', -30.0, 'mm', ('V1',)), ('B', 120.0, 'deg', ('line 2',)), ('P', 5.0, 'mm', ('corner 1',))]
+        """
+        found: tuple[StatedWord, ...] = from_above("stated_words", self)
+        return found
+
+    @property
+    def missing(self) -> tuple[tuple[str, ...], ...]:
+        """The smallest sets of addresses that complete its blocks, each refused by no rule; nothing where they are
+        complete.
+
+        >>> import contoursolve
+        >>> contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answer.missing
+        (('X',), ('U',), ('I',), ('K',))
+        """
+        found: tuple[tuple[str, ...], ...] = from_above("ways_to_complete", self)
+        return found
+
+    @property
+    def completions(self) -> tuple[Completion, ...]:
+        """Every single word that would complete its blocks, with its value where the geometry fixes it already; a word
+        whose number is still to be chosen ends with `?`.
+
+        >>> import contoursolve
+        >>> answer = contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answer
+        >>> [each.word for each in answer.completions]
+        ['I?', 'K?', 'X?', 'U?']
+        """
+        found: tuple[Completion, ...] = from_above("completions", self)
+        return found
+
+    @property
+    def addable(self) -> tuple[Addition, ...]:
+        """Every word that its blocks may still take: no rule refuses it beside the others, and they do not say already
+        what it says.
+
+        >>> import contoursolve
+        >>> answer = contoursolve.solve("G111 A135. K-10. B120. U40.", start="X40. Z0.").answer
+        >>> [each.text for each in answer.addable]
+        ['P?', 'Q?', 'C?', 'D?']
+        """
+        found: tuple[Addition, ...] = from_above("words_to_add", self)
+        return found
+
+    @property
+    def construction(self) -> str:
+        """The construction step by step, as `contoursolve solve --explain` prints it: what each step finds, from which
+        words, and where it is; what is still open where nothing can be constructed.
+
+        >>> import contoursolve
+        >>> print(contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answer.construction)
+          construction:
+            1. V1: -30.000 mm from S along Z (K-30.) and on the line through S at 180.000 deg (A180.)
+               -> Z-30.000 mm X40.000 mm
+            2. V2 (X and Z): V2 at X100.000 mm (X100.) and on the line through V1 at 120.000 deg (B120.)
+               -> X100.000 mm Z-47.321 mm
+        """
+        return "\n".join(from_above("construction_lines", self))
+
+    @property
+    def derivation(self) -> Derivation:
+        """The calculation by hand. Raises ValueError without a contour."""
+        return self.system.derivation
+
+    @property
+    def form_text(self) -> str:
+        """Name and title of its form, in the control's words."""
+        return f"{self.claim.form.name} ({self.claim.form.title})"
+
+    @property
+    def start_text(self) -> str:
+        """The words that lead to its start point, as its control reads coordinates; empty if that is not known.
+
+        >>> import contoursolve
+        >>> contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answer.start_text
+        'Z0 X40.'
+        """
+        from contoursolve.diagnosis.edits import write_word  # noqa: PLC0415 - few ask for it
+
+        if not self.start.is_known:
+            return ""
+        places = zip(self.plane.axes, self.start.values, strict=True)
+        return " ".join(write_word(axis, float(value or 0), self.claim.lexicon, self.unit) for axis, value in places)
+
+    @property
+    def end_text(self) -> str:
+        """Its end point, as the control writes it: `Z-50.2073 X100.0000`; empty without a path."""
+        return coordinates(self.contour.end, self.plane, self.unit) if self.contour else ""
+
+    def with_words(
+        self, *, drop: Iterable[str] = (), add: Iterable[str] = (), change: Mapping[str, str] | None = None
+    ) -> Answer:
+        """The answer with words of its blocks dropped (by address), added, or changed (address to the new word).
+
+        An address that several blocks have is named with its program line: `2:,A`. Words that are added stand in the
+        last block. Raises ValueError if a word is not there, or more than once, and where the blocks are read as
+        another contour then, or as none.
+
+        >>> import contoursolve
+        >>> answer = contoursolve.solve("G111 A135. I10. K-12. B180. Z-40.", start="X40. Z0.").answer
+        >>> answer.with_words(drop=["A"]).diagnostics
+        ()
+        >>> answer.with_words(change={"K": "K-10."}, add=["P2."]).end_text
+        'Z-40.0000 X60.0000'
+        """
+        from contoursolve.diagnosis.edits import edits_of_words  # noqa: PLC0415 - few contours are read again
+
+        edits = edits_of_words(self.claim.blocks, drop, add, change or {})
+        claim = self.read_by.read(self.claim, edits)
+        if claim is None:
+            raise ValueError("with these words the blocks are read as another contour, or as none")
+        return examine(claim, self.read_by.dialect, self.read_by.policy)
+
+    def standing_alone(self, *, is_exact: bool = False) -> str:
+        """A program of its own: its blocks after what leads to its start point and puts its modal codes in force.
+
+        `solve` takes it with the control of the program, and with `units="inch"` where the program is in inches there.
+        It is empty if that would be another contour, or the start point is not known. With `is_exact`, the start point
+        is not rounded to the least increment of the control.
+
+        >>> import contoursolve
+        >>> program = "G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P5.\\nG111 A180. W-20."
+        >>> print(contoursolve.solve(program).answers[0].standing_alone())
+        G00 Z0 X40.
+        G111 X100. A180. K-30. B120. P5.
+        """
+        return str(from_above("standing_alone", self, is_exact=is_exact))
+
+    def draw(self, **options: Any) -> Any:
+        """Its picture, with the options of `contoursolve.draw`: a `Picture`, with `.svg` and `.png()`."""
+        return from_above("draw", self, **options)
 
     @property
     def led(self) -> tuple[float, float]:
@@ -383,7 +539,7 @@ def examine(
         diagnostics=tuple(sorted(tell_points(context, claim, notebook.findings), key=rank)),
         read_by=ReadBy(dialect, policy),
         certificate=solution.certificate if contour else None,
-        answers=tuple(answer_question(question, profile, solution) for question in profile.questions),
+        asked=tuple(answer_question(question, profile, solution) for question in profile.questions),
         alternatives=alternatives,
     )
 

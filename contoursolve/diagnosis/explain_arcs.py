@@ -53,7 +53,7 @@ def explain_arc(context: Context, dialect: Control, arc: PlainArc, before: State
         is_open = any(each.name == CENTRES for each in dialect.settings)
         if is_open and fault.issue in _COMPARED and any(each.is_slip for each in _from_origin(arc)):
             words = join([each.word.text.strip() for each in arc.centers if each is not None])
-            setting = f"--set {dialect.name}.{CENTRES}=origin"
+            setting = f"--setting {dialect.name}.{CENTRES}=origin"
             note = f"{words} fit as coordinates of the centre; if the control reads them so, state {setting}"
             told = replace(told, notes=(*told.notes, note))
         yield told

@@ -4,8 +4,9 @@ from math import hypot
 
 from msgspec.structs import replace
 
+from contoursolve.diagnosis.answer_records import Filled
 from contoursolve.diagnosis.edits import apply_edits, change, write_word
-from contoursolve.diagnosis.examine import Answer, Filled, Policy, examine
+from contoursolve.diagnosis.examine import Answer, Policy, examine
 from contoursolve.gcode import FACT, parse_block
 from contoursolve.reading import Control, ParsedContour, State
 from contoursolve.solving import Contour
@@ -20,7 +21,7 @@ def fill_in(answer: Answer, before: State, dialect: Control) -> Filled | None:
     `before` is the state at the first block. The further facts are left out: the control does not read them.
     """
     own, edits = answer.claim.blocks, []
-    for word, value in ((each.question.word, each.value) for each in answer.answers):
+    for word, value in ((each.question.word, each.value) for each in answer.asked):
         if word.address == FACT:
             continue
         if value is None:

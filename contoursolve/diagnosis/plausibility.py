@@ -268,11 +268,6 @@ def _turns(steps: Iterable[float]) -> int:
     return sum(one is not other for one, other in pairwise(signs))
 
 
-def length_of(contour: Contour) -> float:
-    """The length of a path, mm."""
-    return sum(each.length for each in contour.elements)
-
-
 def size_of(contour: Contour) -> float:
     """The larger side of the rectangle around the points of a path, mm."""
     points = [contour.start, *(element.end for element in contour.elements)]

@@ -26,7 +26,6 @@ from contoursolve.diagnosis.plausibility import (
     coarseness,
     distance,
     familiarity,
-    length_of,
     oddities,
     round_points,
     rounding_of,
@@ -353,12 +352,12 @@ def _large_marked(found: list[Repair], before: Contour | None) -> list[Repair]:
     if not sizes:
         return found
     least = max(size_of(before) if before else 0.0, min(sizes), AGREEMENT)
-    shortest = min(length_of(each.contour) for each in found if each.contour and each.cost <= best + _MARGIN)
+    shortest = min(each.contour.length for each in found if each.contour and each.cost <= best + _MARGIN)
     marked = []
     for each in found:
         times = log2(size_of(each.contour) / least) - 1 if each.contour and size_of(each.contour) else 0.0
         if each.contour and shortest:
-            longer = max(log2(max(length_of(each.contour), AGREEMENT) / shortest), 0.0)
+            longer = max(log2(max(each.contour.length, AGREEMENT) / shortest), 0.0)
             each = replace(each, evidence=(*each.evidence, (Feature.LONG, longer)))  # noqa: PLW2901
         if times > 0:
             evidence = (*each.evidence, (Feature.LARGE, max(times - 1, 0.0)))

@@ -6,23 +6,19 @@ from collections.abc import Sequence
 from math import floor, inf, log10
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
-
+from contoursolve.diagnosis.answer_records import AskedValue, Solution, Solutions
 from contoursolve.diagnosis.examine import (
     Answer,
-    AskedValue,
     answer_question,
     count_choices,
     is_rounded,
     list_alternatives,
 )
-from contoursolve.diagnostics import check_type
 from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Pick
 from contoursolve.solving import (
     DECIMALS,
     Certificate,
-    Contour,
     Proof,
     trace,
     up_to_one_digit,
@@ -33,74 +29,13 @@ if TYPE_CHECKING:
     from contoursolve.solving import Alternative, Alternatives
 
 
-class Solution(Struct, frozen=True):
-    """One solution: its name, its path (None if the control cannot make it, with the reasons), what selects it,
-    and whether it is the contour that was solved."""
-
-    name: str
-    contour: Contour | None
-    asked: tuple[AskedValue, ...]
-    reasons: tuple[str, ...]
-    selects: tuple[str, ...]
-    is_chosen: bool
-    certificate: Certificate
-    picks: tuple[Pick, ...] = ()
-    """The numbers that choose it, where the control has a word for these."""
-
-
-class Solutions(Struct, frozen=True):
-    """All solutions of a contour that were found, and whether these are proven to be all.
-
-    Attributes:
-        solutions: the solutions, each with its path and what selects it.
-        is_complete: whether these are all, with proof.
-        method: how they were found: by a closed form, or by a search.
-        doubts: what could not be decided, where they may not be all.
-        chosen_by: the words that chose the control's own; empty where there is nothing to choose.
-        within: the distance from the start point within which these are all, mm, where they were searched for; None
-            where a closed form gives them.
-    """
-
-    solutions: tuple[Solution, ...]
-    is_complete: bool
-    method: str
-    doubts: tuple[str, ...]
-    chosen_by: str
-    within: float | None = None
-
-    @property
-    def is_closed(self) -> bool:
-        """Whether a closed form gives them."""
-        return self.within is None
-
-    @property
-    def is_single(self) -> bool:
-        """Whether there is one solution, and no other one can be."""
-        return len(self.solutions) == 1 and self.is_complete
-
-
 def list_solutions(answer: Answer) -> Solutions | None:
-    """Every solution of a contour, each with what selects it and how sure it is.
-
-    Args:
-        answer: one of `Result.answers`.
-
-    Returns:
-        `solutions`, whether these are all (`is_complete`), by which `method`, and `doubts` where they may not be;
-        `chosen_by` says what chose the control's own. None if nothing was solved.
-
-    >>> import contoursolve
-    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
-    >>> listing = list_solutions(answer)
-    >>> len(listing.solutions), listing.is_complete
-    (1, True)
-    """
-    check_type("answer", answer, Answer)
+    """Every solution of a contour, each with what selects it and how sure it is."""
     alternatives = list_alternatives(answer)
     if alternatives is None:
         if answer.contour is None or answer.certificate is None:
             return None
-        only = Solution("", answer.contour, answer.answers, (), (), is_chosen=True, certificate=answer.certificate)
+        only = Solution("", answer.contour, answer.asked, (), (), is_chosen=True, certificate=answer.certificate)
         choices = count_choices(answer.profile)
         why = "a half circle is one within the least increments" if is_rounded(answer) else "too many to list"
         doubts = (f"the other sides of {choices} points: {why}",) if choices else ()

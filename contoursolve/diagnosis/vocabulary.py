@@ -362,7 +362,7 @@ def explain_call(context: Context, name: str, dialect: Control) -> Iterator[Diag
         named = either([each for _, each in near[:_MOST]])
         advice = (
             f"write {named} if that is meant; else name the folder of the subprogram with --path. A command of the "
-            f"machine builder that moves nothing is stated with --set {dialect.name}.words={name}"
+            f"machine builder that moves nothing is stated with --setting {dialect.name}.words={name}"
         )
         yield report(context, ReadIssue.CODE_UNKNOWN, Basis.RULE, [], name=name, advice=advice)
 

@@ -7,11 +7,10 @@ from .choices import (
     typing_distance as typing_distance,
 )
 from .display import (
-    Renderer as Renderer,
     Shown as Shown,
+    from_above as from_above,
     hash_of as hash_of,
-    plot_on as plot_on,
-    register_renderer as register_renderer,
+    register_functions as register_functions,
 )
 from .errors import (
     ProgramError as ProgramError,

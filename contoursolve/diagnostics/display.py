@@ -1,28 +1,20 @@
-"""Records that show themselves in notebooks, and are text where they are printed."""
+"""Records that show themselves in notebooks, are text where they are printed, and answer with what rooms above have."""
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, Protocol
+from typing import Any
+
+_find: list[Callable[[str], Callable[..., Any]]] = []
 
 
-class Renderer(Protocol):
-    """Renderer of records. A room far above has it, and the front door of the package registers it."""
-
-    def text_of(self, record: "Shown") -> Iterable[str]:
-        """The lines of a record, as a terminal prints them."""
-
-    def bundle(self, record: "Shown") -> dict[str, str]:
-        """Text, HTML and SVG of a record, by the types of data that a notebook knows."""
-
-    def plot(self, record: "Shown", ax: Any, **options: Any) -> Any:
-        """Draw a record on axes of matplotlib, and return them."""
+def register_functions(find: Callable[[str], Callable[..., Any]]) -> None:
+    """Register what finds a function by its name, in a room above; its module is imported then, and not before."""
+    _find[:] = [find]
 
 
-_load: list[Callable[[], Renderer]] = []
-
-
-def register_renderer(load: Callable[[], Renderer]) -> None:
-    """Register what shows records from now on; it is loaded when one is shown for the first time."""
-    _load[:] = [load]
+def from_above(name: str, record: Any, *arguments: Any, **options: Any) -> Any:
+    """The result of a function that a room above has for methods of records: that of a record, and further
+    arguments."""
+    return _find[0](name)(record, *arguments, **options)
 
 
 def hash_of(record: Any) -> int:
@@ -49,18 +41,13 @@ class Shown:
 
     def __str__(self) -> str:
         """The text of this record as the terminal prints it; its `repr` has all its fields."""
-        return "\n".join(_load[0]().text_of(self)).rstrip()
+        return "\n".join(from_above("text_of", self)).rstrip()
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Text, HTML and SVG of this record, as IPython asks for them; what cannot be drawn is text."""
         try:
-            bundle = _load[0]().bundle(self)
+            bundle = from_above("bundle", self)
         except Exception:  # a notebook must go on, whatever is missing or broken
             return {"text/plain": repr(self)}
         wanted = set(include or bundle) - set(exclude or ())
         return {kind: text for kind, text in bundle.items() if kind in wanted}
-
-
-def plot_on(record: Shown, ax: Any, **options: Any) -> Any:
-    """A record on axes of matplotlib, or on the current ones without; returns them. Raises MissingExtraError."""
-    return _load[0]().plot(record, ax, **options)

@@ -537,7 +537,7 @@ class Machine:
                 continue
             if self._steps >= self._limit.blocks:
                 most = f"more than {self._limit.blocks:,} blocks run again"
-                told = f"{most}: the program may never end; --set {self._limit.setting}=NUMBER follows more of them"
+                told = f"{most}: the program may never end; --setting {self._limit.setting}=NUMBER follows more of them"
                 yield ProgramEvent(EventKind.STOPPED, frame.source.blocks[frame.at].line, told)
                 return
             # A long program is no endless one.
@@ -802,7 +802,7 @@ class Machine:
             return
         block, file = frame.source.blocks[frame.here], frame.source.name
         where = f", line {block.line} of {file}," if file else ""
-        advice = "state its value by --let"
+        advice = "state its value by --variable"
         if self.variables.truth(SKIP_SWITCH) == Unknown(reason):
             advice = "delete the block, or its /"
         told = f"{block.text.strip()}{where} cannot be decided: {reason}; {advice}"

@@ -313,7 +313,7 @@ class Library:
             where = f"; neither is {files[0]} beside it: name its folder with --path" if files else ""
             is_command = name.replace("_", "A").isalpha() and "CALL" not in text.upper()
             if files and is_command and self.language.with_names is not None:
-                where += f", or state with --set {self.control}.words={name} that it moves nothing"
+                where += f", or state with --setting {self.control}.words={name} that it moves nothing"
             told = f"{name} is called, and" if text.upper() == name else f"{text} calls {name}, which"
             return Unknown(f"{told} is not in this file{where}")
         first = found.sections.get(name, 0)

@@ -67,7 +67,7 @@ def _declares(language: MacroLanguage, text: str, name: str) -> bool:
 
 
 def _setting(name: str) -> str:
-    return "; a setting is stated with --set" if re.fullmatch(r"[\w-]+\.[\w-]+", name) else ""
+    return "; a setting is stated with --setting" if re.fullmatch(r"[\w-]+\.[\w-]+", name) else ""
 
 
 class NamedVariable(Struct, frozen=True):

@@ -25,7 +25,7 @@ from .checkpoints import (
 from .compiled_sweep import (
     CompiledSweep as CompiledSweep,
 )
-from .errors import FamilyError as FamilyError
+from .errors import FamilyError as FamilyError, NotClosedError as NotClosedError
 from .evaluate import (
     CUT as CUT,
     THREADS as THREADS,
@@ -65,7 +65,7 @@ from .goals import (
 from .inverse import (
     FoundValues as FoundValues,
     Hit as Hit,
-    find_word as find_word,
+    find as find,
 )
 from .point_tolerances import (
     Contribution as Contribution,

@@ -11,6 +11,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve import gcode
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, Depth, join, named_in_program, typed_text, with_value
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
@@ -354,7 +355,7 @@ class SweepSpec(Struct, frozen=True):
             unread = run(program, replace(asked, facts=()))
             if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
-            raise UnknownControlError(f"the block does not show its control: {' or '.join(DIALECTS)}")
+            raise UnknownControlError(f"the block does not show its control: {' or '.join(CONTROLS)}")
         program = gcode.spelled(program, dialect.modes.syntax)
         from contoursolve.families.variables import numbered  # noqa: PLC0415 - it raises errors of this module
 

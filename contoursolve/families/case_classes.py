@@ -280,7 +280,7 @@ def _linear(value: Affine) -> Linear:
     return Linear(word, factor, value.constant)
 
 
-INSTEAD = "solve it value by value with `contoursolve sweep`"
+INSTEAD = "solve it value by value with `contoursolve family`"
 """The remedy where no range can be told."""
 
 

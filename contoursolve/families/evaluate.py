@@ -138,47 +138,7 @@ def family(
     executor: Executor | None = None,
     branches: BranchesName = "chosen",
 ) -> Family:
-    """Solve a contour for many values of some of its words.
-
-    Args:
-        block: the block, or the blocks of one contour; their words stand for one of the values.
-        vary: the values of each free word, as written in the block, by its name: its letter (`A`, `,A`), with its
-            line where several have it (`2:,A`); `start X` of the start point; for a fact, what it gives the value of
-            (`length of line 1`).
-        start: words that give the start point, such as `"X40. Z0."`, as the control reads them; or `{"X": 40, "Z": 0}`.
-        control: `yasnac-lx3` or `nct-99m`, or a control of your own as its tables; found from the block where it is
-            clear.
-        facts: further facts, as for `solve`.
-        paired: the values stand side by side, a row each; without it, every combination is a row.
-        units: `mm` or `inch`, for numbers before any G20 or G21.
-        rules: `enforce`, `warn` or `off` (see `Policy`).
-        settings: conventions of the controls by `control.name`; the default ones without.
-        variables: values of the variables in the block that do not vary, by name.
-        workers: threads; with an executor, how many stretches of rows it has under way at once.
-        executor: any `concurrent.futures.Executor` (processes, loky, Dask's `Client.get_executor()`); its workers get
-            plain data and need this package.
-        branches: `chosen`, or `all`: each solution of every row, in a last dimension `solution`, where no word chooses
-            one; a block that lacks such a word is not refused then. See `Family.solutions`.
-
-    Every row has the status, the branch and the contour that `solve` gives the block with these values; the result is
-    the same, byte for byte, for any number of workers and any executor.
-
-    Raises:
-        FamilyError: a word is not there, it has no values, or the blocks are no single contour with a known start.
-        RefusedError: a FamilyError; the blocks cannot be read, break a rule or lack words, whatever the values. Its
-            message has the first finding with its fix, its `result` has all.
-        UnknownControlError: the control is unknown, or the block does not tell it.
-        FactPlaceError: facts for a program of several contours.
-        SettingError: there is no such setting, or it has no such value.
-        NotClosedError: a FamilyError; all branches are asked for, and there is no closed form that has them.
-        ValueError: units, rules or branches is none of its choices.
-
-    >>> found = family("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.", vary={"A": [180, 170], "P": [5, 20, 60]})
-    >>> found["status"].tolist()
-    [[0, 0, 6], [0, 0, 0]]
-    >>> [f"{value:.4f}" for value in found["corner 1.end X"][:, 0]]
-    ['45.0000', '54.6180']
-    """
+    """A contour solved for many values of some of its words; see `contoursolve.family`."""
     ready = sweep(
         block,
         vary=vary,
@@ -226,7 +186,7 @@ def solve_sweep(ready: CompiledSweep, workers: int | None = None, executor: Exec
     try:
         table = ready.empty(ready.ranges.count)
     except MemoryError as error:
-        told = "take fewer values, or write them to a file with `contoursolve sweep`"
+        told = "take fewer values, or write them to a file with `contoursolve family`"
         raise FamilyError(f"{ready.ranges.count:,} rows do not fit into memory ({error}); {told}") from None
 
     def fill(first: int, last: int) -> None:

@@ -12,7 +12,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer, join
-from contoursolve.diagnostics import LateModule, Shown, need, plot_on
+from contoursolve.diagnostics import LateModule, Shown, from_above, need
 from contoursolve.families.block_template import SweepSpec, Template, word_named
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
@@ -251,8 +251,8 @@ class Family(Shown):
 
     def plot(self, ax: Any = None, *, words: tuple[str, str] | None = None, result: str | None = None) -> Any:
         """Draw the map of two words on `ax`, axes of matplotlib, or on the current ones, and return them; see `plot` of
-        `Region`. Raises ValueError where these are not two words of a grid with two or more values each."""
-        return plot_on(self, ax, words=words, result=result)
+        `FeasibleRegion`. Raises ValueError where these are not two words of a grid with two or more values each."""
+        return from_above("plot_record", self, ax, words=words, result=result)
 
     def to_arrow(self) -> "pyarrow.Table":
         """A pyarrow.Table with a column for each array: `status` and `reason` in words, as dictionaries (no reason is
@@ -277,6 +277,11 @@ class Family(Shown):
     def to_parquet(self, path: str | Path) -> None:
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
         write_parquet(path, [self._table()], self.measures(), self.origin)
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write that table as comma-separated values, the names first; status and reason in words, nothing for NaN."""
+        with Path(path).open("w", encoding="utf-8", newline="\n") as file:
+            file.writelines(csv_lines([self._table()]))
 
     def to_xarray(self) -> "xarray.Dataset":
         """An xarray.Dataset whose dimensions are the free words, or `row`; every variable has its `units` as an

@@ -170,26 +170,10 @@ def feasible(
     within: tuple[float, float] | None = None,
     **options: Unpack[BlockOptions],
 ) -> FeasibleRange:
-    """Every range of a word's values, as it is written, in which the contour is solved.
-
-    Args:
-        block: the block, or the blocks of one contour.
-        word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`); a word of the start
-            point as `start X`; a fact by what it gives the value of (`length of line 1`).
-        within: the range to search; without it, one turn of an angle, or 1 m to either side of a length. The turn is
-            0 to 360, or -360 to 0 for a negative angle.
-        options: as for `family`, with the same errors; also raises FamilyError where facts or `?` leave no
-            closed form, and names them: `family` solves such a block value by value.
+    """Every range of a word's values, as it is written, in which the contour is solved; see `contoursolve.ranges`.
 
     The search divides the range into stretches. In each of them intervals bound all checks of a contour, so that it
-    overlooks no part. It computes each end, and solves the block on both sides. Where facts, `?` or an open choice
-    leave several solutions, it follows all; the contour exists where one alone can be made.
-
-    >>> found = feasible("G111 X100. A180. K-30. B120. P5. Q5.", "P", start="X40. Z0.")
-    >>> [(round(each.low.value, 4), round(each.high.value, 4)) for each in found.intervals]
-    [(0.0, 51.9615)]
-    >>> found.intervals[0].high.reason.text
-    'P is too large for the first straight: P at most 51.961 mm'
+    overlooks no part. It computes each end, and solves the block on both sides.
     """
     spec = spec_of(block, (word,), **options)
     template = spec.template()

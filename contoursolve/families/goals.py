@@ -225,7 +225,7 @@ def _values(found: Answer, typed: Word) -> Iterator[float]:
         scale = (2.0 if question.is_diameter else 1.0) / float(found.unit.in_mm)
     alternatives = list_alternatives(found)
     if alternatives is None:
-        values = [each.value for each in found.answers if each.question is question]
+        values = [each.value for each in found.asked if each.question is question]
     else:
         values = [answer_question(question, found.profile, item.solution).value for item in alternatives.paths]
     yield from (value * scale for value in values if value is not None)

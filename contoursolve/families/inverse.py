@@ -104,7 +104,7 @@ class FoundValues(Shown, Struct, frozen=True):
 
 
 @takes(BlockOptions)
-def find_word(
+def find(
     block: str,
     word: str,
     goal: str,
@@ -121,15 +121,15 @@ def find_word(
         goal: a point and where it is wanted, in words as the control reads them: `end Z-50.`, `V1 X44.`,
             `corner 1.center Z-30.`. With both coordinates, such as `end Z-50. X100.`, it finds the values at which
             the point is nearest to there.
-        within: and the options as for `feasible`, with the same errors; also raises FamilyError for a point that the
-            contour does not have. Where the word does not move the point, `remark` names the words that do; there is
-            no value then, or that of the word if the point is there already.
+        within: and the options as for `contoursolve.ranges`, with the same errors; also raises FamilyError for a point
+            that the contour does not have. Where the word does not move the point, `remark` names the words that do;
+            there is no value then, or that of the word if the point is there already.
 
     Where the contour exists, interval arithmetic isolates every zero; each is solved and certified by itself. `doubts`
     say what it could not decide. Where facts or `?` leave no closed form, it asks for the word as `solve` does: the
     goal is one fact more.
 
-    >>> found = find_word("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
+    >>> found = find("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
     >>> [(round(each.value, 4), each.block) for each in found.hits]
     [(119.6749, 'G111 X100. A180. K-30. B119.675 P5. Q5.')]
     """

@@ -109,20 +109,7 @@ def tolerances(
     point: str = "end",
     **options: Unpack[BlockOptions],
 ) -> Tolerances:
-    """The effect of each word on a point, and of tolerances: at worst, statistically (RSS), and at all combinations of
-    their limits.
-
-    Args:
-        block: the block, or the blocks of one contour.
-        allowed: how far words may be off, as written, by name (`{"P": 0.05}`); of a fact by what it gives the value of.
-        point: a point as a `Family` names it (`V2`, `corner 1.center`), or `end`.
-        options: as for `sensitivity`, with the same errors; also raises FamilyError for a word or a point
-            that is not there, and a tolerance below 0.
-
-    >>> found = tolerances("G111 X100. A180. K-30. B120. P5. Q5.", {"A": 0.1, "K": 0.02}, start="X40. Z0.")
-    >>> [(each.word, round(each.moves, 4)) for each in found.effects[:2]]
-    [('A', 0.0302), ('K', 0.02)]
-    """
+    """The effect of each word on a point, and of tolerances; see `contoursolve.tolerances`."""
     spec = spec_of(block, **options)
     template = spec.template()
     check_block(template)

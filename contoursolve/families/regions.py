@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import asdict, replace
 
 from contoursolve.diagnosis import inward, short_name
-from contoursolve.diagnostics import Shown, check_type, plot_on
+from contoursolve.diagnostics import Shown, check_type, from_above
 from contoursolve.families.block_template import BlockOptions, RefusedError, SweepSpec, Template, spec_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords, premises_of
@@ -105,7 +105,7 @@ class FeasibleRegion(Shown, Struct, frozen=True, eq=False):
         exists, the lines that bound it, each labelled with what fails beyond it, and the values of the block. `result`
         colours it, as for `draw_region`. Raises FamilyError for a result that is none, MissingExtraError without the
         package of `contoursolve[plot]`."""
-        return plot_on(self, ax, result=result)
+        return from_above("plot_record", self, ax, result=result)
 
     def family(self, columns: int | None = None, rows: int | None = None) -> Family:
         """The contours at evenly spaced values of both words, as many as `outcomes` has unless it is told: for
@@ -125,21 +125,8 @@ def region(
     within: tuple[Point, Point],
     **options: Unpack[BlockOptions],
 ) -> FeasibleRegion:
-    """The region of two words' values, as they are written, in which the contour is solved.
-
-    Args:
-        block: the block, or the blocks of one contour.
-        words: the two words, words of the start point, or facts, as for `feasible`.
-        within: the range of each, lower value first.
-        options: as for `family`, with the same errors.
-
-    Values all over the box are solved. Around each change of the outcome, so are all that a picture can tell apart.
-    Between them nothing is proven.
-
-    >>> found = region("G111 X100. A180. K-30. B120. P5. Q5.", ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
-    >>> [each.reason.text for each in found.boundaries]
-    ['P is too large for the second straight', 'P is too large for the first straight']
-    """
+    """The region of two words' values, as they are written, in which the contour is solved; see
+    `contoursolve.ranges`."""
     check_type("words", words, Sequence, "two words, such as ('A', 'P')")
     check_type("within", within, Sequence, "two ranges, such as ((150, 210), (1, 60))")
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map

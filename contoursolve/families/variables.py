@@ -63,7 +63,7 @@ def _number(
     if isinstance(found, Vacant):
         raise FamilyError(f"{typed} is empty: the control leaves this word out; delete it, or write a number")
     names = ", ".join(dict.fromkeys(each.name for each in variables_of(word.value) if isinstance(each, Variable)))
-    raise FamilyError(f'{reason}; state it with --let "{names or typed}=NUMBER", or vary it')
+    raise FamilyError(f'{reason}; state it with --variable "{names or typed}=NUMBER", or vary it')
 
 
 def with_numbers(

@@ -122,27 +122,8 @@ def tolerance_for(
     within: float,
     **options: Unpack[BlockOptions],
 ) -> ToleranceRange:
-    """The values of a word around its own with which a result moves by at most `within`.
-
-    Args:
-        block: the block, or a program. Of several contours, the one in which the word stands is meant.
-        word: the word by its letter (`A`, `,A`), or with its line where several have it (`2:,A`); a word of the start
-            point as `start X`; a fact by what it gives the value of (`length of line 1`).
-        keep: a coordinate of a point (`end Z`, `corner 1.center X`), or a point (`end`, `V1`); a word that is asked for
-            with `?` (`P`); what a fact gives the value of (`length of line 2`, `direction of line 2`).
-        within: by how much it may move, as the control writes it: mm or inches, X of a lathe as diameter; degrees.
-        options: as for `family`, with the same errors; also raises FamilyError for what is not there,
-            and for a block that has no contour as it stands.
-
-    In closed form, interval arithmetic isolates each value with which a point has moved so far. All else is solved
-    value by value, which `doubts` say. The contour may end before; then the end says why.
-
-    >>> found = tolerance_for("G111 X100. A180. K-30. B120. P5.", "B", keep="end Z", within=0.01, start="X40. Z0.")
-    >>> round(found.minus, 4), round(found.plus, 4), round(found.linear, 4)
-    (0.0143, 0.0143, 0.0143)
-    >>> found.high.reason.text
-    'end Z moves by 0.01 mm'
-    """
+    """The values of a word around its own with which a result moves by at most `within`; see
+    `contoursolve.tolerances`."""
     if isinstance(within, bool) or not isinstance(within, (int, float)) or not 0 < within < inf:
         raise FamilyError(f"within is how far {keep} may move, a number above 0, not {within!r}")
     check_text("result", keep)
@@ -238,7 +219,7 @@ def _measured(read: ResultName, answer: Answer) -> float | None:
 def _asked(text: str, answer: Answer) -> AskedValue | None:
     """The value that a word or a fact of this name asks for."""
     name = subject_of(text).removeprefix("asked.")
-    for each in answer.answers:
+    for each in answer.asked:
         word = each.question.word
         if name == (subject_of(word.text) if word.address == FACT else word.address.lower()):
             return each

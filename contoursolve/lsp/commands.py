@@ -6,7 +6,6 @@ from typing import Any
 from lsprotocol import types
 
 import contoursolve
-from contoursolve import stated_words
 from contoursolve.lsp.language_features import stretch, tool_beside
 from contoursolve.lsp.opened import Opened
 from contoursolve.notebook import Product, converted, expanded, notebook_about, page_about
@@ -42,7 +41,7 @@ def picture_of(opened: Opened, position: types.Position) -> Any:
     picture = draw_answer(answer, theme=Theme.PAGE, beside=tool_beside(opened, answer))
     words = [
         {"key": each.key, "text": each.word.text.strip(), "range": opened.places.range(*stretch(each.word))}
-        for each in stated_words(answer)
+        for each in answer.words
     ]
     return {
         "uri": opened.uri,

@@ -4,7 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from lsprotocol import types
 
-from contoursolve import Diagnostic, Fix, Severity, changes_of, likely_fixes, mend_open, safe_fixes
+from contoursolve import Diagnostic, Fix, Severity
+from contoursolve.editing import changes_of, likely_fixes, mend_open, safe_fixes
 from contoursolve.lsp.opened import FIX_ALL, Opened
 from contoursolve.lsp.positions import edits, edits_to
 

@@ -11,24 +11,14 @@ from contoursolve import (
     Answer,
     Block,
     Control,
-    LegalBlock,
-    StatedWord,
     Status,
     Word,
-    beside_of,
-    called_in_program,
-    end_text,
-    equations_of,
-    form_text,
-    legal_blocks,
-    path_of,
-    stated_words,
-    tool_text,
-    ways_to_complete,
-    words_to_add,
 )
+from contoursolve.diagnosis import StatedWord, called_in_program
 from contoursolve.lsp.opened import Opened
+from contoursolve.output import beside_of, equations_of, path_of
 from contoursolve.pictures import ToolDrawing, draw_answer
+from contoursolve.reading import LegalBlock
 
 WIDE = 420
 """Pixels of a picture in a hover."""
@@ -49,7 +39,7 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
     word = next((each for each in block.words if each.span.column <= column < each.span.end_column), None)
     if answer is not None:
         ran = next((each for each in answer.claim.blocks if each.line == line), block)
-        here = {ran.typed_span(each.word.span): each for each in stated_words(answer) if each.word.span.line == line}
+        here = {ran.typed_span(each.word.span): each for each in answer.words if each.word.span.line == line}
         stated = here.get(word.span) if word is not None else None
         if stated is not None and word is not None:
             return _hover(opened, _with_tool(opened, _about_word(stated, answer), line), word)
@@ -72,7 +62,7 @@ def tool_beside(opened: Opened, answer: Answer) -> Sequence[ToolDrawing]:
 def _with_tool(opened: Opened, text: str, line: int) -> str:
     """A text, and which tool cuts the contour on a line."""
     tool = opened.tool()
-    told = tool if isinstance(tool, str) or tool is None else tool_text(tool, line)
+    told = tool if isinstance(tool, str) or tool is None else tool.text(line)
     return f"{text}\n\nTool: {_plain(told)}." if told else text
 
 
@@ -139,8 +129,8 @@ def _about_plain_word(opened: Opened, word: Word) -> str:
 
 
 def _about_contour(answer: Answer, *, is_drawn: bool, beside: Sequence[ToolDrawing] = ()) -> str:
-    end = end_text(answer)
-    lines = [f"**{_plain(form_text(answer))}**: {answer.state}" + (f", ends at {end}" if end else "")]
+    end = answer.end_text
+    lines = [f"**{_plain(answer.form_text)}**: {answer.state}" + (f", ends at {end}" if end else "")]
     if is_drawn:
         lines.append(f"![the contour]({image_of(answer, beside)})")
     if answer.contour is not None:
@@ -178,7 +168,7 @@ def _lines_of(opened: Opened, line: int) -> types.Range:
 def hints_of(opened: Opened, wanted: types.Range) -> Iterator[types.InlayHint]:
     """The end point behind each solved contour."""
     for contour in opened.program.contours:
-        end = end_text(contour.answer)
+        end = contour.answer.end_text
         if end and wanted.start.line <= contour.last - 1 <= wanted.end.line:
             at = opened.places.position(contour.last, len(opened.places.text(contour.last)) + 1)
             yield types.InlayHint(at, f"ends at {end}", padding_left=True)
@@ -209,14 +199,14 @@ class Completer:
             # Behind a digit begins no word, unless its letter is there.
             if typed or not near or near[-1].isspace():
                 self.begin = self.column - len(typed)
-                yield from self._words(answer, dialect)
+                yield from self._words(answer)
         elif begun is not None:
             self.begin = begun.start("code") + 1
             for each in CONTROLS.values() if dialect is None else (dialect,):
                 yield from self._blocks(each)
 
-    def _words(self, answer: Answer, dialect: Control) -> Iterator[types.CompletionItem]:
-        found = [each for each in words_to_add(answer, dialect) if each.line == self.line]
+    def _words(self, answer: Answer) -> Iterator[types.CompletionItem]:
+        found = [each for each in answer.addable if each.line == self.line]
         for number, each in enumerate(sorted(found, key=lambda each: each.contour is None)):
             detail = "fixed by the other words" if each.contour is not None else ""
             yield self._item(each.text, each.text.replace("?", "${1}"), each.meaning, detail, each.address, number)
@@ -224,7 +214,7 @@ class Completer:
     def _blocks(self, dialect: Control) -> Iterator[types.CompletionItem]:
         key = dialect.name, *sorted(dialect.modes.settings.items())
         if key not in _LEGAL:
-            _LEGAL[key] = legal_blocks(dialect)
+            _LEGAL[key] = dialect.examples
         for number, each in enumerate(_LEGAL[key]):
             title = f"{dialect.name}: {each.title}" if self.opened.program.dialect is None else each.title
             yield self._item(each.text.replace("\n", " / "), _snippet(each.text), title, "", each.text, number)
@@ -269,9 +259,9 @@ def signatures_of(opened: Opened, position: types.Position) -> types.SignatureHe
     answer, dialect = opened.program.contour_at(line), opened.program.dialect
     if answer is None or dialect is None:
         return None
-    stated = " ".join(each.word.text.strip() for each in stated_words(answer) if each.word.span.line == line)
-    additions = {each.address: each.meaning for each in words_to_add(answer, dialect)}
-    ways: Sequence[tuple[str, ...]] = ways_to_complete(answer, dialect)
+    stated = " ".join(each.word.text.strip() for each in answer.words if each.word.span.line == line)
+    additions = {each.address: each.meaning for each in answer.addable}
+    ways: Sequence[tuple[str, ...]] = answer.missing
     if not ways and answer.status is Status.SOLVED and additions:
         ways = [tuple(additions)]
     found = []
@@ -300,7 +290,7 @@ def signatures_of(opened: Opened, position: types.Position) -> types.SignatureHe
 def symbols_of(opened: Opened) -> Iterator[types.DocumentSymbol]:
     """The contours, each with its status and its end."""
     for contour in opened.program.contours:
-        answer, end = contour.answer, end_text(contour.answer)
+        answer, end = contour.answer, contour.answer.end_text
         yield types.DocumentSymbol(
             name=f"{answer.claim.form.name}, program line {contour.first}",
             detail=f"{answer.state}{f', ends at {end}' if end else ''}",
@@ -331,7 +321,7 @@ def folds_of(opened: Opened) -> Iterator[types.FoldingRange]:
     """Contours of several lines, and comments."""
     for contour in opened.program.contours:
         if contour.last > contour.first:
-            yield types.FoldingRange(contour.first - 1, contour.last - 1, kind=types.FoldingRangeKind.FeasibleRegion)
+            yield types.FoldingRange(contour.first - 1, contour.last - 1, kind=types.FoldingRangeKind.Region)
     first, lines = 0, len(opened.program.blocks)
     for line in range(1, lines + 2):
         is_comment = line <= lines and _is_comment(opened, line)

@@ -6,6 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import contoursolve
+from contoursolve.errors import UserError
 
 
 class Pages:
@@ -15,14 +16,13 @@ class Pages:
         self._folder = TemporaryDirectory(prefix="contoursolve-", ignore_cleanup_errors=True)
         atexit.register(self._folder.cleanup)
 
-    def uri(self, code: str, dialect: "contoursolve.Dialect | None") -> str:
+    def uri(self, code: str, dialect: "contoursolve.Control | None") -> str:
         """The address of the page about a rule; empty if there is none."""
-        controls = [dialect] if dialect is not None else [*contoursolve.CONTROLS.values()]
-        name = f"{controls[0].name}-{code}.md" if dialect is not None else f"{code}.md"
+        name = f"{dialect.name}-{code}.md" if dialect is not None else f"{code}.md"
         path = Path(self._folder.name) / name
         try:
-            return path.as_uri() if path.exists() else self.write(name, [contoursolve.rule_page(code, controls)])
-        except (LookupError, OSError):
+            return path.as_uri() if path.exists() else self.write(name, [contoursolve.explain(code, dialect)])
+        except (UserError, OSError):
             return ""
 
     def write(self, name: str, pieces: Iterable[str]) -> str:

@@ -1,4 +1,3 @@
-from . import mime_bundle as mime_bundle
 from .conversation import Conversation as Conversation
 from .exercises import (
     Exercise as Exercise,
@@ -6,7 +5,8 @@ from .exercises import (
     exercise as exercise,
 )
 from .exploration import begin as begin
-from .explore import explore as explore, explore_map as explore_map
+from .explore import explore as explore
+from .mime_bundle import bundle as bundle, text_of as text_of
 from .open_products import (
     Product as Product,
     converted as converted,

@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.api import solve, solve_with_tool
+from contoursolve.api import solve
 from contoursolve.diagnosis import (
     FARTHEST,
     Answer,
@@ -30,7 +30,7 @@ from contoursolve.output import stated_words
 from contoursolve.program import Changes, Result, UnknownControlError, changed, changes_of
 from contoursolve.reading import Control, Lexicon
 from contoursolve.solving import Status
-from contoursolve.tool_radius import SideName, Tool, ToolReport, make_tool, radius_in, read_tool, tool_in
+from contoursolve.tool_radius import FROM_PROGRAM, SideName, Tool, ToolReport, make_tool, radius_in, read_tool, tool_in
 
 SAME = 1e-3
 """mm. Contours whose points are this close are one: a fact that selects is written with three decimals."""
@@ -143,7 +143,8 @@ def _examined(
 ) -> tuple[Result, ToolReport | None]:
     """The result of a text, with what is said of the tool that it states."""
     if any(tool_in(line) is not None for line in split_lines(text)):
-        return solve_with_tool(text, side=side, **options)
+        result = solve(text, tool=FROM_PROGRAM, side=side, **options)
+        return result, result.tool
     return examine(text) if examine is not None else solve(text, **options), None
 
 
@@ -334,7 +335,7 @@ def free(exploration: Exploration, key: str) -> Exploration:
     if not word.is_asked:
         freed = _edited(exploration, [_change(answer, word, answer.claim.lexicon.spell(word.address, "?"))])
         return replace(freed, last={**exploration.last, key: word.text})
-    found = next((each for each in answer.answers if each.question.word.span == word.span), None)
+    found = next((each for each in answer.asked if each.question.word.span == word.span), None)
     text = exploration.last.get(key, answer.claim.lexicon.spell(word.address, "0."))
     if found is not None and found.value is not None:
         text = write_word(word.address, found.value, answer.claim.lexicon, answer.unit)

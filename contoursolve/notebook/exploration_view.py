@@ -42,7 +42,6 @@ from contoursolve.output import (
     count_text,
     effect_of,
     finding_pieces,
-    form_text,
     found_value,
     html_text,
     path_of,
@@ -117,7 +116,7 @@ def _status(exploration: Exploration) -> Data:
     worst, answer = worst_of([each for _, each in exploration.findings]), exploration.answer
     if answer is None:
         return {"kind": worst, "text": "no contour"}
-    return {"kind": worst, "text": answer.state, "form": short(form_text(answer))}
+    return {"kind": worst, "text": answer.state, "form": short(answer.form_text)}
 
 
 def picture_of(answer: Answer, like: Picture | None = None, tool: ToolReport | None = None) -> Picture | None:
@@ -140,7 +139,7 @@ def _fields(answer: Answer, pinned: Collection[str], computed: Mapping[str, Comp
     claim, size = answer.claim, _size(answer)
     names = {word.span: name for name, word in claim.words.items()}
     ignored = {answer.profile.givens[fact.given].word for fact in answer.profile.ignored if fact.given}
-    found = {each.question.word.span: each for each in answer.answers}
+    found = {each.question.word.span: each for each in answer.asked}
     for key, word in words_of(answer).items():
         row = claim.lexicon.addresses.get(word.address)
         if row is None or not is_movable(answer, word) or (word.number is None and not word.is_asked):
@@ -304,7 +303,7 @@ def asked_now(now: Exploration, before: Exploration, solved: Exploration, exampl
     if answer is None or last is None:
         return []
     old = {key for key, word in words_of(before.answer).items() if word.is_asked} if before.answer else set()
-    questions = {each.question.word.span: each.question for each in answer.answers}
+    questions = {each.question.word.span: each.question for each in answer.asked}
     points = find_known(last).points if last.contour is not None else {}
     proposed = words_of(example.answer) if example.answer is not None else {}
     found = []
@@ -334,7 +333,7 @@ def snaps_of(exploration: Exploration, key: str) -> list[Data]:
         return []
     found = []
     freed = free(exploration, key)
-    asked = next((each for each in freed.answer.answers if each.value is not None), None) if freed.answer else None
+    asked = next((each for each in freed.answer.asked if each.value is not None), None) if freed.answer else None
     if freed.answer is not None and asked is not None:
         value, _ = found_value(asked, freed.answer)
         found.append({"value": round(value or 0.0, DECIMALS), "text": "as the other words say"})
@@ -480,7 +479,7 @@ def _alone(exploration: Exploration, key: str) -> tuple[str, str, str, Mapping[s
         return exploration.text, name, called(key), options
     reading: Data = {name: options[name] for name in ("control", "rules", "settings") if name in options}
     reading["units"] = answer.unit.value
-    text = standing_alone(answer, is_exact=True, **reading)
+    text = standing_alone(answer, is_exact=True)
     blocks = answer.claim.blocks
     first = text.count("\n") + 2 - len(blocks)
     at = next(number for number, block in enumerate(blocks) if block.line == word.span.line)

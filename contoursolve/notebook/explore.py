@@ -1,7 +1,7 @@
-"""Opens the explorer of a contour, where its packages are installed."""
+"""Opens the explorer of a contour or a map, where its packages are installed."""
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from contoursolve.controls import ControlName
 from contoursolve.diagnostics import LateModule, check_type, importing
@@ -20,7 +20,12 @@ else:
     )
 
 
-def explore(  # noqa: PLR0913 - what `solve` takes
+@overload
+def explore(block: Family | FeasibleRegion, *, result: str | None = None) -> "map_explorer.MapExplorer": ...
+
+
+@overload
+def explore(
     block: str,
     *,
     line: int | None = None,
@@ -33,7 +38,24 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     variables: Mapping[str, float] | None = None,
     tool: str | None = None,
     side: SideName | None = None,
-) -> "explorer.Explorer":
+) -> "explorer.Explorer": ...
+
+
+def explore(  # noqa: PLR0913 - what `solve` takes
+    block: str | Family | FeasibleRegion,
+    *,
+    line: int | None = None,
+    start: str | None = None,
+    control: ControlName | Control | None = None,
+    units: Units = "mm",
+    rules: Rules = "enforce",
+    facts: Iterable[str] = (),
+    settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    tool: str | None = None,
+    side: SideName | None = None,
+    result: str | None = None,
+) -> "explorer.Explorer | map_explorer.MapExplorer":
     """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
 
     Arguments and errors as for `solve`; `block` may be several lines, with one contour. With `line`, it is a program,
@@ -44,11 +66,19 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     `"R0.8, tip 3"`, is written into the block as a comment and has a slider for its radius; `side` is `left` or `right`
     where the program has no G41 or G42.
 
+    A family over two words, or a region, is a map: point at it, or press arrow keys, and the contour of these values is
+    drawn beside it. A click opens the contour below. `result` colours the map, as for `draw`. Without a kernel, as in
+    exported HTML, the map still answers: it holds at most 800 contours, and tells where they are.
+
     Raises FamilyError for a variable without a value, and MissingExtraError without the packages of
-    `contoursolve[notebook]`. Raises ValueError for several contours without `line`, and for a line that belongs to
-    none.
+    `contoursolve[notebook]`. Raises ValueError for several contours without `line`, for a line that belongs to none,
+    and for a family that is no grid of two words.
     """
-    check_type("block", block, str)
+    if not isinstance(block, str):
+        check_type("block", block, Family | FeasibleRegion, "a block, a family or a region")
+        with importing("notebook", "exploring a map"):
+            from contoursolve.notebook.map_explorer import MapExplorer  # noqa: PLC0415 - needs an extra
+        return MapExplorer(block, result)
     with importing("notebook", "exploring a contour"):
         from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
     options: dict[str, Any] = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
@@ -59,18 +89,3 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     if variables:
         block = with_numbers(block, control, settings, variables)
     return Explorer(begin(block, facts, line, tool, side, **options))
-
-
-def explore_map(found: Family | FeasibleRegion, result: str | None = None) -> "map_explorer.MapExplorer":
-    """The map of a family over two words, or of a region, in a notebook: point at it, or press arrow keys, and the
-    contour of these values is drawn beside it. A click opens the contour below, as `explore` does.
-
-    `result` colours the map, as for `draw_family_map`. Without a kernel, as in exported HTML, the map still answers: it
-    holds some of the contours, and tells where they are. The traits are those of `explore`.
-
-    Raises ValueError for a family that is no grid of two words, and FamilyError for a result that is none. Raises
-    MissingExtraError without the packages of `contoursolve[notebook]`.
-    """
-    with importing("notebook", "exploring a map"):
-        from contoursolve.notebook.map_explorer import MapExplorer  # noqa: PLC0415 - needs an extra
-    return MapExplorer(found, result)

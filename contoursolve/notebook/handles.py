@@ -10,10 +10,10 @@ from math import hypot
 
 from msgspec import Struct
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, StatedWord
 from contoursolve.families import FamilyError, slopes_of
 from contoursolve.geometry import Arc, Corner, Line
-from contoursolve.output import StatedWord, stated_words
+from contoursolve.output import stated_words
 from contoursolve.pictures import (
     Known,
     Picture,

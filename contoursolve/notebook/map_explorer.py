@@ -19,7 +19,7 @@ _LAST = "export default { render };"
 
 
 class MapExplorer(Explorer):
-    """A map whose values can be pointed at; see `explore_map`."""
+    """A map whose values can be pointed at; see `explore`."""
 
     _esm = (
         str(Explorer._esm).replace(_LAST, "")

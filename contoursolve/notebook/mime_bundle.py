@@ -12,7 +12,7 @@ from contoursolve.notebook.records import bounded, text_of
 from contoursolve.program import Result
 from contoursolve.solving import Drawing, Drawings, Sketch
 
-__all__ = ["bundle", "plot", "text_of", "with_widget"]
+__all__ = ["bundle", "text_of", "with_widget"]
 
 _DRAWN = (Answer, Result, Family, FeasibleRange, FeasibleRegion, Sketch, Drawings, Drawing)
 """Records with a picture."""
@@ -34,13 +34,6 @@ def bundle(record: Shown) -> dict[str, str]:
         shown["text/latex"] = record.latex
     shown["text/html"] = _made(_html, record)
     return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}
-
-
-def plot(record: Shown, ax: Any, **options: Any) -> Any:
-    """A contour or a map on axes of matplotlib."""
-    from contoursolve.pictures import plot_record  # noqa: PLC0415 - text needs no picture
-
-    return plot_record(record, ax, **options)
 
 
 def _made(make: Callable[[Any], str], record: object) -> str:

@@ -164,7 +164,7 @@ def notebook_about(program: "OpenProgram", line: int) -> Product:
         "units": answer.unit.value,
         "settings": dict(dialect.modes.settings),
     }
-    text = standing_alone(answer, control=dialect, units=answer.unit.value, settings=dialect.modes.settings)
+    text = standing_alone(answer)
     if not text:  # it rests on lines before it: they come along
         text, options = program.text, {"line": line, **options}
     told = "".join(f", {name}={value!r}" for name, value in options.items() if value)

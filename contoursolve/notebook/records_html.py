@@ -36,7 +36,6 @@ from contoursolve.output import (
     contribution_table,
     figure,
     finding_element,
-    form_text,
     found_table,
     found_title,
     html_text,
@@ -107,7 +106,7 @@ def _answer(answer: Answer) -> Iterator[h.Node]:
 
 def _contour_of(answer: Answer, result: Result) -> Iterator[h.Node]:
     """The picture, the path, what was given, and the findings of one contour."""
-    yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {form_text(answer)}: {answer.state}")]
+    yield h.h3[short(f"{result.program.name}:{answer.lines[0]}: {answer.form_text}: {answer.state}")]
     yield figure(answer)
     yield path_element(answer)
     yield from remarks(answer, result.control or "")

@@ -159,11 +159,7 @@ from .tool_picture import (
     tool_text as tool_text,
 )
 from .word_meanings import (
-    StatedWord as StatedWord,
-    end_text as end_text,
-    form_text as form_text,
     found_value as found_value,
-    start_text as start_text,
     stated_value as stated_value,
     stated_words as stated_words,
 )

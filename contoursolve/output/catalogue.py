@@ -83,7 +83,7 @@ def _setting_lines(dialect: Control) -> Iterator[str]:
         name = f"{dialect.name}.{setting.name}"
         yield f"setting {name}: {setting.meaning} ({setting.source})"
         rows = [
-            (f"--set {name}={value}", "default" if value == setting.default else "", meaning)
+            (f"--setting {name}={value}", "default" if value == setting.default else "", meaning)
             for value, meaning in setting.values.items()
         ]
         yield from columns(rows, left=(0, 1, 2))

@@ -28,20 +28,7 @@ from contoursolve.solving import (
 
 @checked
 def construction_lines(answer: Answer) -> list[str]:
-    """The construction of a contour, step by step, as `contoursolve solve --explain` prints it.
-
-    Args:
-        answer: one of `Result.answers`.
-
-    Returns:
-        Lines of text: what each step finds, from which words and facts, which of several places is meant, and where it
-        is; what is still open where nothing can be constructed.
-
-    >>> import contoursolve
-    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answers[0]
-    >>> construction_lines(answer)[0]
-    '  construction:'
-    """
+    """The construction of a contour, step by step, as `contoursolve solve --explain` prints it."""
     profile = answer.profile
     if not profile.start.is_known:
         return ["  construction: the start point is not known"]

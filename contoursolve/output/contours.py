@@ -31,7 +31,7 @@ from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
 from contoursolve.output.premises import premise_texts
-from contoursolve.output.word_meanings import form_text, found_value, stated_words
+from contoursolve.output.word_meanings import found_value, stated_words
 from contoursolve.program import Result
 from contoursolve.solving import ArcSegment, Contour
 
@@ -53,7 +53,7 @@ def _called(answer: Answer) -> str:
 def title_line(answer: Answer, name: str) -> str:
     """The place, the form and the status of a contour of a program."""
     place = f"{printable(name)}:{answer.lines[0]}"
-    return f"{place}: {form_text(answer)}{_called(answer)}: {answer.state}"
+    return f"{place}: {answer.form_text}{_called(answer)}: {answer.state}"
 
 
 def explaining_lines(answer: Answer, system: "EquationSystem | None" = None) -> list[str]:
@@ -214,7 +214,7 @@ def given_table(answer: Answer) -> Table:
             rows.append((printable(each.word.text), "", "", "further fact"))
         else:
             rows.append((each.word.text, *_cells(each.value, each.unit), meaning))
-    for asked in answer.answers:
+    for asked in answer.asked:
         question = asked.question
         meaning = f"asked: {called(meaning_of(question.name, question.word, answer.claim))}".strip(": ")
         number = ("?", "") if asked.value is None else _cells(*found_value(asked, answer))

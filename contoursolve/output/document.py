@@ -198,7 +198,7 @@ def _contour(answer: Answer) -> dict[str, Any]:
         "certificate": _certificate(certificate),
         **premise_data(answer.premises),
         "facts": [directive.text for directive in answer.claim.directives],
-        "asked": [_asked(each, answer) for each in answer.answers],
+        "asked": [_asked(each, answer) for each in answer.asked],
         "filled": {"blocks": list(answer.filled.blocks), "deviation_mm": _number(answer.filled.deviation)}
         if answer.filled
         else None,

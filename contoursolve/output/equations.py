@@ -66,12 +66,9 @@ def equations_of(answer: Answer, word: Word) -> tuple[list[str], list[tuple[str,
     >>> equations_of(answer, answer.claim.words["B"])[0]
     ['(Z_V2 - Z_V1)*sin(B) = (X_V2 - X_V1)*cos(B)']
     """
-    system = answer.system
-    symbols = {each.symbol for each in system.words if each.source and each.source.span == word.span}
-    stated = (each for each in system.statements if each.source and each.source.span == word.span)
+    stated, conditions = answer.system.of_word(word)
     equations = [symbolic.text(each.equation) for each in stated]
-    own = [each for each in system.conditions if symbols & each.expression.free_symbols]
-    return equations, [(printable(each.meaning), symbolic.text(each.expression), _here(each)) for each in own]
+    return equations, [(printable(each.meaning), symbolic.text(each.expression), _here(each)) for each in conditions]
 
 
 def size_text(system: EquationSystem) -> str:

@@ -115,7 +115,7 @@ def figure(record: Drawable, *, is_inline: bool = False, tool: "ToolReport | Non
     its tables say the same."""
     try:
         beside = beside_of(tool, record if isinstance(record, Answer) else None)
-        drawn = draw(record, theme=Theme.PAGE, beside=beside)
+        drawn = draw(record, theme=Theme.PAGE, **({"beside": beside} if beside else {}))
         if is_inline:  # so that arrow keys scroll it
             return h.figure(tabindex="0", aria_label="Picture")[Markup(drawn.svg)]  # our own painter escapes
         return h.figure[Markup(drawn._repr_html_())]

@@ -25,7 +25,6 @@ from contoursolve.families import (
 )
 from contoursolve.numeric import Array
 from contoursolve.output.plain_text import printable
-from contoursolve.output.word_meanings import end_text
 from contoursolve.pictures import (
     MAP_BOX,
     MapPlane,
@@ -151,7 +150,7 @@ class LiveMap:
             if answer is None or answer.contour is None:
                 yield MapFrame(own, ": ".join(words_of(int(outcomes[number]))), None)
                 continue
-            text = f"{answer.state}, end {end_text(answer)}"
+            text = f"{answer.state}, end {answer.end_text}"
             if results is not None:
                 text += f"; {self.result} {results[number]:.3f} {self.result_unit}"
             yield MapFrame(own, text, answer.contour)

@@ -21,7 +21,7 @@ def premise_texts(premises: Premises, control: str) -> Iterator[str]:
 def _convention_text(convention: Convention, control: str) -> str:
     setting = convention.setting
     name = f"{control}.{setting.name}" if control else setting.name
-    return f"{convention.evidence.value}: {convention.meaning} (--set {name}={convention.value})"
+    return f"{convention.evidence.value}: {convention.meaning} (--setting {name}={convention.value})"
 
 
 def premise_data(premises: Premises) -> dict[str, Any]:

@@ -32,7 +32,6 @@ from contoursolve.output.html import (
 )
 from contoursolve.output.listing import sources_of, summary_line
 from contoursolve.output.plain_text import Name, printable
-from contoursolve.output.word_meanings import form_text
 from contoursolve.pictures import About, named_words
 from contoursolve.program import Result
 
@@ -189,7 +188,7 @@ def _contours(
         (
             h.a(href=f"#contour-{number}")[f"contour {number}"],
             _line_link(answer.lines[0], places),
-            short(form_text(answer)),
+            short(answer.form_text),
             _status(answer),
             h.span(".place")[coordinates(answer.contour.end, answer.plane, answer.unit)] if answer.contour else "",
             _found(answer.diagnostics),
@@ -224,7 +223,7 @@ def _contour(
     path = path_element(answer, identity=f"path-{number}")
     words = words_table(answer, identity=f"words-{number}")
     element = h.article(id=f"contour-{number}")[
-        h.h3[short(f"Contour {number}, program line {answer.lines[0]}: {form_text(answer)}"), ": ", _status(answer)],
+        h.h3[short(f"Contour {number}, program line {answer.lines[0]}: {answer.form_text}"), ": ", _status(answer)],
         h.div(".blocks")[
             (
                 h.p[_line_link(block.line, places), " ", h.code[short(block.text.strip())]]

@@ -153,7 +153,7 @@ def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
         for name, given in answer.profile.givens.items()
         if given.word is not None and name in roles
     }
-    questions = [asked.question for asked in answer.answers if asked.question.word.address != FACT]
+    questions = [asked.question for asked in answer.asked if asked.question.word.address != FACT]
     by_span |= {question.word.span: roles.get(question.name, Role.FREE) for question in questions}
     by_span |= {span: Role.CONFLICTING for span in subject.blamed if span not in by_span}
     blocks, most = answer.claim.blocks, MOST_OF_CHAIN if subject.is_chain else MOST_LINES

@@ -84,7 +84,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
             measured.add(given.word.span)
             yield replace(drawn, about=subject.about(given.word.span))
     yield from _corners(subject, elements, measured)
-    for asked in subject.answer.answers:
+    for asked in subject.answer.asked:
         question = asked.question
         if asked.value is None:
             continue

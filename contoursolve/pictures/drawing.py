@@ -6,7 +6,7 @@ An answer or a family comes in, one page of shapes goes out. Begin with `compose
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from msgspec.structs import replace
 
@@ -24,35 +24,27 @@ if TYPE_CHECKING:
     from contoursolve.families import CompiledSweep, Family, FeasibleRange, FeasibleRegion
     from contoursolve.solving import Drawing, Drawings, Sketch
 
-Drawable: TypeAlias = "Answer | EquationSystem | Result | Family | Feasible | Region | Sketch | Drawings | Drawn"
+Drawable: TypeAlias = (
+    "Answer | EquationSystem | Result | Family | FeasibleRange | FeasibleRegion | Sketch | Drawings | Drawing"
+)
 """Types that `draw` accepts."""
 
 
-def draw(
-    record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None, beside: Sequence[ToolDrawing] = ()
-) -> Picture:
+def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, **options: Any) -> Picture:
     """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, of
-    every way to draw a sketch, or of the matrix of a system. `is_whole` is for a program: see `draw_result`. `beside`
-    is what else is drawn with contours.
+    every way to draw a sketch, or of the matrix of a system. The options are those of the function for such a record.
 
-    Raises ValueError for a family that is no grid of two words, and for a sketch whose facts make no sense.
+    Raises TypeError for an option that such a record does not have, ValueError for a family that is no grid of two
+    words, and for a sketch whose facts make no sense.
     """
-    from contoursolve.families import Family, FeasibleRange, FeasibleRegion  # noqa: PLC0415 - not needed for one contour
-    from contoursolve.solving import Drawing, Drawings, Sketch  # noqa: PLC0415 - as above
-
-    if isinstance(record, Result):
-        return draw_result(record, theme=theme, is_whole=is_whole, beside=beside)
-    if isinstance(record, Family):
-        return draw_family_map(record, theme=theme)
-    if isinstance(record, FeasibleRange):
-        return draw_range(record, theme=theme)
-    if isinstance(record, Sketch | Drawings | Drawing):
-        return draw_drawings(record.solve() if isinstance(record, Sketch) else record, theme=theme)
-    if isinstance(record, FeasibleRegion):
-        return draw_region(record, theme=theme)
-    if isinstance(record, EquationSystem):
-        return draw_matrix(record, theme=theme)
-    return draw_answer(record, theme=theme, beside=beside)
+    kind = type(record).__name__
+    if kind not in _DRAWN:
+        raise TypeError(f"{kind} has no picture; one is drawn of a contour, a program, a family, a range, or a sketch")
+    make, known = _DRAWN[kind]
+    unknown = next((name for name in options if name not in known), None)
+    if unknown is not None:
+        raise TypeError(f"a picture of {kind} has no option {unknown!r}; it has theme, {', '.join(known)}")
+    return make(record, theme=theme, **options)
 
 
 def draw_answer(
@@ -229,3 +221,21 @@ def draw_sweep(
     if isinstance(shown, tuple):
         return draw_family_fan(*shown, theme=theme, title=told)
     return finish(lay_out_map(shown, None, told, ready.ranges, result), theme)
+
+
+def _draw_sketch(sketch: Sketch, **options: Any) -> Picture:
+    return draw_drawings(sketch.solve(), **options)
+
+
+_DRAWN: Mapping[str, tuple[Callable[..., Picture], tuple[str, ...]]] = {
+    "Answer": (draw_answer, ("title", "like", "has_remarks", "beside")),
+    "Result": (draw_result, ("title", "is_whole", "beside")),
+    "Family": (draw_family_map, ("title", "words", "result")),
+    "FeasibleRange": (draw_range, ("title",)),
+    "FeasibleRegion": (draw_region, ("title", "result")),
+    "Sketch": (_draw_sketch, ("title",)),
+    "Drawings": (draw_drawings, ("title",)),
+    "Drawing": (draw_drawings, ("title",)),
+}
+"""The function for each kind of record, by its name, for its room need not be imported; and its options beside the
+theme."""

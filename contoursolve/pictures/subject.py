@@ -243,7 +243,7 @@ def _roles(answer: Answer, blamed: frozenset[Span]) -> dict[str, Role]:
         if given.word is not None:
             is_blamed = given.word.span in blamed
             roles[name] = Role.IGNORED if name in ignored else Role.CONFLICTING if is_blamed else Role.GIVEN
-    for asked in answer.answers:
+    for asked in answer.asked:
         roles[asked.question.name] = Role.FREE if asked.value is None else Role.DERIVED
     return roles
 

@@ -93,7 +93,7 @@ class Picture:
             case ".png":
                 target.write_bytes(self.png(dpi))
             case ending:
-                told = "; contoursolve.to_dxf(result.answers) makes a drawing for CAD" if ending == ".dxf" else ""
+                told = "; contoursolve.export(result, path) makes a drawing for CAD" if ending == ".dxf" else ""
                 raise ValueError(f"{target}: a picture ends in .svg or .png{told}")
 
 

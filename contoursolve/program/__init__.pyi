@@ -35,6 +35,7 @@ from .mending import (
     mend_open as mend_open,
     safe_fixes as safe_fixes,
 )
+from .named_words import NamedWordError as NamedWordError
 from .no_contour import (
     conclusions as conclusions,
 )
@@ -44,6 +45,7 @@ from .open_program import (
 )
 from .pipeline import (
     ELSEWHERE as ELSEWHERE,
+    FactPlaceError as FactPlaceError,
     Result as Result,
     Run as Run,
     attach as attach,
@@ -98,5 +100,6 @@ from .solve_queue import (
     Step as Step,
 )
 from .start_point import (
+    StartError as StartError,
     check_start as check_start,
 )

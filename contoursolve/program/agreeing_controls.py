@@ -68,7 +68,7 @@ def choose_alike(
     recognise_by: Callable[[Iterable[Block]], Control | None] | None = None,
 ) -> Control | None:
     """The control as `choose` finds it, or else the first of those that have the words of a program and read it alike;
-    the others are told by it (`Dialect.taken`). `asked` says from where and how the program is examined.
+    the others are told by it (`Control.taken`). `asked` says from where and how the program is examined.
 
     Raises UnknownControlError, which tells what they read differently, and SettingError.
     """

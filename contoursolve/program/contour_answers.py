@@ -42,7 +42,7 @@ def answer_to(asked: Request, dialect: Control, found: ParsedContour, pending: P
             answer = replace(answer, diagnostics=tuple(_at_call(each, answer, dialect) for each in answer.diagnostics))
         elif block is not None and dialect.modes.zero.rows_in(block):
             answer = replace(answer, diagnostics=tuple(_at_moved_zero(each, block) for each in answer.diagnostics))
-    if answer.contour is not None and any(value.value is not None for value in answer.answers):
+    if answer.contour is not None and any(value.value is not None for value in answer.asked):
         from contoursolve.diagnosis import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
         return replace(answer, filled=fill_in(answer, pending.step.before, dialect))

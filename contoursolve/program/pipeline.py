@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -63,6 +63,7 @@ class Result(Shown, Struct, frozen=True):
     profiles: tuple[CycleProfile, ...] = ()
     around: Surroundings = ALONE
     is_concluded: bool = False
+    tool: Any = None
 
     __hash__ = hash_of
 
@@ -70,6 +71,19 @@ class Result(Shown, Struct, frozen=True):
     def has_errors(self) -> bool:
         """Whether any finding is an error."""
         return any(each.is_error for each in self.diagnostics)
+
+    @property
+    def answer(self) -> Answer:
+        """The answer for the only contour. Raises ValueError if there is none, or more than one."""
+        if len(self.answers) == 1:
+            return self.answers[0]
+        if self.answers:
+            lines = ", ".join(str(each.lines[0]) for each in self.answers)
+            count = f"{len(self.answers)} contours, which begin in program lines {lines}"
+            raise ValueError(f"the program has {count}; take one of result.answers, or result.contour_at(line)")
+        finding = next((each for each in self.diagnostics if each.is_error), None)
+        why = f": {finding.message}" if finding is not None else ""
+        raise ValueError(f"the program has no contour{why}")
 
     def lines_of(self, finding: Diagnostic) -> tuple[int, ...]:
         """The lines that a fix of a finding replaces: those of its contour, or else its own."""

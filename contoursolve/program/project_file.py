@@ -144,7 +144,7 @@ def _read_stated(control: str, others: Iterable[str]) -> dict[str, str]:
 
 
 def _no_control(name: object) -> str:
-    return f"there is no control {name!r}; {did_you_mean(str(name), DIALECTS)}choose from {', '.join(DIALECTS)}"
+    return f"there is no control {name!r}; {did_you_mean(str(name), CONTROLS)}choose from {', '.join(CONTROLS)}"
 
 
 def read_setting(text: str) -> tuple[str, str]:
@@ -266,7 +266,7 @@ def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
             meant = did_you_mean(control, (CONTROL, BASELINE)) or "write [CONTROL] above it, such as [nct-99m]"
             raise SettingError(f"{_place(file, control)}: {control!r} stands in no table; {meant.strip()}")
         if control not in CONTROLS:
-            meant = did_you_mean(control, (TOOLS, *CONTROLS)) or f"tables are: {TOOLS}, {', '.join(DIALECTS)}"
+            meant = did_you_mean(control, (TOOLS, *CONTROLS)) or f"tables are: {TOOLS}, {', '.join(CONTROLS)}"
             raise SettingError(f"{_place(file, control)}: there is no table [{control}]; {meant.strip()}")
         for name, value in own.items():
             if isinstance(value, (dict, list)):

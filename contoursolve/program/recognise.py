@@ -147,7 +147,7 @@ def named_control(control: str | Control | None, settings: Mapping[str, str] | N
 def find_dialect(control: str) -> Control:
     """The control of this name. Raises UnknownControlError, which lists the choices."""
     if control not in CONTROLS:
-        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(DIALECTS)}")
+        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(CONTROLS)}")
     return CONTROLS[control]
 
 
@@ -455,7 +455,7 @@ def several_controls(
         if name in signs:
             by_sign.setdefault(signs[name], []).append(name)
     places = "; ".join(f"{either(names)} by {sign}" for sign, names in by_sign.items())
-    reads = "; ".join(f"{name} has {DIALECTS[name].contours}" for name in CONTROLS if name in signs)
+    reads = "; ".join(f"{name} has {CONTROLS[name].contours}" for name in CONTROLS if name in signs)
     return kind(
         f"the program looks like more than one control ({places}); {reads}",
         [name for name in CONTROLS if name in signs],

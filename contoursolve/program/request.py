@@ -73,7 +73,7 @@ Depths = Literal["verdict", "path", "full", "findings", "trial"]
 class ReadingKeywords(TypedDict, total=False):
     """Keywords that say as what a program is read."""
 
-    control: "ControlName | Dialect | None"
+    control: "ControlName | Control | None"
     units: Units
     rules: Rules
     settings: "Mapping[str, str] | None"
@@ -119,7 +119,7 @@ class FollowKeywords(SolveKeywords, CheckKeywords, total=False):
 class SolveOptions(Struct, frozen=True, kw_only=True):
     """The keywords of `solve` and its kin, as they are stated; see there."""
 
-    control: "str | Dialect | None" = None
+    control: "str | Control | None" = None
     start: "str | Mapping[str, float] | None" = None
     units: str = "mm"
     rules: str = "enforce"

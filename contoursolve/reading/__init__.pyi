@@ -42,6 +42,7 @@ from .dialect import (
     Y_AXIS as Y_AXIS,
     Behind as Behind,
     Control as Control,
+    LegalBlock as LegalBlock,
     Taken as Taken,
 )
 from .doubtful_words import doubtful_words as doubtful_words

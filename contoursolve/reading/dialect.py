@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from msgspec import Struct
 
-from contoursolve.diagnostics import did_you_mean
+from contoursolve.diagnostics import did_you_mean, from_above
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Length, Plane
 from contoursolve.reading.contour_form import Assumption, ContourForm, Setting
@@ -51,7 +51,17 @@ class Taken(Struct, frozen=True):
 
 
 Y_AXIS, POLAR_WORDS, SEMICOLON_COMMENT, NAMED_FILE = "Y", "polar words", "comment behind ;", "ending of the file"
-"""Marks of a program, by which `Dialect.excluded_by` says that it is for another control."""
+"""Marks of a program, by which `Control.excluded_by` says that it is for another control."""
+
+
+class LegalBlock(Struct, frozen=True):
+    """An example of a block, or of several, that a control accepts: the smallest set of words of its form, with values
+    that make a contour."""
+
+    form: str
+    title: str
+    addresses: tuple[str, ...]
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +131,12 @@ class Control:
         if any("{control}" in each.help and each.control != self.name for each in self.rules):
             named = (replace(each, control=self.name) if "{control}" in each.help else each for each in self.rules)
             object.__setattr__(self, "rules", tuple(named))
+
+    @property
+    def examples(self) -> tuple[LegalBlock, ...]:
+        """Examples of all its forms, with the smallest sets of words of each."""
+        found: tuple[LegalBlock, ...] = from_above("legal_blocks", self)
+        return found
 
     @property
     def catalogue(self) -> tuple[Rule, ...]:

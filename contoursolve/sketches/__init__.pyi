@@ -43,5 +43,4 @@ from .view import (
 from .words_out import (
     UnfinishedError as UnfinishedError,
     write as write,
-    write_for_all as write_for_all,
 )

@@ -235,12 +235,12 @@ def _opened(drawing: str | Path | bytes) -> tuple[Any, list[str]]:
 
 def _strictly(data: bytes) -> Any:
     """The document of a file without damage. Raises whatever ezdxf does."""
-    from ezdxf.document import NaturalDrawing  # noqa: PLC0415 - an extra
+    from ezdxf.document import Drawing  # noqa: PLC0415 - an extra
     from ezdxf.filemanagement import dxf_stream_info, read  # noqa: PLC0415 - an extra
     from ezdxf.lldxf.tagger import binary_tags_loader  # noqa: PLC0415 - an extra
 
     if data.startswith(b"AutoCAD Binary DXF"):
-        return NaturalDrawing.load(binary_tags_loader(data))
+        return Drawing.load(binary_tags_loader(data))
     encoding = dxf_stream_info(io.StringIO(data.decode("latin-1"), newline=None)).encoding
     return read(io.StringIO(data.decode(encoding, "surrogateescape"), newline=None))
 

@@ -56,7 +56,7 @@ def _written(answer: Answer, value: float, is_diameter: bool, decimals: int) -> 
 def asked_values(program: SketchProgram, answer: Answer) -> dict[Field, Decimal | None]:
     """The values of fields that ask for one, to three decimals, as they are written; None where nothing tells it."""
     found: dict[Field, Decimal | None] = {}
-    for each in answer.answers:
+    for each in answer.asked:
         field, value, question = program.field_at(each.question.word.span), each.value, each.question
         if field is not None and value is not None and question.unit is Unit.MM:
             found[field] = _written(answer, value, question.is_diameter, 3)

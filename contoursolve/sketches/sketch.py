@@ -2,13 +2,16 @@
 
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
+from pathlib import Path
 from typing import Any, Final, Literal
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS
-from contoursolve.diagnostics import UserError, hash_of
+from contoursolve.diagnosis import Answer, EquationSystem
+from contoursolve.diagnostics import UserError, from_above, hash_of
+from contoursolve.gcode import write_whole
 from contoursolve.reading import Control
 
 VERSION = 1
@@ -105,6 +108,27 @@ class ContourSketch(Struct, frozen=True):
             yield self.name_of(number), number
             if element.corner:
                 yield f"corner {number}", number
+
+    def solve(self, *, with_ranges: bool = False) -> Any:
+        """All that is known of it, however little that is: a `SketchAnswer`, with `answer`, `elements` and `missing`.
+
+        With ranges, each entry that would finish it has its ranges, and each finding its fixes; that takes longer.
+        """
+        return from_above("solve_sketch", self, with_ranges=with_ranges)
+
+    def system(self) -> EquationSystem:
+        """The equations of its contour, as far as it is given. Raises ValueError where it has no element, or begins
+        nowhere."""
+        answer: Answer | None = self.solve().answer
+        if answer is None:
+            raise ValueError("a system takes an element, and a place where the sketch begins")
+        return answer.system
+
+    def save(self, path: str | Path) -> None:
+        """Write it as a file that `read_sketch` reads: JSON where the name ends so, else TOML. Raises UserError where
+        it cannot be written."""
+        text = from_above("write_sketch", self, as_json=Path(path).suffix.lower() == ".json")
+        write_whole(Path(path), (text.encode(),), keeps_backup=False)
 
     def changed(self, number: int, **fields: Any) -> "ContourSketch":
         """The sketch with other fields of an element, by its number from 1."""

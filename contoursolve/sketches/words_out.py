@@ -1,10 +1,11 @@
 """A contour in the words of a control, or of all controls: `contoursolve.write`."""
 
 from collections.abc import Mapping
+from typing import overload
 
 from contoursolve.controls import CONTROLS, ControlName
 from contoursolve.diagnosis import Answer, status_text
-from contoursolve.diagnostics import UserError, check_type, checked
+from contoursolve.diagnostics import UserError, check_type
 from contoursolve.postprocess import WrittenContours, write_contour
 from contoursolve.program import Result, configure, find_dialect
 from contoursolve.reading import Control
@@ -16,17 +17,33 @@ class UnfinishedError(UserError, ValueError):
     """A contour that has no path yet, so that it has no words; the message says what is open."""
 
 
+@overload
 def write(
     contour: Answer | Result | ContourSketch,
     control: ControlName | Control,
     *,
     settings: Mapping[str, str] | None = None,
-) -> WrittenContours:
+) -> WrittenContours: ...
+
+
+@overload
+def write(
+    contour: Answer | Result | ContourSketch, control: None = None, *, settings: Mapping[str, str] | None = None
+) -> tuple[WrittenContours, ...]: ...
+
+
+def write(
+    contour: Answer | Result | ContourSketch,
+    control: ControlName | Control | None = None,
+    *,
+    settings: Mapping[str, str] | None = None,
+) -> WrittenContours | tuple[WrittenContours, ...]:
     """A contour in the words of a control: those first that have the drawing's own numbers, and are few.
 
     Args:
         contour: a sketch, a solved contour, or the result of a program with one contour.
-        control: its name, such as `fanuc-lathe`, or its tables.
+        control: its name, such as `fanuc-lathe`, or its tables; without it, all of them are written for, each with its
+            first candidate.
         settings: conventions of the controls by `control.name`, as for `solve`.
 
     Returns:
@@ -42,17 +59,11 @@ def write(
     ('G01 Z-30. ,R5.', 'X100. ,A120.')
     """
     check_type("contour", contour, Answer | Result | ContourSketch)
+    if control is None:
+        answer = _answer_of(contour)
+        return tuple(write_contour(answer, configure(CONTROLS[name], settings), most=1) for name in CONTROLS)
     target = control if isinstance(control, Control) else configure(find_dialect(control), settings)
     return write_contour(_answer_of(contour), target)
-
-
-@checked
-def write_for_all(
-    contour: Answer | Result | ContourSketch, *, settings: Mapping[str, str] | None = None
-) -> tuple[WrittenContours, ...]:
-    """The same for every control: the first candidate of each, or the reason why there is none."""
-    answer = _answer_of(contour)
-    return tuple(write_contour(answer, configure(CONTROLS[name], settings), most=1) for name in CONTROLS)
 
 
 def _answer_of(contour: Answer | Result | ContourSketch) -> Answer:

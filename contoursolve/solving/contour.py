@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from math import acos, asin, atan2, ceil, cos, degrees, dist, hypot, pi, radians, sin, sqrt, tau
+from math import acos, asin, atan2, ceil, cos, degrees, dist, fsum, hypot, pi, radians, sin, sqrt, tau
 from typing import Any, NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics import Shown, plot_on
+from contoursolve.diagnostics import Shown, from_above, need
 from contoursolve.geometry import Corner, Line, Plane, Profile, Turn
 from contoursolve.solving.solution import Point, SystemSolution
 from contoursolve.tolerance import AGREEMENT, LENGTH
@@ -75,6 +75,29 @@ class ArcSegment(Struct, frozen=True):
 Segment = LineSegment | ArcSegment
 
 
+def swept_area(segment: Segment, origin: Point) -> float:
+    """The area between a line or an arc and a point, mm2, counter-clockwise positive."""
+    (x, y), (u, v) = ((at[0] - origin[0], at[1] - origin[1]) for at in (segment.start, segment.end))
+    straight = (x * v - y * u) / 2
+    if isinstance(segment, LineSegment):
+        return straight
+    angle = radians(segment.sweep)
+    return straight + segment.turn.sign * segment.radius**2 * (angle - sin(angle)) / 2
+
+
+class NamedPoints(dict[str, Point]):
+    """The named points of a path. `start` and `end` can be asked for like them, and are not listed."""
+
+    def __init__(self, points: Mapping[str, Point], start: Point, end: Point) -> None:
+        super().__init__(points)
+        self._ends = {"start": start, "end": end}
+
+    def __missing__(self, name: str) -> Point:
+        if name in self._ends:
+            return self._ends[name]
+        raise KeyError(f"the contour has no point {name}; there are {', '.join((*self._ends, *self))}")
+
+
 class Crossing(NamedTuple):
     """The first element that goes across the spindle axis from where the path begins, and its farthest place there."""
 
@@ -102,13 +125,43 @@ class Contour(Shown):
     start: Point
     end: Point
     points: Mapping[str, Point]
+    """Its named points, such as `V1`; `start` and `end` as well, which are not listed."""
     elements: tuple[Segment, ...]
     plane: Plane = field(compare=False)
     places: Mapping[str, Point] = field(default_factory=dict, compare=False, repr=False)
     free: tuple[bool, bool] = field(default=(False, False), compare=False, repr=False)
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", NamedPoints(self.points, self.start, self.end))
+
     def __hash__(self) -> int:
         return hash((self.start, self.end, self.elements))
+
+    @property
+    def length(self) -> float:
+        """The length of the path, mm."""
+        return sum(element.length for element in self.elements)
+
+    @property
+    def area(self) -> float:
+        """The area that a closed path goes around, mm2, where it does not cross itself; exact for its lines and arcs.
+        Raises ValueError for a path that is open by more than the least increment."""
+        gap = dist(self.start, self.end)
+        if gap > AGREEMENT or not self.elements:
+            raise ValueError(
+                f"the contour is open: its end is {gap:.4f} mm from its start; only a closed one has an area"
+            )
+        parts = [swept_area(element, self.start) for element in self.elements]
+        return abs(fsum((*parts, swept_area(LineSegment("", self.end, self.start), self.start))))
+
+    def to_shapely(self, chord_error: float = 0.01) -> Any:
+        """The path as a `LineString` of shapely through the points of `sample`; `shapely.Polygon` takes a closed one.
+
+        Raises MissingExtraError without the package of `contoursolve[geometry]`, ValueError for a chord error that is
+        not positive.
+        """
+        shapely = need("shapely", "geometry", "a contour for shapely")
+        return shapely.LineString(self.sample(chord_error))
 
     def table(self) -> list[dict[str, str | float | None]]:
         """A row for each element, as `pandas.DataFrame` takes them; None for what an element does not have.
@@ -139,7 +192,7 @@ class Contour(Shown):
         machine has them. The aspect becomes equal. Raises MissingExtraError without the package of
         `contoursolve[plot]`, ValueError for a chord error that is not positive.
         """
-        return plot_on(self, ax, chord_error=chord_error, **style)
+        return from_above("plot_record", self, ax, chord_error=chord_error, **style)
 
     def is_alike(self, other: "Contour") -> bool:
         """Whether the elements of two paths are of the same kinds and turn the same way, one by one."""

@@ -66,7 +66,7 @@ class Drawing(Shown):
         parts = [f"{name} {_place(at)}" for name, at in self.points.items()]
         parts += [f"{name} {_shown(radius)} mm" for name, radius in self.radii.items()]
         parts += map(str, self.asked)
-        return f"<Drawn {self.name or 'only drawing'}: {', '.join(parts)}>"
+        return f"<Drawing {self.name or 'only drawing'}: {', '.join(parts)}>"
 
     def __str__(self) -> str:
         return "\n".join(self._lines())

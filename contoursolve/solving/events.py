@@ -6,7 +6,7 @@ from enum import Enum
 
 from msgspec import Struct
 
-from contoursolve.diagnostics import Severity
+from contoursolve.diagnostics import Severity, from_above
 
 
 class Status(Enum):
@@ -27,6 +27,15 @@ class Status(Enum):
     UNDECIDED = "undecided"
     """Determined, but that there is no contour, or no other one than was found, is not proven: state simpler facts."""
     SOLVED = "solved"
+
+    @property
+    def text(self) -> str:
+        """The same as a reader sees it, after a colon: what is to be done is the same for several of them.
+
+        >>> Status.CONFLICTING.text
+        'cannot be cut'
+        """
+        return str(from_above("status_text", self))
 
 
 BESIDE = ("limit_first", "limit_second")

@@ -13,6 +13,7 @@ from .findings import (
     look_at_tool as look_at_tool,
 )
 from .largest import (
+    ToolOptions as ToolOptions,
     ToolTrials as ToolTrials,
     find_tools as find_tools,
     largest_tools as largest_tools,
@@ -38,6 +39,7 @@ from .runs import (
     is_compensated as is_compensated,
 )
 from .stated import (
+    FROM_PROGRAM as FROM_PROGRAM,
     result_beside_tool as result_beside_tool,
     wanted_tool as wanted_tool,
 )

@@ -26,7 +26,18 @@ from contoursolve.diagnosis import (
     rank,
     write_word,
 )
-from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence, Fix, Label, Severity, Span, hash_of
+from contoursolve.diagnostics import (
+    Applicability,
+    Basis,
+    Diagnostic,
+    Evidence,
+    Fix,
+    Label,
+    Severity,
+    Span,
+    from_above,
+    hash_of,
+)
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
@@ -303,6 +314,10 @@ class ToolReport(Struct, frozen=True):
     path: ToolPath
 
     __hash__ = hash_of
+
+    def text(self, line: int) -> str:
+        """The sentence about which tool cuts the contour on a program line; empty where no tool goes."""
+        return str(from_above("tool_text", self, line))
 
 
 def look_at_tool(result: Result, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()) -> ToolReport:

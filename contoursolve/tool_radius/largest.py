@@ -154,27 +154,12 @@ class ToolOptions(BlockOptions, total=False):
 def find_tools(
     text: str, *, within: tuple[float, float] | None = None, **options: Unpack[ToolOptions]
 ) -> Mapping[tuple[int, ...], FeasibleRange]:
-    """The radii of tools that cut each contour of a program, by its lines, and what ends them.
-
-    Args:
-        text: the program, or a block; every run of cutting moves is a contour, with contour words or without.
-        within: the range of radii to search; without it, up to 1 m.
-        side: `left` or `right`; without it what the program's G41 or G42 (RL, RR) says.
-        tip: the number of the imaginary tip of a turning tool, 0 to 9.
-        outside: the way around an outside corner, `roll` or `intersect`; without it as the program or the control says.
-        options: as for `feasible`, with the same errors.
-
-    Radii are in the unit of the program. Raises ToolError for a tool that there cannot be, for a side that
-    nothing says, and without a cutting move.
+    """The radii of tools that cut each contour of a program, by its lines, and what ends them; see
+    `contoursolve.ranges`.
 
     A smaller tool is taken to fit wherever a larger one does, and both sides of each end are tried. Run-in and run-off
     may cross: where a large tool reaches over both, less is in its way than in that of a small one. There may be two
     ranges. What no path shows, such as a cycle, is left out; `contoursolve find` lists it.
-
-    >>> blocks = "G01 X20. Z-14.6\\nG02 X20.8 Z-15. R0.4\\nG01 X40. Z-15."
-    >>> found = find_tools(blocks, side="right", tip=3, start="X20. Z0.", control="fanuc-lathe")
-    >>> found[1, 2, 3].intervals[0].high.value
-    0.4
     """
     wanted, rest = request_of(options)
     template = spec_of(text, **rest).template()

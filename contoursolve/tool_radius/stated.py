@@ -20,10 +20,10 @@ FROM_PROGRAM = "program"
 
 
 def result_beside_tool(result: Result, report: ToolReport) -> Result:
-    """The result of a program with the findings about its tool."""
+    """The result of a program with what is said of its tool."""
     is_cut = bool(report.runs)
     kept = [each for each in result.diagnostics if not (is_cut and each.about is ReadIssue.NO_CONTOUR)]
-    return replace(result, diagnostics=tuple(sorted((*kept, *report.findings), key=rank)))
+    return replace(result, diagnostics=tuple(sorted((*kept, *report.findings), key=rank)), tool=report)
 
 
 def wanted_tool(

@@ -115,7 +115,7 @@ def sweep_tools(
     # What is wrong with the tool is told before anything is solved.
     ToolTrials(as_it_stands, template.asked, wanted)
     if not values and not as_it_stands.answers:
-        raise FamilyError("the block has no contour words; contoursolve range --word tool tells which tools cut it")
+        raise FamilyError("the block has no contour words; contoursolve ranges --word tool tells which tools cut it")
     contours = compile_sweep(spec, Ranges(values, is_paired=is_paired))
     unit = contours.template.solve({word: float(each[0]) for word, each in contours.ranges.values.items()}).unit
     ranges = Ranges({**contours.ranges.values, TOOL: radii}, is_paired=is_paired)
@@ -132,22 +132,5 @@ def family_of_tools(
     workers: int | None = None,
     **options: Unpack[ToolOptions],
 ) -> Family:
-    """Tell for many contours of one block, and for many tools, which tool cuts which contour.
-
-    Args:
-        block: the block, or the blocks of one contour, with any further moves.
-        vary: the radii of tools as `tool`, in the unit of the block; and the values of free words, as for `family`.
-        paired: the values stand side by side; without it, every combination is a row, with the tool as the last axis.
-        workers: threads.
-        options: `side`, `tip`, `outside` and others as for `find_tools`, with its errors and those of `family`.
-
-    Each row is as `family` has it, with its own status, and three arrays more: `tool.fits` (bool; False without a
-    contour), `tool.largest` (mm; the largest of the given radii that cuts this contour, NaN where none does), and
-    `tool.fault` (text, such as `arc_too_small`; what stops the tool, or else what it is warned of, empty for nothing).
-
-    >>> vary = {"P": [0.4, 0.8, 1.2], "tool": [0.4, 0.8]}
-    >>> block = "G111 X100. A180. K-30. B120. P5. Q5."
-    >>> family_of_tools(block, start="X40. Z0.", side="right", tip=3, vary=vary)["tool.fits"].tolist()
-    [[True, False], [True, True], [True, True]]
-    """
+    """A family of contours, and of the tools that cut them; see `contoursolve.family`."""
     return solve_sweep(sweep_tools(block, vary=vary, paired=paired, **options), workers)

@@ -6,7 +6,7 @@ from contoursolve.gcode import Syntax, comment_out
 
 _VALUE = r'(?:"([^"]*)"|([\w.#$?+=-]*[\w?]))'
 
-_SETTING = re.compile(r"--set ([\w-]+)\.([\w-]+)=([\w.+-]*\w)")
+_SETTING = re.compile(r"--setting ([\w-]+)\.([\w-]+)=([\w.+-]*\w)")
 
 _OPTIONS = (
     (
@@ -18,8 +18,8 @@ _OPTIONS = (
     (re.compile(r"with --control ([\w-]+)"), r"with \1 in the list above"),
     (re.compile(r"with --start\b"), r"under Variables"),
     (re.compile(f"--start {_VALUE}"), r"\1\2 as the start point under Variables"),
-    (re.compile(r"by --let\b"), r"under Variables"),
-    (re.compile(f"--let {_VALUE}"), r"\1\2 under Variables"),
+    (re.compile(r"by --variable\b"), r"under Variables"),
+    (re.compile(f"--variable {_VALUE}"), r"\1\2 under Variables"),
     (re.compile(r"with --tool\b"), r"under Tool"),
 )
 """Options, and what stands for each on the page: a list of controls above the program, and panes with names."""
@@ -29,7 +29,7 @@ def in_page_words(text: str, syntax: Syntax) -> str:
     """A text with the options that it names as the page has them; a setting is a comment of the program.
 
     >>> from contoursolve.gcode import ISO
-    >>> in_page_words('write the number, or state the value: --let "#100=60."', ISO)
+    >>> in_page_words('write the number, or state the value: --variable "#100=60."', ISO)
     'write the number, or state the value: #100=60. under Variables'
     """
     if "--" not in text:

@@ -142,7 +142,7 @@ def _convert(view: ProgramView, action: Mapping[str, Any]) -> Data:
     if control not in CONTROLS:
         raise ActionError(f"{control!r} is no control here")
     settings = {name: value for name, value in view.settings.items() if name != CONTROL}
-    return _program(view, converted(view.program, control, settings), f"-{control}{ending_of(DIALECTS[control])}")
+    return _program(view, converted(view.program, control, settings), f"-{control}{ending_of(CONTROLS[control])}")
 
 
 def _program(view: ProgramView, made: Product, ending: str) -> Data:

@@ -29,7 +29,7 @@ def words_of_sketch(action: Mapping[str, Any]) -> Data:
     """The words of a sketch for a control, or the first ones for each control. Raises as `sketches.write`."""
     sketch, control = _sketch(action), read_field(action, "control", str, "")
     if not control:
-        return {"rows": [_row(each) for each in sketches.write_for_all(sketch)]}
+        return {"rows": [_row(each) for each in sketches.write(sketch)]}
     if control not in CONTROLS:
         raise ActionError(f"{control!r} is no control here")
     written = sketches.write(sketch, control)

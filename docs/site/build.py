@@ -27,7 +27,7 @@ from manual import alarms_page, control_page, manuals, rule_page, setting_anchor
 
 import contoursolve
 from contoursolve import pictures
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.geometry import Unit
 
 ROOT = Path(__file__).parents[2]
@@ -202,7 +202,7 @@ def rules_index() -> Iterator[str]:
     yield "| assumed | our choice where the pages that we have are silent |\n"
     yield "## The controls\n"
     yield "| control | words | rules | printed | derived | assumed |\n|---|---|--:|--:|--:|--:|"
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         grades = [rule.source.evidence.value for rule in dialect.catalogue]
         counts = [len(grades), *map(grades.count, ("printed", "derived", "assumed"))]
         words = f"[words]({dialect.name}/words.md)"
@@ -215,7 +215,7 @@ def counted_from() -> Iterator[str]:
     """What X is and from where angles count, of all controls."""
     yield "\n## Is X a diameter or a radius? From where does an angle count?\n"
     yield "| control | X | angle of a line | settings about it |\n|---|---|---|---|"
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         rows = dialect.modes.lexicon.addresses
         angles = [
             f"`{row.address}`: {row.meaning}"
@@ -236,14 +236,15 @@ def counted_from() -> Iterator[str]:
 
 def reference_page() -> Iterator[str]:
     """The public names, whose docstrings mkdocstrings shows."""
-    groups: dict[str, list[str]] = {"Functions": [], "Records": [], "Errors": []}
+    groups: dict[str, list[str]] = {"Functions": [], "Records": []}
     for name in contoursolve.__all__:
         each = getattr(contoursolve, name)
         if isinstance(each, ModuleType):
             continue
-        kind = "Functions" if not isinstance(each, type) else "Errors" if issubclass(each, Exception) else "Records"
-        groups[kind].append(f"contoursolve.{name}")
-    drawn = (name for name in pictures.__all__ if name.startswith("draw") or name in ("Drawable", "Picture", "Theme"))
+        groups["Records" if isinstance(each, type) else "Functions"].append(f"contoursolve.{name}")
+    for title, door in (("Errors", "errors"), ("Editing", "editing"), ("Tables of a control", "tables")):
+        groups[title] = [f"contoursolve.{door}.{name}" for name in getattr(contoursolve, door).__all__]
+    drawn = (name for name in pictures.__all__ if name.startswith("draw") or name in ("Drawable", "Theme"))
     groups["Pictures"] = [f"contoursolve.pictures.{name}" for name in drawn]
 
     yield "# Reference\n"
@@ -259,7 +260,7 @@ def reference_page() -> Iterator[str]:
 def try_page() -> str:
     """The page of the workbench, with what it shows before Python is there, and where Python comes from."""
     text = (TRY / "page.md").read_text(encoding="utf-8")
-    controls = [{"name": name, "title": dialect.title} for name, dialect in DIALECTS.items()]
+    controls = [{"name": name, "title": dialect.title} for name, dialect in CONTROLS.items()]
     hello = {
         "controls": controls,
         "examples": [{"control": each["name"], "title": each["title"]} for each in controls],

@@ -8,20 +8,20 @@ from hashlib import sha256
 from html import escape
 from itertools import groupby
 
-from contoursolve.controls import COMMON_RULES, DIALECTS, GEOMETRY_RULES
+from contoursolve.controls import COMMON_RULES, CONTROLS, GEOMETRY_RULES
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import FaultKind
 from contoursolve.geometry import Unit
 from contoursolve.output import alarm_rows
 from contoursolve.pictures import draw_result
 from contoursolve.program import Result
-from contoursolve.reading import THIS_CONTROL, Address, Code, Dialect, Effect, ReadIssue, Rule, Setting, WithoutPoint
+from contoursolve.reading import THIS_CONTROL, Address, Code, Control, Effect, ReadIssue, Rule, Setting, WithoutPoint
 from contoursolve.try_edits import try_example
 
 SHORT = 4
 """Words of a meaning that stands in the title of a section."""
 
-IN_ALL = frozenset.intersection(*(frozenset(each.name for each in one.settings) for one in DIALECTS.values()))
+IN_ALL = frozenset.intersection(*(frozenset(each.name for each in one.settings) for one in CONTROLS.values()))
 """Settings that every control has."""
 
 HOW_TO_READ = "[How to read this page](../index.md#how-to-read)"
@@ -57,9 +57,9 @@ class Manual:
     pictures: Mapping[str, str]
 
     @property
-    def dialect(self) -> Dialect:
+    def dialect(self) -> Control:
         """The tables."""
-        return DIALECTS[self.control]
+        return CONTROLS[self.control]
 
     def place(self, code: str) -> str:
         """The page of a rule, seen from the folder `rules`."""
@@ -83,12 +83,12 @@ GEOMETRY = "Lines, arcs and corners"
 def manuals() -> list[Manual]:
     """All controls, each with its examples run. Ends the build at one that does not say what it is for."""
     with ProcessPoolExecutor() as pool:
-        return [*pool.map(manual_of, DIALECTS)]
+        return [*pool.map(manual_of, CONTROLS)]
 
 
 def manual_of(control: str) -> Manual:
     """A control with its examples run, and the pictures of those that show something."""
-    dialect, shown, pictures = DIALECTS[control], {}, dict[str, str]()
+    dialect, shown, pictures = CONTROLS[control], {}, dict[str, str]()
     for rule in dialect.catalogue:
         if not rule.accepted or not rule.rejected:
             raise SystemExit(f"{control} has no example of {rule.code}: add a gap or a slip to its examples.py")
@@ -97,7 +97,7 @@ def manual_of(control: str) -> Manual:
     return Manual(control, shown, pictures)
 
 
-def _shown(dialect: Dialect, rule: Rule, text: str, pictures: dict[str, str], *, is_right: bool) -> Shown:
+def _shown(dialect: Control, rule: Rule, text: str, pictures: dict[str, str], *, is_right: bool) -> Shown:
     for depth in ("verdict", "full"):  # few findings need all that is known
         result = try_example(dialect, rule, text, depth)
         told = next((each for each in result.diagnostics if each.code == rule.code), None)
@@ -148,7 +148,7 @@ def control_page(manual: Manual) -> Iterator[str]:
         yield f"* **{plain(setting.meaning)}** ({plain(str(setting.source))})"
         for value, meaning in setting.values.items():
             default = ", the default" if value == setting.default else ""
-            yield f"    * `--set {dialect.name}.{setting.name}={value}`{default}: {plain(meaning)}"
+            yield f"    * `--setting {dialect.name}.{setting.name}={value}`{default}: {plain(meaning)}"
         if setting.bounds:
             yield f"    * {plain(setting.choices(''))}"
     yield "\n## Assumptions { #assumptions }\n"
@@ -188,13 +188,13 @@ def rule_page(manual: Manual, rule: Rule) -> Iterator[str]:
         yield from fenced(text)
 
 
-def contour_codes(dialect: Dialect) -> list[Code]:
+def contour_codes(dialect: Control) -> list[Code]:
     """The codes that begin a contour or make a corner, if they are no words with a number."""
     codes, words = dialect.modes.codes.values(), dialect.modes.lexicon.addresses
     return [code for code in codes if code.effect in (Effect.CONTOUR, Effect.CORNER) and code.text not in words]
 
 
-def words_title(dialect: Dialect) -> str:
+def words_title(dialect: Control) -> str:
     """The title of the page of words: with its codes, which the search finds then before all that contains them."""
     return " ".join(("words", *(code.text for code in contour_codes(dialect))))
 
@@ -219,7 +219,7 @@ def _variable_section(manual: Manual) -> Iterator[str]:
     example = right[-1] if is_followed else wrong[0]
     name = re.findall(r"#\d+|\b[RPQ]\d{1,3}\b", example.text)[0]
     yield f"\n## {name}, a variable\n"
-    value = f"Its value is that of the program, or of `--let {name}=NUMBER`" if is_followed else plain(rule.advice)
+    value = f"Its value is that of the program, or of `--variable {name}=NUMBER`" if is_followed else plain(rule.advice)
     yield f"A number may be a variable: `{name}`. {value[0].upper()}{value[1:]}.\n"
     yield f"* What goes wrong with it: [{rule.code}](../{manual.place(rule.code)})"
     if is_followed:
@@ -237,7 +237,7 @@ def typed(address: str, manual: Manual) -> str:
     return address if "=" in address or not has_sign else f"{address}="
 
 
-def _numbers(dialect: Dialect) -> str:
+def _numbers(dialect: Control) -> str:
     numbers = dialect.modes.lexicon.numbers
     if numbers.without_point is WithoutPoint.AS_WRITTEN:
         return "one without a decimal point is in mm, or inches, as one with a point"
@@ -247,7 +247,7 @@ def _numbers(dialect: Dialect) -> str:
 _UNITS = {Unit.MM: "mm, or inches", Unit.DEGREE: "degrees", Unit.SIGN: "its sign or its number counts"}
 
 
-def _kind(row: Address, dialect: Dialect) -> str:
+def _kind(row: Address, dialect: Control) -> str:
     """The unit of a word's number, and from where it is counted."""
     told = [_UNITS[row.unit]]
     if row.axis:
@@ -330,7 +330,7 @@ def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:
     places = {manual.control: manual for manual in all_manuals}
     rows: dict[str, list[str]] = {}
     known: dict[str, dict[str, None]] = {manual.control: {} for manual in all_manuals}
-    for row in alarm_rows(DIALECTS.values()):
+    for row in alarm_rows(CONTROLS.values()):
         manual = places[row.control]
         told = f"[{row.rule.code}]({manual.place(row.rule.code)})" if row.rule.code in manual.shown else row.rule.code
         line = f"* {manual.dialect.title}, {plain(row.alarm.number)} ({row.alarm.evidence.value}): {told}, "

@@ -4,7 +4,7 @@
     python tests/benchmarks/growth.py 30000000           these numbers of rows only, without the picture
     python tests/benchmarks/growth.py --measure ROWS     what each process does
 
-The result in memory is `contoursolve.family`, the file is what `contoursolve sweep -o family.parquet` writes.
+The result in memory is `contoursolve.family`, the file is what `contoursolve family -o family.parquet` writes.
 """
 
 import json

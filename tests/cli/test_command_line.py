@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from decimal import Decimal
@@ -15,7 +16,7 @@ from jsonschema import Draft202012Validator
 
 from contoursolve import solve
 from contoursolve.cli import main
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.solving import certify
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
@@ -80,7 +81,7 @@ def test_exit_status_is_0_without_errors_and_1_with_errors(status, arguments):
         (("solve",), "missing PROGRAM"),
         (("check",), "missing PROGRAM"),
         (("solve", SHAFT, *ONE), "give either a PROGRAM or --block, not both\n"),
-        (("solve", SHAFT, "--control", "fanuc"), "is not one of " + ", ".join(f"'{name}'" for name in DIALECTS)),
+        (("solve", SHAFT, "--control", "fanuc"), "is not one of " + ", ".join(f"'{name}'" for name in CONTROLS)),
         (("solve", SHAFT, "--units", "cubit"), "'cubit' is not one of 'mm', 'inch'"),
         (("solve", SHAFT, "--rules", "perhaps"), "'perhaps' is not one of"),
         (("solve", SHAFT, "--format", "xml"), "'xml' is not one of"),
@@ -107,7 +108,7 @@ def test_of_several_programs_those_that_could_be_read_are_reported_all_the_same(
     assert (status, errors) == (2, "Error: no such file.nc: no such file\n")
     told = "7 contours solved, no problems; 1 program not examined: its error says what to do"
     assert output.splitlines()[-1] == told
-    with pytest.raises(ValueError, match="call solve_file"):
+    with pytest.raises(ValueError, match=r"say Path\('shaft.nc'\)"):
         solve("shaft.nc")
 
 
@@ -155,7 +156,7 @@ def test_the_catalogue_as_json_has_the_fields_that_the_page_lists():
         for control in document["controls"]:
             Draft202012Validator({"items": exact, "minItems": 1}).validate(control[kind])
     told = {control["name"]: {rule["code"] for rule in control["rules"]} for control in document["controls"]}
-    assert told == {name: {rule.code for rule in dialect.catalogue} for name, dialect in DIALECTS.items()}
+    assert told == {name: {rule.code for rule in dialect.catalogue} for name, dialect in CONTROLS.items()}
 
 
 # --- JSON ------------------------------------------------------------------------------------------
@@ -328,3 +329,32 @@ def test_a_command_that_shows_no_proof_makes_none(count, save, monkeypatch):
         run(command, path)
         assert not made, command
     assert (run("solve", path)[0], len(made)) == (0, count)
+
+
+@pytest.mark.parametrize(
+    ("other", "own"),
+    [
+        (("plot", "a.nc", "-o", "a.svg"), ("draw", "a.nc", "-o", "a.svg", "--force")),
+        (("sweep", *ONE, "--vary", "A=170:190:10", "--quiet"), ("family", *ONE, "--vary", "A=170:190:10", "--quiet")),
+        (("range", *ONE, "--word", "P"), ("ranges", *ONE, "--word", "P")),
+        (("sensitivity", *ONE, "--tolerance", "A=0.1"), ("tolerances", *ONE, "--tolerance", "A=0.1")),
+        (("sensitivity", *ONE, "--keep=end Z=0.01"), ("tolerances", *ONE, "--keep=end Z=0.01")),
+        (("fix", "a.nc", "--diff"), ("check", "--fix", "a.nc", "--diff")),
+        (
+            ("find", *ONE, "--word", "A", "--bring", "end Z-50.", "--set=yasnac-lx3.bevel=setback"),
+            ("find", *ONE, "--word", "A", "--goal", "end Z-50.", "--setting=yasnac-lx3.bevel=setback"),
+        ),
+        (("solve", "a.nc", "--let", "#1=2."), ("solve", "a.nc", "--variable", "#1=2.")),
+    ],
+)
+def test_other_spellings_do_the_same_and_no_help_lists_them(
+    other: tuple[str, ...], own: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.nc").write_text("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.\n", encoding="utf-8")
+    found, expected = (CliRunner().invoke(main, list(each)) for each in (other, own))
+    assert (found.exit_code, found.output) == (expected.exit_code, expected.output)
+    assert found.exit_code == 0
+    listed = re.findall(r"^  (\w+) ", CliRunner().invoke(main, ["--help"]).output, re.MULTILINE)
+    assert own[0] in listed
+    assert own[0] == other[0] or other[0] not in {*listed} - {"sensitivity"}

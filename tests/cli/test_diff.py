@@ -169,7 +169,7 @@ def test_a_program_that_has_errors_has_no_path(diff):
         ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--tolerance", "0"), "tolerance"),
         ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--control", "unknown"), "linuxcnc"),
         (("-", PROGRAMS / "shaft.nc"), "say which with --control"),
-        ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--set", "x.y=z"), "no setting"),
+        ((PROGRAMS / "shaft.nc", PROGRAMS / "shaft.nc", "--setting", "x.y=z"), "no setting"),
     ],
 )
 def test_what_cannot_run_ends_with_2(arguments, said):
@@ -319,10 +319,10 @@ def test_what_changes_no_path_is_told_apart(diff, before, behind, besides):
 
 @pytest.mark.parametrize(
     ("before", "behind"),
-    [("G42", "G41"), ("G54", "G55"), ("G17", "G18"), ("G21", "G20"), ("G90", "G91")],
+    [("G42", "G41"), ("G54", "G55"), ("X3.", "X4."), ("G17", "G18"), ("G21", "G20"), ("G90", "G91")],
 )
 def test_a_code_that_the_path_hangs_on_is_the_path(diff, before, behind):
-    program = "G17 G21 G90\nG54\nG0 X1. Y1. Z5.\nG42 D1 G1 X5. F100\nY7.\nX9.\nG40 G0 Y20."
+    program = "G17 G21 G90\nG10 L2 P1 X3.\nG54\nG0 X1. Y1. Z5.\nG42 D1 G1 X5. F100\nY7.\nX9.\nG40 G0 Y20."
     found = diff(program, program.replace(before, behind), "--control", "fanuc-mill")
     assert found["verdict"] == "different"
     assert (before, behind) in [pair for each in found["differences"] for pair in quoted(each["changes"])]

@@ -15,7 +15,7 @@ from interpreter import RefusedError, interpret
 
 import contoursolve
 from contoursolve.comparison import compare, follow
-from contoursolve.controls import DIALECTS, PLAIN as TARGET_CONTROLS
+from contoursolve.controls import CONTROLS, PLAIN as TARGET_CONTROLS
 from contoursolve.diagnostics import Severity
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length
@@ -67,13 +67,13 @@ def test_with_few_decimals_every_arc_is_still_one(post, arcs, decimals, unit, na
             (least,) = {int(re.fullmatch(told, left.reason)[1]) for left in written.summary.left}
             assert decimals < least
             written = contoursolve.expand(text, decimals=least, **options)
-        control = DIALECTS[written.control]
+        control = CONTROLS[written.control]
         own = re.sub("^G[78] G1[78] .*\n", "", written.text, flags=re.MULTILINE)
         found = contoursolve.check(own, control=control, units=unit)
         assert [each for each in found if each.severity is Severity.ERROR] == []
         if written.summary.misread:
             continue
-        dialect = (DIALECTS | TARGET_CONTROLS)[TARGETS[post][written.control == "nct-99m"]]
+        dialect = (CONTROLS | TARGET_CONTROLS)[TARGETS[post][written.control == "nct-99m"]]
         reasons = [each.reason for each in path_of(written.text, dialect, Length(unit)).unfollowed]
         assert [each for each in reasons if "radius of the arc is" in each or "too small" in each] == []
 
@@ -247,7 +247,7 @@ def test_what_is_left_means_the_same_and_expanding_again_changes_nothing(program
     text = "\n".join(("G00 X40. Z0." if control == "yasnac-lx3" else "G17 G41 G0 X50 Y0 D1", *lines))
     once = contoursolve.expand(text, control=control, keep_going=True)
     assert contoursolve.expand(once.text, control=control, keep_going=True).text == once.text
-    found = compare(path_of(text, DIALECTS[control]), path_of(once.text, DIALECTS[control]), 0.003)
+    found = compare(path_of(text, CONTROLS[control]), path_of(once.text, CONTROLS[control]), 0.003)
     assert found.is_equal, found.difference
 
 

@@ -13,7 +13,7 @@ from calling import call
 from click.testing import Result
 from fuzzing import damaged
 
-from contoursolve import apply_fixes, solve
+from contoursolve import fix, solve
 from contoursolve.gcode import decode, split_lines
 
 START = "G00 X40. Z0.\n"
@@ -137,7 +137,7 @@ def test_fixing_a_damaged_program_leaves_no_safe_fix_and_every_other_byte(seed):
 def fixes_applied(name: str, control: str, draw: Random) -> None:
     """Applies them, and holds what the command promises."""
     old = decode(Path(name).read_bytes(), name)
-    mended = apply_fixes(old, control=control)
+    mended = fix(old, control=control)
     done = check(name, "--control", control, "--fix")
     text = decode(Path(name).read_bytes(), name)
     assert text == mended.text

@@ -10,7 +10,7 @@ import pytest
 from editor import Editor, Served, applied, edits_of, in_editor, random_edit, types
 
 import contoursolve
-from contoursolve import DIALECTS, Severity, end_text, solve
+from contoursolve import CONTROLS, Severity, solve
 from contoursolve.gcode import split_lines
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
@@ -74,7 +74,7 @@ def examples() -> list[pytest.ParameterSet]:
     """A control, and the examples of a few of its rules."""
     return [
         pytest.param(name, [rule.rejected[0] for rule in rules if rule.rejected], id=f"{name}-{rules[0].code}")
-        for name, dialect in DIALECTS.items()
+        for name, dialect in CONTROLS.items()
         for rules in (dialect.catalogue[first : first + 4] for first in range(0, len(dialect.catalogue), 4))
     ]
 
@@ -240,7 +240,7 @@ def test_fix_all_keeps_contours_and_line_ends(later):
             action = await chosen(editor, only, "Fix all that keep the contour")
             assert action.kind == "source.fixAll.contoursolve"
         editor.edit(SHAFT, *edits_of(action))
-        assert editor.texts[SHAFT] == contoursolve.apply_fixes(text).text
+        assert editor.texts[SHAFT] == contoursolve.fix(text).text
         assert {each.code for each in await editor.findings(SHAFT)} == {"g111-corner-too-large"}
 
     waits = types.ClientCodeActionResolveOptions(["edit"]) if later else None
@@ -342,7 +342,7 @@ def test_a_notebook_explores_the_contour_with_the_modal_codes_before_it(served):
         text, options = explored(found["notebook"])
         (answer,) = solve(text, **options).answers
         (wanted,) = solve(INCREMENTAL, control="fanuc-mill").answers
-        assert end_text(answer) == end_text(wanted) == "X5.00000 Y6.00000"
+        assert answer.end_text == wanted.end_text == "X5.00000 Y6.00000"
 
     served(use)
 
@@ -453,14 +453,14 @@ def test_completions_are_the_words_that_the_block_may_still_take(served):
     served(use)
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_an_empty_line_offers_the_legal_forms_of_the_control(served, control):
     """Each of them is a block that the control accepts."""
 
     async def use(editor: Editor) -> None:
         editor.open(SHAFT, f"(contoursolve control: {control})\n\n")
         found = await completed(editor, 2, 1)
-        assert {each.detail for each in found.values()} <= {form.title for form in DIALECTS[control].forms}
+        assert {each.detail for each in found.values()} <= {form.title for form in CONTROLS[control].forms}
         for each in found.values():
             text = re.sub(r"\$\{\d+:([^}]*)\}", r"\1", each.text_edit.new_text)
             assert each.label == text.replace("\n", " / ")
@@ -518,7 +518,7 @@ def test_commands_of_a_client(served):
         page = await run(editor, "report", SHAFT)
         assert page["html"].startswith("<!doctype html>")
         controls = await run(editor, "controls")
-        assert [each["name"] for each in controls] == [*DIALECTS]
+        assert [each["name"] for each in controls] == [*CONTROLS]
         line = next(answer.lines[0] for answer in solve(text).answers)
         params = {"textDocument": {"uri": SHAFT}, "position": {"line": line - 1, "character": 8}}
         picture = await editor.ask(editor.client.protocol.send_request_async("contoursolve/picture", params))
@@ -556,7 +556,7 @@ def test_random_edits_leave_no_stale_findings(served):
                 found, text = await editor.findings(SHAFT), editor.texts[SHAFT]
                 try:
                     wanted = [each.code for each in solve(text).diagnostics]
-                except (contoursolve.UnknownControlError, contoursolve.SettingError):
+                except (contoursolve.errors.UnknownControlError, contoursolve.errors.SettingError):
                     wanted = ["control-unknown"]
                 assert [each.code for each in found] == wanted
 

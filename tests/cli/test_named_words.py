@@ -6,7 +6,7 @@ import pytest
 from calling import call
 from click.testing import Result
 
-from contoursolve import DIALECTS, OpenProgram, solve
+from contoursolve import CONTROLS, OpenProgram, solve
 
 TAPER = "G111 A180. K-30. B120. X100. "
 START = "G00 X40. Z0.\n"
@@ -38,7 +38,7 @@ PROGRAMS = {
 @pytest.mark.parametrize("control", PROGRAMS)
 def test_no_fix_changes_a_word_that_is_right_whichever_way_it_is_said(control):
     text, word = PROGRAMS[control]
-    said = DIALECTS[control].modes.syntax.remark.format(f"contoursolve trust: {word}")
+    said = CONTROLS[control].modes.syntax.remark.format(f"contoursolve trust: {word}")
     plain = text.format("")
     ways = {
         "not": (plain, {}),

@@ -17,7 +17,7 @@ from click.testing import CliRunner
 from tip_numbers import tip_numbers
 
 from contoursolve.__main__ import commands
-from contoursolve.controls import DIALECTS, TOOL_FACTS
+from contoursolve.controls import CONTROLS, TOOL_FACTS
 from contoursolve.tool_radius import ToolFaultKind
 
 ROOT = Path(__file__).parents[2]
@@ -86,7 +86,7 @@ def test_the_page_about_tools_has_every_alarm_and_every_finding_with_its_grade()
     (text,) = (text for page, text in PAGES.items() if page.endswith("tool.md"))
     rows = re.findall(r"^\| (`.*?) \| (.*) \|$", text.partition("## What your control does")[2], re.MULTILINE)
     shown = {name: row for names, row in rows for name in re.findall(r"`([\w-]+)`", names)}
-    assert shown.keys() == DIALECTS.keys()
+    assert shown.keys() == CONTROLS.keys()
     kinds = ("arc_too_small", "element_vanishes", "no_intersection", "interference", "entry_by_arc", "exit_by_arc")
     for name, row in shown.items():
         alarms = TOOL_FACTS[name].alarms if name in TOOL_FACTS else {}
@@ -161,11 +161,11 @@ def test_the_table_of_settings_has_every_setting_of_every_control() -> None:
     shown = {
         (name, control): re.findall(r"`(\S+?)`", values)
         for name, own, values in rows
-        for control in (DIALECTS if own == "all" else own.split(", "))
+        for control in (CONTROLS if own == "all" else own.split(", "))
     }
     meant = {
         (each.name, name): [each.default, *(value for value in each.values if value != each.default)]
-        for name, dialect in DIALECTS.items()
+        for name, dialect in CONTROLS.items()
         for each in dialect.settings
     }
     assert shown == meant

@@ -66,7 +66,7 @@ def page_of(result):
 
 
 def test_the_page_is_made_of_headings_in_order():
-    page = page_of(contoursolve.solve_file(BROKEN))
+    page = page_of(contoursolve.solve(BROKEN))
     levels = [int(tag[1]) for tag, _ in page.elements if re.fullmatch("h[1-6]", tag)]
     assert levels.count(1) == 1
     assert all(after - before <= 1 for before, after in pairwise(levels))
@@ -75,7 +75,7 @@ def test_the_page_is_made_of_headings_in_order():
 
 
 def test_rows_and_findings_have_the_names_of_the_picture():
-    result = contoursolve.solve_file(BROKEN)
+    result = contoursolve.solve(BROKEN)
     page = page_of(result)
     drawn = {name for _, each in page.elements for name in (each.get("data-word") or "").split()}
     rows = [each for each in page.all("tr") if each.get("data-word")]

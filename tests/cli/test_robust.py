@@ -40,10 +40,11 @@ CHAIN = "--start|X0 Y0|--block|FL AN+0 LEN20|--block|FCT DR+ R10 CCA+0|--block|F
         ("solve|arcs.nc|--control|mitsubishi", 1),
         ("diff|arcs.nc|other.nc|--control|mitsubishi", 1),
         ("verify|arcs.nc|arcs.json", 0),
-        (f"sweep|{CHAIN}|--vary|2:R=0,10,-1", 0),
-        (f"range|{CHAIN}|--word|2:R", 0),
-        (f"find|{CHAIN}|--word|2:R|--bring|P3 Y20", 0),
+        (f"family|{CHAIN}|--vary|2:R=0,10,-1", 0),
+        (f"ranges|{CHAIN}|--word|2:R", 0),
+        (f"find|{CHAIN}|--word|2:R|--goal|P3 Y20", 0),
         (f"sensitivity|{CHAIN}", 0),
+        (f"tolerances|{CHAIN}|--tolerance|2:R=0.1", 0),
         ("write|sketch.toml|--to|fanuc-mill", 0),
         ("rules|--control|isg", 0),
     ],
@@ -114,7 +115,7 @@ def test_values_of_any_size_are_answered(folder, values, says):
 
 
 def test_a_family_does_not_go_beyond_what_is_read():
-    with pytest.raises(contoursolve.FamilyError, match="beyond 1,000,000"):
+    with pytest.raises(contoursolve.errors.FamilyError, match="beyond 1,000,000"):
         contoursolve.family("G111 X100. A180. K-30. B120.", start="X40. Z0.", vary={"K": [-30, 1e308]})
 
 

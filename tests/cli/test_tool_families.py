@@ -83,12 +83,12 @@ def test_random_contours_end_where_check_says(seed, tmp_path):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("range", "--word", "tool", "--word", "P", *NOSE), "sweep tries both: --vary tool=0.2:1.2:0.05"),
+        (("range", "--word", "tool", "--word", "P", *NOSE), "family tries both: --vary tool=0.2:1.2:0.05"),
         (("range", "--word", "tool", "--within", "-1:2", *NOSE), "the radius of a tool is not below 0"),
         (("range", "--word", "P", "--tip", "3"), "--tip goes with --word tool"),
-        (("find", "--word", "tool", "--bring", "end Z1.", *NOSE), "--bring goes with a word of the block"),
-        (("find", "--word", "P"), "missing --bring"),
-        (("find", "a.nc", "--word", "P", "--bring", "end Z1."), "only --word tool takes a PROGRAM"),
+        (("find", "--word", "tool", "--goal", "end Z1.", *NOSE), "--goal goes with a word of the block"),
+        (("find", "--word", "P"), "missing --goal"),
+        (("find", "a.nc", "--word", "P", "--goal", "end Z1."), "only --word tool takes a PROGRAM"),
         (("sweep", "--vary", "P=1", "--side", "left"), "--side goes with --vary tool=VALUES"),
         (("sweep", "--vary", "tool=-0.4,1", *NOSE), "the radius of the tool is R-0.4; it must not be less than 0"),
         (("sweep", "--vary", "tool=1", "--vary", "Tool=2", *NOSE), "--vary names tool twice"),
@@ -110,7 +110,7 @@ def test_a_contour_without_a_solution_and_a_program_without_one():
     assert (done.exit_code, "no cutting move goes beside a contour" in done.stderr) == (2, True)
     plain = ("--block", "G01 X30. Z-10.", "--start", "X20. Z0.")
     done = call("sweep", "--vary", "tool=1", *LATHE, "--side", "left", *plain)
-    assert (done.exit_code, "contoursolve range --word tool" in done.stderr) == (2, True)
+    assert (done.exit_code, "contoursolve ranges --word tool" in done.stderr) == (2, True)
 
 
 # find -------------------------------------------------------------------------------------------------------------
@@ -184,14 +184,14 @@ def test_the_summary_counts_contours_once_for_each_tool():
 
 def test_arrays_have_the_tool_as_their_last_axis():
     block, vary = "G20 G111 X4. A180. K-1. B120. P.5 Q.2", {"tool": [0.6, 0.1], "P": [0.05, 0.3, 0.4]}
-    found = contoursolve.family_of_tools(block, start="X2. Z0.", units="inch", side="right", tip=3, vary=vary)
+    found = contoursolve.family(block, start="X2. Z0.", units="inch", side="right", tip=3, vary=vary)
     assert found["tool.fits"].tolist() == [[False, False], [False, True], [False, True]]
     assert found["tool.largest"][1].tolist() == pytest.approx([2.54, 2.54])
     assert numpy.isnan(found["tool.largest"][0]).all()
     assert found["tool.fault"][0].tolist() == ["arc_too_small"] * 2
     assert [found.measures()[name].unit for name in ("tool", "tool.largest", "tool.fits")] == ["inch", "mm", ""]
     with pytest.raises(TypeError, match="sid"):
-        contoursolve.find_tools(block, sid="left")  # type: ignore[call-arg]
+        contoursolve.ranges(block, "tool", sid="left")  # type: ignore[call-arg]
     assert found.to_arrow()["tool.fault"].to_pylist()[3] == ""
 
 
@@ -225,7 +225,7 @@ def test_a_larger_tool_may_fit_where_a_smaller_one_does_not():
     # A table of many radii says the same, whatever lies between.
     start, *lines = CROSSING.replace("X0. Y20.", "X0. Y20. ,R5.").split(" / ")
     radii = [1, 2, 3.2, 3.5, 3.7, 4, 4.5]
-    family = contoursolve.family_of_tools("\n".join(lines), start=start, control="fanuc-mill", vary={"tool": radii})
+    family = contoursolve.family("\n".join(lines), start=start, control="fanuc-mill", vary={"tool": radii})
     assert family["tool.fits"].tolist() == [True, True, False, False, True, True, False]
 
 

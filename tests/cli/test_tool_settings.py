@@ -17,7 +17,7 @@ POCKET = "X0 Y0 / G01 X40. Y0 / X40. Y30. / X10. Y30."
 def asked(tool: str, blocks: str, side: str, control: str, *settings: str) -> list[str]:
     start, *others = blocks.split(" / ")
     words = ["--control", control, "--tool", tool, "--side", side, "--start", start]
-    words += [word for each in settings for word in ("--set", f"{control}.tool-{each}")]
+    words += [word for each in settings for word in ("--setting", f"{control}.tool-{each}")]
     return words + [word for block in others for word in ("--block", block)]
 
 
@@ -83,7 +83,7 @@ def test_a_setting_changes_the_path(setting: str, about: tuple[str, ...], usual:
 def test_the_move_to_the_contour_may_be_an_element_itself(entry: str, blocks: str, start: str, tmp_path: Path):
     lines = ["G17 G90", f"{start} X0", "G41 D1", *blocks.split("/"), "G40 X40."]
     (tmp_path / "a.nc").write_text("\n".join(lines) + "\n")
-    about = ("--control", MILL, "--tool", "R4", "--set", f"{MILL}.tool-entry={entry}", tmp_path / "a.nc")
+    about = ("--control", MILL, "--tool", "R4", "--setting", f"{MILL}.tool-entry={entry}", tmp_path / "a.nc")
     (contour,) = data("solve", *about)["contours"]
     begin = {"G00 Y-20.": (-4.0, 0.0), "G00 Y20.": (4.0, 4.0)}.get(start, ())
     begin = (0.0, 4.0) if entry == "square-next" else begin

@@ -31,7 +31,7 @@ from verifying import (
 )
 
 from contoursolve.comparison import CannotVerifyError, Document, ReceiptVerdict, verify
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 
 PAGES = Path(__file__).parents[2] / "docs" / "programs"
 
@@ -89,11 +89,11 @@ def test_nothing_that_a_contour_claims_can_be_changed(desk, name):
         assert desk.is_refused(each)
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_what_is_tampered_with_is_caught_for_every_control(control):
     """In an example of its rules that has a path with points."""
     rng = Random(control)
-    texts = [text for rule in DIALECTS[control].catalogue for text in rule.accepted]
+    texts = [text for rule in CONTROLS[control].catalogue for text in rule.accepted]
     results = ((text, json.loads(solution(text, "--control", control))) for text in rng.sample(texts, len(texts)))
     text, result = next(each for each in results if each[1]["contours"] and each[1]["contours"][0]["points"])
     for each in rng.sample(list(every_change(result)), MOST):
@@ -112,7 +112,7 @@ OF_SEVERAL = {PAGES / "plate.nc": "fanuc-mill"}
 
 def examples() -> Iterator[Any]:
     """Every example of every rule of every control, and every worked example, with its control."""
-    for name, control in DIALECTS.items():
+    for name, control in CONTROLS.items():
         for rule in control.catalogue:
             for number, text in enumerate((*rule.rejected, *rule.accepted)):
                 yield pytest.param(name, text, id=f"{name} {rule.code} {number}")

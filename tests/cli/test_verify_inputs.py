@@ -82,7 +82,7 @@ def test_verify_takes_what_solve_takes(desk):
 )
 def test_the_program_is_read_with_the_settings_that_the_result_names(desk, name, setting, value):
     other = desk.solve(SAMPLES[name])
-    result = desk.solve(SAMPLES[name], "--set", f"{setting}={value}")
+    result = desk.solve(SAMPLES[name], "--setting", f"{setting}={value}")
     assert other["contours"][0]["elements"] != result["contours"][0]["elements"]
     for each, settings_of in ((other, {}), (result, {setting: value})):
         receipt = desk.receipt(each)

@@ -16,6 +16,7 @@ from serving import SECONDS, wait_for
 
 import contoursolve
 from contoursolve.diagnosis import status_text
+from contoursolve.output import map_page
 
 pytestmark = pytest.mark.browser
 
@@ -169,12 +170,12 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         explorer.locator(".trouble", has_text="The kernel is gone").wait_for()
 
 
-REGION = f"""region = contoursolve.region({BLOCK!r}, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")"""
+REGION = f"""region = contoursolve.ranges({BLOCK!r}, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")"""
 MAP = ".contoursolve.map"
 
 
 def region_here():
-    return contoursolve.region(BLOCK, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
+    return contoursolve.ranges(BLOCK, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
 
 
 def point_at(page, share_across, share_up):
@@ -199,7 +200,7 @@ def check_told(page):
     is_empty = page.locator(f"{MAP} .drawing.empty").count() == 1
     assert is_empty == (answer.contour is None)
     if answer.contour is not None:
-        assert state == f"solved, end {contoursolve.end_text(answer)}"
+        assert state == f"solved, end {answer.end_text}"
     return first, second
 
 
@@ -207,9 +208,9 @@ def check_told(page):
 def test_a_map_answers_to_the_pointer_and_to_keys_without_a_kernel(browser, tmp_path, artefacts, kind):
     region = region_here()
     if kind == "page":
-        text = contoursolve.map_page(region, "line 1.room")
+        text = map_page(region, "line 1.room")
     else:  # what a notebook that is exported has
-        text = contoursolve.explore_map(region, "line 1.room")._repr_mimebundle_()[0]["text/html"]
+        text = contoursolve.explore(region, result="line 1.room")._repr_mimebundle_()[0]["text/html"]
         text = f"<!doctype html><meta charset=utf-8><title>x</title>{text * 2}"
     (tmp_path / "map.html").write_text(text, encoding="utf-8")
     for scheme in ("light", "dark"):
@@ -252,7 +253,7 @@ def test_a_map_answers_to_the_pointer_and_to_keys_without_a_kernel(browser, tmp_
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_the_page_of_a_map_is_accessible(axe, browser, tmp_path, scheme):
-    (tmp_path / "map.html").write_text(contoursolve.map_page(region_here(), "end Z"), encoding="utf-8")
+    (tmp_path / "map.html").write_text(map_page(region_here(), "end Z"), encoding="utf-8")
     for width in (1240, 390):
         watched = Watched(browser, viewport={"width": width, "height": 900}, color_scheme=scheme)
         watched.page.goto((tmp_path / "map.html").as_uri())
@@ -269,7 +270,7 @@ def test_the_page_of_a_map_is_accessible(axe, browser, tmp_path, scheme):
 @pytest.mark.slow
 def test_in_jupyterlab_a_map_is_solved_where_the_pointer_is_and_opens_the_explorer(browser, tmp_path, artefacts):
     kind = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None, "id": "map"}
-    cell = {**kind, "source": f"import contoursolve\n{REGION}\ncontoursolve.explore_map(region, 'end Z')"}
+    cell = {**kind, "source": f"import contoursolve\n{REGION}\ncontoursolve.explore(region, 'end Z')"}
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     document = {"cells": [cell], "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
     (tmp_path / "map.ipynb").write_text(json.dumps(document), encoding="utf-8")

@@ -6,7 +6,7 @@ import pytest
 from browsing import Watched
 
 import contoursolve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.pictures import draw_result
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -20,14 +20,14 @@ WIDTHS = "images => Promise.all(images.map(image => image.decode().then(() => im
 def examples(name):
     """The examples of the rules of a control, each program once: what the first one shows."""
     found = {}
-    for rule in DIALECTS[name].catalogue:
+    for rule in CONTROLS[name].catalogue:
         for kind, programs in (("wrong", rule.rejected), ("right", rule.accepted)):
             for number, program in enumerate(programs, 1):
                 found.setdefault(program, f"{rule.code}, {kind} {number}")
     return found
 
 
-@pytest.mark.parametrize("name", DIALECTS)
+@pytest.mark.parametrize("name", CONTROLS)
 def test_every_example_of_every_rule_has_a_picture_on_a_sheet(browser, artefacts, name):
     shown = list(examples(name).items())
     for number, begin in enumerate(range(0, len(shown), ON_A_SHEET), 1):

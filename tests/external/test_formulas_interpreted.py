@@ -15,7 +15,7 @@ from macros import motions_of, run_macros
 from test_interpreted import Drawing, drawings
 
 import contoursolve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis.examine import Depth
 from contoursolve.gcode import parse
 from contoursolve.program.pipeline import run
@@ -103,7 +103,7 @@ def families(form: str) -> list[Family]:
 def solved(family: Family, values: dict[str, float]) -> tuple[list[Contour], bool, bool]:
     """The contours that a single solve of each makes, whether one is refused, and whether the ends of an arc are off
     its circle by as much as the control allows."""
-    asked = Request(DIALECTS[family.drawing.control], depth=Depth.VERDICT)
+    asked = Request(CONTROLS[family.drawing.control], depth=Depth.VERDICT)
     result = run(parse(family.typed(values)), asked)
     found: list[Contour] = []
     is_off = any(each.about is NoteKind.RADIUS_DIFFERS for each in result.diagnostics)

@@ -20,7 +20,7 @@ from vectors import VECTORS, ends, path_of as drawn_path
 
 import contoursolve
 from contoursolve.comparison import ToolPath, compare, follow
-from contoursolve.controls import DIALECTS, PLAIN
+from contoursolve.controls import CONTROLS, PLAIN
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import run
@@ -290,7 +290,7 @@ def hide(comment: re.Match[str]) -> str:
 
 
 def path_of(text: str, control: str) -> ToolPath:
-    dialect = {**DIALECTS, **PLAIN}[control]
+    dialect = {**CONTROLS, **PLAIN}[control]
     result = run(parse(text), Request(dialect))
     return follow(result, dialect, Length.MM, ("X", "Y", "Z"))
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from contoursolve import Severity, apply_fixes, check_file
+from contoursolve import Severity, check, fix
 
 pytestmark = [pytest.mark.editor, pytest.mark.needs("pygls", "lsprotocol")]
 
@@ -88,7 +88,7 @@ def test_neovim_shows_findings_and_applies_a_fix(tmp_path, request) -> None:
     command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m contoursolve "$@"\n', encoding="utf-8")
     command.chmod(0o755)
     program = Path(shutil.copy(ROOT / "notebooks" / "programs" / "shaft_broken.nc", tmp_path))
-    expected = [each for each in check_file(program) if each.severity is Severity.ERROR]
+    expected = [each for each in check(program) if each.severity is Severity.ERROR]
     name = "neovim" if version_of(nvim) >= FIRST_WITH_CONFIG else "neovim-0.7"
     (tmp_path / "init.lua").write_text(lines_of(name), encoding="utf-8")
     (tmp_path / "driver.lua").write_text(
@@ -111,7 +111,7 @@ def test_neovim_shows_findings_and_applies_a_fix(tmp_path, request) -> None:
     assert mended.fixes[0].description.split(" ->")[0] in seen["actions"][0]
     assert [each["line"] for each in seen["after"]] == [each.span.line for each in expected if each is not mended]
     first = mended.fixes[0]
-    wanted = apply_fixes(program.read_text(encoding="utf-8").replace(first.replaced, first.replacement, 1))
+    wanted = fix(program.read_text(encoding="utf-8").replace(first.replaced, first.replacement, 1))
     assert wanted.applied
     assert seen["fixed"] == wanted.text.splitlines()
     assert first.replacement in seen["fixed"]

@@ -13,7 +13,7 @@ from browsing import Watched
 from distribution import make_distribution
 from numpy_host import serving
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.workbench import Desk
 
 pytestmark = [pytest.mark.site, pytest.mark.browser, pytest.mark.slow]
@@ -85,12 +85,12 @@ def test_an_example_is_mended_in_the_browser_and_its_address_shows_the_same(axe,
     watched = Watched(browser, viewport={"width": 1300, "height": 1300})
     page = watched.page
     page.goto(address)
-    assert page.locator(".start .examples button").all_text_contents() == [each.title for each in DIALECTS.values()]
+    assert page.locator(".start .examples button").all_text_contents() == [each.title for each in CONTROLS.values()]
     assert axe(page) == []
     # Before anybody asks for Python, none of it is loaded.
     assert not [each for each in watched.asked if "pyodide" in each or each.endswith((".zip", ".whl"))]
     assert "cdn.jsdelivr.net" in page.locator("article").inner_text()
-    page.get_by_role("button", name=DIALECTS[CONTROL].title).click()
+    page.get_by_role("button", name=CONTROLS[CONTROL].title).click()
     found = shown(page)
     # In full depth: what is found here is found there.
     desk = Desk()
@@ -133,7 +133,7 @@ def test_without_pyodide_the_page_says_what_to_do_and_may_be_asked_again(browser
     page = browser.new_page()
     page.route("**/pyodide/**", lambda route: route.abort())
     page.goto(address)
-    button = page.get_by_role("button", name=DIALECTS[CONTROL].title)
+    button = page.get_by_role("button", name=CONTROLS[CONTROL].title)
     button.click()
     page.get_by_text("Python could not be loaded").wait_for(timeout=LOADED)
     assert "online" in page.locator(".notice .trouble").inner_text()

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from contoursolve import Diagnostic, Severity, check_file
+from contoursolve import Diagnostic, Severity, check
 
 pytestmark = [pytest.mark.editor, pytest.mark.needs("pre_commit")]
 
@@ -33,7 +33,7 @@ def run(tmp_path: Path):
 
 
 def errors(program: Path) -> list[Diagnostic]:
-    return [each for each in check_file(program) if each.severity is Severity.ERROR]
+    return [each for each in check(program) if each.severity is Severity.ERROR]
 
 
 def mend(program: Path) -> Iterator[str]:

@@ -10,7 +10,7 @@ from urllib.parse import unquote, urlsplit
 import pytest
 
 import contoursolve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 
 pytestmark = pytest.mark.site
 OPEN_ROOTS = """
@@ -81,15 +81,15 @@ def sections(page: Page) -> dict[str, str]:
 SECTION = r"\n([^\n]+)\u00b6\n(.*?)(?=\n[^\n]+\u00b6\n|\Z)"
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_every_rule_stands_on_a_page_of_its_control_with_its_examples_and_grade(site, pages, control) -> None:
     own = [pages[path] for path in sorted((site / "rules" / control).glob("*.html"))]
     told = {name: text for page in own for name, text in sections(page).items()}
-    for rule in DIALECTS[control].catalogue:
+    for rule in CONTROLS[control].catalogue:
         lines = [line[:100] for text in (*rule.rejected, *rule.accepted) for line in text.split("\n")]
         for part in (rule.title, rule.advice, str(rule.source), *lines):
-            assert " ".join(part.split()) in told[f"{rule.code}, {DIALECTS[control].title}"], rule.code
-    for row in DIALECTS[control].modes.lexicon.addresses.values():
+            assert " ".join(part.split()) in told[f"{rule.code}, {CONTROLS[control].title}"], rule.code
+    for row in CONTROLS[control].modes.lexicon.addresses.values():
         typed = {"ROUNDING": "RND R", "CHAMFER": "CHF"}.get(row.address, f"{row.address}=")
         text = next(text for name, text in told.items() if name.split(", ")[0] in (row.address, typed))
         assert row.meaning in text, row.address

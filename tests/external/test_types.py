@@ -13,7 +13,7 @@ SCRIPT = Path(__file__).with_name("typed_user.py")
 WRONG = """
 import contoursolve
 contoursolve.solve("", units="cm")
-contoursolve.feasible("", "P", rules="strict")
+contoursolve.ranges("", "P", rules="strict")
 contoursolve.family("", vary={"P": [1]}, control="fanuc")
 contoursolve.solve("", statr="X40. Z0.")
 contoursolve.system("").equations.end

@@ -18,7 +18,7 @@ from browsing import CHROMIUM, launched
 from serving import SECONDS, wait_for
 
 import contoursolve
-from contoursolve import apply_fixes
+from contoursolve import fix
 
 pytestmark = [pytest.mark.editor, pytest.mark.needs("playwright", "pygls", "lsprotocol", "htpy")]
 
@@ -324,7 +324,7 @@ def test_fix_all_applies_every_fix_that_keeps_the_contour(window, address, progr
     editor = window(address, program)
     editor.status.filter(has_text="yasnac-lx3: 1 of 6 solved").wait_for()
     editor.page.locator(".squiggly-error").first.wait_for()
-    wanted = apply_fixes(program.read_text(encoding="utf-8"))
+    wanted = fix(program.read_text(encoding="utf-8"))
     assert wanted.applied
     editor.go_to(1)
     editor.press("F1")

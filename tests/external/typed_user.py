@@ -27,7 +27,7 @@ def first_words(findings: tuple[Diagnostic, ...]) -> list[str]:
 
 result = contoursolve.solve(BLOCK, start=START, control="yasnac-lx3", units="mm", rules="enforce", depth="full")
 assert_type(result, Result)
-answer = result.answers[0]
+answer = result.answer
 assert_type(answer.status, Status)
 contour = answer.contour
 assert contour is not None
@@ -46,20 +46,21 @@ family = contoursolve.family(
     BLOCK, start=START, vary={"A": numpy.linspace(170, 180, 3), "P": [1, 5]}, branches="chosen"
 )
 assert_type(family.shape, tuple[int, ...])
-print(family.to_xarray().sizes, family["V2.Z"].mean(), family.summary()[Status.SOLVED])
+print(family.to_xarray().sizes, family["V2 Z"].mean(), family.summary()[Status.SOLVED])
 
-allowed = contoursolve.feasible(BLOCK, "P", start=START, units="mm")
+allowed = contoursolve.ranges(BLOCK, "P", start=START, units="mm")
 assert_type(allowed.intervals[0].high.value, float)
 slopes: Mapping[str, Mapping[str, float]] = contoursolve.sensitivity(BLOCK, start=START).slopes
-print(slopes["V2.Z"]["K"], contoursolve.tolerance_for(BLOCK, "A", keep="end Z", within=0.1, start=START).high.value)
+print(slopes["V2 Z"]["K"], contoursolve.tolerances(BLOCK, "A", keep="end Z", within=0.1, start=START).high.value)
 
 program = OpenProgram(f"G00 X40. Z0.\n{BLOCK}", units="mm", rules="warn")
 assert_type(program.check(), bool)
 answers: list[Answer] = [each.answer for each in program.contours]
-for name in contoursolve.DIALECTS:
-    print(name, contoursolve.DIALECTS[name].title, len(answers))
+for name in contoursolve.CONTROLS:
+    print(name, contoursolve.CONTROLS[name].title, len(answers))
 written = contoursolve.expand(program.text, post="linuxcnc", arcs="radius", block_numbers="first")
 assert_type(written.text, str | None)
 converted = contoursolve.convert(program.text, "fanuc-lathe", comments=False, rules="off")
-report = contoursolve.solve_with_tool(program.text, "R0.4, tip 3", side="right", outside="roll")[1]
+report = contoursolve.solve(program.text, tool="R0.4, tip 3", side="right", outside="roll").tool
+assert report is not None
 print(converted.control, [run.largest_radius for run in report.runs])

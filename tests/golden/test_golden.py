@@ -13,11 +13,11 @@ import pytest
 from record import FOLDER, Case, Parts, paths, read, run, stored, written
 
 from contoursolve.__main__ import commands
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 
 UNRECORDED = {
     "lsp": "what it says while it examines depends on the time; tests/cli/test_lsp.py asks it",
-    "sweep --dask": "needs a cluster",
+    "family --dask": "needs a cluster",
 }
 """What no record has, each with the reason."""
 
@@ -83,10 +83,10 @@ def wanted() -> Iterator[str]:
         yield name
         for option in command.params:
             if isinstance(option, click.Option):
-                controls = [*DIALECTS] if option.type.name == "control" else [""]
+                controls = [*CONTROLS] if option.type.name == "control" else [""]
                 choices = option.type.choices if isinstance(option.type, click.Choice) else controls
                 yield from (f"{name} {option.opts[-1]} {each}".strip() for each in choices)
-    yield from (f"{control}: {rule.code}" for control, dialect in DIALECTS.items() for rule in dialect.catalogue)
+    yield from (f"{control}: {rule.code}" for control, dialect in CONTROLS.items() for rule in dialect.catalogue)
 
 
 def covered(name: str, case: Case, parts: Parts) -> Iterator[str]:
@@ -101,7 +101,7 @@ def covered(name: str, case: Case, parts: Parts) -> Iterator[str]:
             yield from (f"{command} {option.opts[-1]} {value}" for value in given)
             yield from [f"{command} {option.opts[-1]}"] if given else ()
         yield f"{command} --control {control}"
-    if control in DIALECTS and case.arguments[0] not in ("rules", "explain", "facts", "help"):
+    if control in CONTROLS and case.arguments[0] not in ("rules", "explain", "facts", "help"):
         text = "\n".join(map(parts.get, ("stdout", "stderr"), ("", "")))
         told = r'(?:^(?:error|warning|info)\[|"code": "|title=)([\w-]+)'
         yield from (f"{control}: {code}" for code in re.findall(told, text, re.MULTILINE))

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 import contoursolve
 from contoursolve import ContourSketch, SketchElement
+from contoursolve.sketches import write_sketch
 
 DETERMINING = {
     "line": (
@@ -99,8 +100,8 @@ def is_true(drawn: Drawn, segments: Any) -> bool:
 @law(drawings(), few=4, many=50)
 def test_what_is_known_is_true_and_what_is_missing_finishes(made: tuple[Drawn, ContourSketch, int]) -> None:
     drawn, sketch, gone = made
-    found = contoursolve.solve_sketch(sketch)
-    assert contoursolve.read_sketch(contoursolve.write_sketch(sketch)) == sketch
+    found = sketch.solve()
+    assert contoursolve.read_sketch(write_sketch(sketch)) == sketch
     if found.is_finished:
         assert is_true(drawn, [each.segment for each in found.elements])
     elif found.solutions:
@@ -119,7 +120,7 @@ def test_what_is_known_is_true_and_what_is_missing_finishes(made: tuple[Drawn, C
             if true is None:
                 continue
             elements[entry.number - 1] = replace(element, words={**element.words, entry.field: true})
-            other = contoursolve.solve_sketch(replace(sketch, elements=tuple(elements)))
+            other = replace(sketch, elements=tuple(elements)).solve()
             if found.missing.startswith("one"):
                 assert other.is_finished or other.solutions
             else:
@@ -132,5 +133,5 @@ def test_the_order_of_fields_changes_no_verdict(made: tuple[Drawn, ContourSketch
     turned = [
         replace(each, words=dict(random.sample([*each.words.items()], len(each.words)))) for each in sketch.elements
     ]
-    one, other = (contoursolve.sketch_view(each) for each in (sketch, replace(sketch, elements=tuple(turned))))
+    one, other = (contoursolve.editing.sketch_view(each) for each in (sketch, replace(sketch, elements=tuple(turned))))
     assert one == other

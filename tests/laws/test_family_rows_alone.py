@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from generate_families import BLOCKS, ROWS, draw
 
-from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
+from contoursolve import family, find, sensitivity, solve, tolerances
+from contoursolve.errors import FamilyError
 from contoursolve.families import feasible, region, spec_of
 from contoursolve.output.families import rest_lines
 from contoursolve.solving import StatusCode
@@ -87,18 +88,18 @@ def test_a_word_that_others_count_from_varies_with_them():
 
 
 def test_a_word_is_found_that_turns_what_stands_behind_it():
-    found = find_word(HANDED_ON, "2:CCA", "end X25", within=(10, 360), **KLARTEXT)
+    found = find(HANDED_ON, "2:CCA", "end X25", within=(10, 360), **KLARTEXT)
     assert [hit.value for hit in found.hits] == pytest.approx([24.295189, 245.704811])
     assert found.is_complete
-    near = find_word(HANDED_ON, "2:CCA", "end X25", within=(10, 60), **KLARTEXT)
+    near = find(HANDED_ON, "2:CCA", "end X25", within=(10, 60), **KLARTEXT)
     assert [hit.value for hit in near.hits] == pytest.approx([24.295189])
 
 
 def test_a_centre_and_the_end_of_a_chain_are_points_that_a_word_brings_somewhere():
     block = "FL AN+30 LEN20\nFCT DR- R10 CCA+30\nFLT LEN15"
-    (hit,) = find_word(block, "1:LEN", "C2 X25", **KLARTEXT).hits
+    (hit,) = find(block, "1:LEN", "C2 X25", **KLARTEXT).hits
     assert hit.value == pytest.approx(20 / 3**0.5 * 2, abs=1e-9)
-    (hit,) = find_word(block, "3:LEN", "P3 X40", within=(1, 100), **KLARTEXT).hits
+    (hit,) = find(block, "3:LEN", "P3 X40", within=(1, 100), **KLARTEXT).hits
     assert hit.point[0] == pytest.approx(40)
 
 
@@ -159,7 +160,7 @@ def test_a_range_goes_on_where_an_arc_turns_over():
 
 @pytest.mark.parametrize(("goal", "value"), [("C Y20", 20 - 300**0.5), ("C Y-20", 300**0.5 - 20)])
 def test_a_value_is_found_on_either_side_of_where_an_arc_turns_over(goal, value):
-    (hit,) = find_word(BENT, "2:Y", goal, within=(-9, 9), **SINUMERIK).hits
+    (hit,) = find(BENT, "2:Y", goal, within=(-9, 9), **SINUMERIK).hits
     assert hit.value == pytest.approx(value)
 
 
@@ -177,7 +178,7 @@ def test_derivatives_by_a_direction_that_is_handed_on_count_all_that_it_turns():
 
 @pytest.mark.parametrize("point", ["P3", "C2", "end"])
 def test_tolerances_are_told_of_the_end_of_a_chain_and_of_centres(point):
-    found = tolerances("FL AN+30 LEN20\nFCT DR- R10 CCA+30\nFLT LEN15", {"R": 0.1}, point=point, **KLARTEXT)
+    found = tolerances("FL AN+30 LEN20\nFCT DR- R10 CCA+30\nFLT LEN15", allowed={"R": 0.1}, point=point, **KLARTEXT)
     assert found.spread[0].worst == pytest.approx({"P3": 0.136603, "end": 0.136603, "C2": 0.05}[point], abs=1e-6)
 
 
@@ -186,7 +187,7 @@ def test_what_contours_rest_on_is_told_of_all_of_them():
     (answer,) = solve(HANDED_ON, **KLARTEXT).answers
     assert [each.name for each in ready.premises.assumptions] == [each.name for each in answer.assumptions]
     assert not ready.remark
-    found = find_word(HANDED_ON, "2:CCA", "end X25", within=(10, 60), **KLARTEXT)
+    found = find(HANDED_ON, "2:CCA", "end X25", within=(10, 60), **KLARTEXT)
     assert "CCA counts from +X, counter-clockwise" in next(iter(rest_lines(found)))
     block, options = "G111 X100. A180. K-30. B120. C5.", {"start": "X40. Z0."}
     for found in (
@@ -195,7 +196,7 @@ def test_what_contours_rest_on_is_told_of_all_of_them():
         tolerances(block, **options),
         family(block, vary={"C": [1, 2]}, settings={"yasnac-lx3.bevel": "length"}, **options),
     ):
-        assert any("--set yasnac-lx3.bevel=" in line for line in rest_lines(found))
+        assert any("--setting yasnac-lx3.bevel=" in line for line in rest_lines(found))
 
 
 def test_rows_that_are_read_one_by_one_are_told():

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 from examples import law
-from fuzzing import CONTROLS, case_of, check_answers, drawn_case, fault_of, mutant
+from fuzzing import NAMED, case_of, check_answers, drawn_case, fault_of, mutant
 from hypothesis import strategies as st
 
 from contoursolve import parse, solve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis.spelling import Meanings
 from contoursolve.gcode import parse_block
 
@@ -56,7 +56,7 @@ LONG = st.sampled_from(
 
 @law(st.lists(LONG, max_size=40).map("".join), st.sampled_from(["siemens-840d", "isg"]), few=2, many=10)
 def test_words_with_long_addresses_stand_where_they_say_and_are_spelled_as_they_were_typed(text, control):
-    syntax, lexicon = DIALECTS[control].modes.syntax, DIALECTS[control].modes.lexicon
+    syntax, lexicon = CONTROLS[control].modes.syntax, CONTROLS[control].modes.lexicon
     block, here = parse_block(text, 1, syntax), 0
     for part in sorted((*block.words, *block.faults), key=lambda part: part.span):
         begin, end = part.span.column - 1, part.span.end_column - 1
@@ -69,17 +69,17 @@ def test_words_with_long_addresses_stand_where_they_say_and_are_spelled_as_they_
             assert [(each.address, each.number) for each in again.words] == [(word.address, word.number)]
 
 
-@law(ANYTHING, st.sampled_from(sorted(DIALECTS)), st.sampled_from(["enforce", "warn", "off"]), few=2, many=6)
+@law(ANYTHING, st.sampled_from(sorted(CONTROLS)), st.sampled_from(["enforce", "warn", "off"]), few=2, many=6)
 def test_arbitrary_text_is_answered(text, control, rules):
     check_answers(solve(text, control=control, rules=rules), text)
 
 
 @pytest.mark.parametrize(
-    ("control", "seeds"), [(each, range(first, first + 4)) for each in CONTROLS for first in range(100, 180, 4)]
+    ("control", "seeds"), [(each, range(first, first + 4)) for each in NAMED for first in range(100, 180, 4)]
 )
 def test_every_command_answers_mutants_of_every_control(control, seeds):
     for seed in seeds:
-        for each in CONTROLS if control is None else [control]:
+        for each in NAMED if control is None else [control]:
             case = drawn_case(each, seed)
             fault = fault_of(case)
             assert not fault, f"{each} {seed}: {fault}\n{case}"
@@ -87,7 +87,7 @@ def test_every_command_answers_mutants_of_every_control(control, seeds):
 
 @pytest.mark.parametrize("count", [1, 40])
 def test_what_solve_says_of_mutants_is_complete_and_each_word_has_a_meaning(count):
-    for control in CONTROLS:
+    for control in NAMED:
         draw = random.Random(control)
         for _ in range(count):
             _, text = mutant(control, draw)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import strategies as st
 
 import contoursolve
-from contoursolve import DIALECTS
+from contoursolve import CONTROLS
 from contoursolve.gcode import parse_block
 from tests.support.examples import law
 
@@ -36,7 +36,7 @@ def test_each_word_of_a_cutting_block_is_used_told_or_without_effect(control, wo
     before, cutting, *behind = _FRAME[control]
     cutting = cutting.format(" ".join(words))
     result = contoursolve.solve("\n".join((before, cutting, *behind)), control=control)
-    lexicon, syntax = DIALECTS[control].modes.lexicon, DIALECTS[control].modes.syntax
+    lexicon, syntax = CONTROLS[control].modes.lexicon, CONTROLS[control].modes.syntax
     spans = [label.span for each in result.diagnostics for label in each.labels]
     told = [span for span in spans if span.line == 2]
     used = {word.span for answer in result.answers for word in answer.claim.words.values()}

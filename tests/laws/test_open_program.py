@@ -44,7 +44,7 @@ def compare(program: OpenProgram, text: str, control: str | None) -> None:
     trouble, fresh = "", None
     try:
         fresh = contoursolve.solve(text, control=control)
-    except (contoursolve.UnknownControlError, contoursolve.SettingError) as error:
+    except (contoursolve.errors.UnknownControlError, contoursolve.errors.SettingError) as error:
         trouble = str(error)
     assert program.trouble == trouble
     if fresh is None:

@@ -7,7 +7,7 @@ from drawn_arcs import Drawing, kinds_of
 from hypothesis import given, settings, strategies as st
 
 import contoursolve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import Severity
 
 SEEDS = st.integers(0, 2**32)
@@ -28,14 +28,14 @@ def by_line(found):
     return sorted((each.span.line, each.code, sorted(each.values.items())) for each in found)
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 @given(SEEDS)
 def test_right_arcs_are_told_nothing(control, seed):
     arcs = Drawing(control, Random(seed)).arcs()
     assert told(arcs) == [], arcs.text
 
 
-@pytest.mark.parametrize(("control", "kind"), [(each, kind) for each in DIALECTS for kind in kinds_of(each)])
+@pytest.mark.parametrize(("control", "kind"), [(each, kind) for each in CONTROLS for kind in kinds_of(each)])
 @settings(max_examples=10)
 @given(SEEDS)
 def test_an_impossible_arc_is_found_in_whatever_order_its_words_stand(control, kind, seed):

@@ -123,7 +123,7 @@ def of_variables(asked: Asked) -> Limits:
 
 def of_ranges(asked: Asked) -> Limits:
     """The ranges of a word."""
-    found = contoursolve.feasible(asked.text, "#1", start=asked.start, **asked.options)
+    found = contoursolve.ranges(asked.text, "#1", start=asked.start, **asked.options)
     bundle = found._repr_mimebundle_()
     title = str(found).split("\n")[0]
     told = {
@@ -191,7 +191,7 @@ def test_a_tolerance_that_is_printed_is_kept(within: float, odd: int, name: str)
         assert answer.contour is not None
         return answer.contour.places["V2"]
 
-    found = contoursolve.tolerance_for(block(stated[name]), name, keep="V2", within=within, start="X40. Z0.")
+    found = contoursolve.tolerances(block(stated[name]), name, keep="V2", within=within, start="X40. Z0.")
     own = turn(stated[name])
     limits = [("text", each) for each in TABLE.findall(shown(str(found)))]
     document = word_tolerance_data(found)
@@ -230,10 +230,10 @@ def test_a_tool_that_is_said_to_fit_cuts_the_contour(name: str, thousandths: int
     limits += [("find json", f"{each['high']['value']:.12f}") for each in document["contours"][0]["ranges"]]
     told = call("check", "-", "--tool", "R9.5", *tip, *control, stdin=program)
     limits += [("check", each) for each in UP_TO.findall(told.stdout)]
-    _, report = contoursolve.solve_with_tool(program, tool="R9.5", tip=3 if tip else None, control=control[1])
+    report = contoursolve.solve(program, tool="R9.5", tip=3 if tip else None, control=control[1]).tool
     assert report is not None
     line = next(number for number, text in enumerate(program.split("\n"), 1) if "G01" in text or "G111" in text)
-    limits += [("hover", each) for each in UP_TO.findall(contoursolve.tool_text(report, line))]
+    limits += [("hover", each) for each in UP_TO.findall(report.text(line))]
     stated = f"contoursolve tool: R9.5{', tip 3' if tip else ''}"
     talk = Conversation(begin(f"({stated})\n{program}", control=control[1]))
     talk.answer({"do": "range", "key": "tool"})
@@ -307,7 +307,7 @@ def test_the_editor_prints_the_same_limits() -> None:
 def test_the_edge_of_a_region_is_as_near_as_it_is_said_to_be() -> None:
     """Within what is printed of each point of a line, one of the words has a value with a contour and one without."""
     block = "G111 X100. A180. K-30. B120. P5. Q5."
-    found = contoursolve.region(block, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
+    found = contoursolve.ranges(block, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
     near = [float(each) for each in re.findall(r"edges within ([\d.]+) deg and ([\d.]+) mm", found.fineness)[0]]
 
     def holds(angle: float, size: float) -> bool:

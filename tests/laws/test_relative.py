@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import contoursolve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 
 VECTORS = Path(__file__).parents[2] / "docs" / "vectors"
 LETTERS = {
@@ -37,7 +37,7 @@ def codes(answer):
     return sorted(each.code for each in answer.diagnostics if each.code not in ("start-relative", "axis-crossed"))
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_a_shape_is_the_same_without_its_place(control):
     count = 0
     for vector in examples(control):

@@ -15,7 +15,7 @@ from oracle_free_chains import heads, other_chains
 import contoursolve
 from contoursolve import Answer, ArcSegment
 from contoursolve.cli import main
-from contoursolve.diagnosis.solutions import Listing, list_solutions
+from contoursolve.diagnosis.solutions import Solutions, list_solutions
 from contoursolve.solving.enumerate import DRAWING, Effort
 
 FAR = """0 BEGIN PGM T MM
@@ -34,7 +34,7 @@ TWO_HALVES = (
 )
 
 
-def solved(text: str, **options: Any) -> tuple[Answer, Listing]:
+def solved(text: str, **options: Any) -> tuple[Answer, Solutions]:
     (answer,) = contoursolve.solve(text, **options).answers
     listing = list_solutions(answer)
     assert listing is not None

@@ -17,7 +17,7 @@ from vectors import VECTORS, program_of, solved as solved_vector
 
 import contoursolve
 from contoursolve import ArcSegment
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis.solutions import list_solutions
 from contoursolve.geometry import assemble
 from contoursolve.solving import (
@@ -431,7 +431,7 @@ def test_a_chain_that_its_data_just_determine_is_among_the_solutions_and_none_is
 def test_the_construction_has_the_solutions_that_elimination_finds_in_the_same_order(monkeypatch, seeds):
     """Two ways that share no code from the equations to the numbers."""
     found, closed = [], 0
-    examples = (example for rule in DIALECTS["heidenhain"].catalogue for example in (*rule.accepted, *rule.rejected))
+    examples = (example for rule in CONTROLS["heidenhain"].catalogue for example in (*rule.accepted, *rule.rejected))
     texts = [*PROGRAMS.values(), *dict.fromkeys(examples), *(random_chain(Random(seed), 3, 6).text for seed in seeds)]
     for close in (closed_steps.close_step, lambda *_: None):
         monkeypatch.setattr(enumerate_module, "close_step", close)

@@ -259,7 +259,7 @@ def test_bevel_by_length_is_a_45_degree_segment_of_that_length():
         configured({}, "G111 X100. A180. K-30. B120. C60.").diagnostics[0].values["limit"]
     )
     asked = configured({"bevel": "length"}, "G111 X100. A180. K-30. B120. C? (contoursolve: length of corner 1 = 5)")
-    assert asked.answers[0].value == pytest.approx(5)
+    assert asked.asked[0].value == pytest.approx(5)
 
 
 def test_a_path_that_crosses_the_spindle_axis_is_said_with_the_place():

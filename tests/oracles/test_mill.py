@@ -23,7 +23,7 @@ from oracle_corners import miss
 from oracle_nct import Run, runs
 
 from contoursolve import Result, check, solve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics.finding import Applicability, Severity
 from contoursolve.output.document import to_json
 
@@ -142,7 +142,7 @@ def test_blocks_that_nobody_drew_are_solved_or_refused_as_the_sheet_says(instanc
 def subsets() -> Iterator[tuple[str, list[str]]]:
     """Every set of the optional words of every form's sample."""
     optional = re.compile(r"\{([^}]*)\}")
-    for form in DIALECTS["nct-99m"].forms:
+    for form in CONTROLS["nct-99m"].forms:
         texts = [word for block in form.table.sample.blocks for word in optional.findall(block)]
         for kept in product((True, False), repeat=len(texts)):
             keep = iter(kept)
@@ -252,7 +252,7 @@ def test_lines_of_a_chain_that_are_parallel_are_shown_in_both_of_their_blocks():
 def test_an_angle_that_is_asked_for_beside_a_point_is_answered() -> None:
     program = "G17 G90 G42 G0 X100 Y20\nG1 ,A?\nG3 X20 Y40 I20 J-10 R50 Q-1 (contoursolve: line tangent to arc)"
     (answer,) = solve(program, control="nct-99m").answers
-    (asked,) = answer.answers
+    (asked,) = answer.asked
     to_center, away = degrees(atan2(-30, -80)) % 360, degrees(asin(50 / hypot(80, 30)))
     assert asked.value == pytest.approx(to_center - away, abs=1e-9)
 

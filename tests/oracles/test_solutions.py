@@ -28,7 +28,7 @@ from contoursolve.diagnosis.examine import list_alternatives
 from contoursolve.diagnosis.solutions import printed_certificate
 from contoursolve.geometry import assemble
 from contoursolve.numeric import ball
-from contoursolve.solving import DECIMALS, Drawings, Drawn, analyse, order
+from contoursolve.solving import DECIMALS, Drawing, Drawings, analyse, order
 from contoursolve.solving.branch_and_prune import search
 from contoursolve.solving.enumerate import enumerate_solutions
 from contoursolve.solving.exact_inputs import ground_of
@@ -78,7 +78,7 @@ def lines_touching(things: Sequence[Thing]) -> Drawings:
     return sketch.solve()
 
 
-def circle_of(drawn: Drawn) -> Circle:
+def circle_of(drawn: Drawing) -> Circle:
     return Circle(*drawn.points["k.center"], drawn.radii["k.radius"])
 
 
@@ -559,7 +559,7 @@ def jump(one: Any, other: Any) -> float:
     return max(abs(complex(*a.end) - complex(*b.end)) for a, b in pairs)
 
 
-# Drawn first, stated afterwards ------------------------------------------------------------------------------
+# Drawing first, stated afterwards ------------------------------------------------------------------------------
 
 LONG_SEARCHES = (86,)
 """Seeds of which all solutions nearby are found, while the search of 100 m is given up, and says so."""

@@ -131,7 +131,7 @@ def test_random_contours(count: int, tmp_path: Path):
         for parts, path in zip(fitting, expanded(fitting, about, tmp_path), strict=True):
             places = [each.at(numpy.linspace(0, 1, 200))[0] - about.shift for each in path]
             assert min(clearance(each, parts).min() for each in places) > radius - 0.002, about
-        leave = ("--set", f"{spelling.control}.tool-too-small=leave", str(tmp_path / "drawn.nc"))
+        leave = ("--setting", f"{spelling.control}.tool-too-small=leave", str(tmp_path / "drawn.nc"))
         (tmp_path / "drawn.nc").write_text(spelling.program(contours, stated))
         rests = run("solve", "--format", "json", *about.options, *leave)["contours"]
         for parts, contour, rest in zip(contours, found, rests, strict=True):

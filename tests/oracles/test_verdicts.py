@@ -11,7 +11,7 @@ import pytest
 from msgspec.structs import asdict
 
 from contoursolve import geometry
-from contoursolve.controls import DIALECTS, write_tables
+from contoursolve.controls import CONTROLS, write_tables
 from contoursolve.geometry import build_system
 from contoursolve.reading import lay_out, stated_sets
 from contoursolve.solving import derive
@@ -33,7 +33,7 @@ BY_LETTERS = {letters(key): row for key, row in TABLE.items() if key.startswith(
 
 @pytest.mark.slow
 def test_some_rows_of_the_shipped_table_are_what_sympy_derives_today():
-    for form in (form for dialect in DIALECTS.values() for form in dialect.forms):
+    for form in (form for dialect in CONTROLS.values() for form in dialect.forms):
         for stated in list(stated_sets(form))[::389]:
             layout = lay_out(form, stated, frozenset())
             system = build_system(layout.figure, layout.facts)

@@ -14,7 +14,7 @@ from vectors import CLOSE, FILES, FOLDER, ROWS, program_of, public, refusal, set
 
 from contoursolve import Result, check, solve
 from contoursolve.comparison import Document, ReceiptVerdict, verify
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.output.document import to_json
 
 NO_WORDS_OF_CONTOURS = {
@@ -68,7 +68,7 @@ def test_the_files_are_sorted_have_their_schema_and_every_control():
     schema = json.loads((FOLDER / "schema.json").read_text(encoding="utf-8"))
     Draft202012Validator.check_schema(schema)
     holds = Draft202012Validator(schema)
-    assert FILES.keys() == DIALECTS.keys()
+    assert FILES.keys() == CONTROLS.keys()
     for control, path in FILES.items():
         content = path.read_text(encoding="utf-8")
         file = json.loads(content)
@@ -84,7 +84,7 @@ def test_the_files_are_sorted_have_their_schema_and_every_control():
 
 @pytest.mark.slow
 def test_the_right_vectors_have_every_form_and_every_word_of_their_control():
-    for control, dialect in DIALECTS.items():
+    for control, dialect in CONTROLS.items():
         own = [row for name, row in ROWS if name == control and "contours" in row]
         claims = [answer.claim for row in own for answer in solved(control, row).answers]
         words = {word.address for claim in claims for block in claim.blocks for word in block.words}

@@ -26,7 +26,7 @@ import drawn_calls
 import sympy  # noqa: F401 - the first --explain imports it, which is not its fault
 from click.testing import CliRunner
 
-from contoursolve import DIALECTS, Result, Severity, Status, solve
+from contoursolve import CONTROLS, Result, Severity, Status, solve
 from contoursolve.cli import main
 
 ROOT = Path(__file__).parents[2]
@@ -39,13 +39,13 @@ ENDLESS = 60.0
 GAP = 1e-9
 """mm."""
 
-CONTROLS = tuple(DIALECTS)
+NAMED = tuple(CONTROLS)
 
 
 @cache
 def examples(control: str) -> list[str]:
     """The right and wrong examples of a control's rules, its test vectors, and programs with calls and loops."""
-    rules = [rule.told for rule in DIALECTS[control].catalogue]
+    rules = [rule.told for rule in CONTROLS[control].catalogue]
     texts = [text for rule in rules for text in (*rule.accepted, *rule.rejected)]
     vectors = json.loads((ROOT / "docs" / "vectors" / f"{control}.json").read_text(encoding="utf-8"))["vectors"]
     texts += ["\n".join(each["program"]) for each in vectors]
@@ -57,7 +57,7 @@ def examples(control: str) -> list[str]:
 @cache
 def right_programs(control: str) -> list[str]:
     """The programs of a control's own examples that have a contour and no error."""
-    accepted = dict.fromkeys(text for rule in DIALECTS[control].catalogue for text in rule.accepted)
+    accepted = dict.fromkeys(text for rule in CONTROLS[control].catalogue for text in rule.accepted)
     results = ((text, solve(text, control=control)) for text in accepted)
     return [text for text, each in results if any(one.contour for one in each.answers) and not each.has_errors]
 
@@ -102,7 +102,7 @@ DEFAULT|ENDSWITCH|L"A" V1|UNTERPROGRAMM "A"|RETURN|X#l1|X{#l1+5}|X(1/0)|BEARBEIT
 G59 X10|G56|G820 NS1 NE3|N1|N5|X?|Z? A30|B-2|B0|Q1|Q0|R5|G2 X20 Z-10 R5|G3 X20 Z-10 I5 K-5|G12 X5 Z-5 R3|G13
 G20 X50 Z100|G1 XI5 ZI-3|G22|G23 H0|G24|G25 H4|G52 P.5|AN30"""
 LINES = {
-    **dict.fromkeys(CONTROLS, _FANUC),
+    **dict.fromkeys(NAMED, _FANUC),
     **dict.fromkeys(("siemens-840d", "siemens-808d"), _SINUMERIK),
     "isg": _ISG,
     "heidenhain": _KLARTEXT,
@@ -224,7 +224,7 @@ def _spliced(text: str, control: str, draw: random.Random) -> str:
     """Lines of other programs, or such as compute, jump and call, between those of a program."""
     lines = text.split("\n")
     for _ in range(draw.choice((1, 1, 2, 4))):
-        of = control if draw.random() < 0.9 else draw.choice(CONTROLS)
+        of = control if draw.random() < 0.9 else draw.choice(NAMED)
         other = draw.choice(examples(of)).split("\n") if draw.random() < 0.4 else re.split(r"[|\n]", LINES[of])
         at = draw.randrange(len(other))
         lines[(place := draw.randrange(len(lines) + 1)) : place] = other[at : at + draw.choice((1, 1, 1, 3))]
@@ -248,7 +248,7 @@ def damaged(seed: int) -> tuple[bytes, str]:
     """A program of one or several contours with a slip or two, in bytes with line ends and characters of every kind,
     and its control."""
     draw = random.Random(seed)
-    control = draw.choice(CONTROLS)
+    control = draw.choice(NAMED)
     programs = right_programs(control)
     text = draw.choice(programs)
     others = [each for each in programs if "BEGIN PGM" not in each]
@@ -262,7 +262,7 @@ def damaged(seed: int) -> tuple[bytes, str]:
         # A long line is rather one of a contour.
         at = max(draw.choices(range(len(lines)), k=2), key=lambda at: len(lines[at]))
         lines[at] = draw.choice(SLIPS)(lines[at], draw)
-    lines.insert(0, DIALECTS[control].modes.syntax.remark.format("\u00e4\u00f6\u00fc \u00b0"))
+    lines.insert(0, CONTROLS[control].modes.syntax.remark.format("\u00e4\u00f6\u00fc \u00b0"))
     every = ("\n", "\r\n", "\r")
     usual, encoding = draw.choice(every), draw.choice(("utf-8", "utf-8-sig", "cp1252"))
     ends = [draw.choice(every) if draw.random() < 0.1 else usual for _ in lines]
@@ -290,7 +290,7 @@ verify part.nc result.json | verify right.nc result.json --format json | sweep {
 sweep {blocks} --vary tool=0.2:20:2.2 {tip} --quiet
 sweep {blocks} --vary {word}=-10:400:41 --quiet --plot a.svg --force
 sweep {blocks} --vary {word}=1:5:1 --vary {second}=0:90:45 --quiet --format json | range {blocks} --word {word}
-range {blocks} --word {word} --within -5:200 --format json | find {blocks} --word {word} --bring {goal}
+range {blocks} --word {word} --within -5:200 --format json | find {blocks} --word {word} --goal {goal}
 find part.nc --word tool {tip} | sensitivity {blocks} | sensitivity {blocks} --tolerance {word}=0.1 --format json
 sensitivity {blocks} --keep {kept} | write part.toml --to {control} | write part.toml --to {to} --all --format json
 facts"""
@@ -298,8 +298,10 @@ RUNS = [shlex.split(line) for line in re.split(r"[|\n]", COMMANDS) if line]
 ATOMS = (
     *("", "--", *" -=:,.@?()[\n\t\0\x1b\u7c97\u0663\udcff", "length of line 1 = 1e999", "Z of end of line 2 = ?"),
     *shlex.split("1e308 -1e308 1e-400 1e9999999999 nan inf -0 0.1 0x1 1_0 1:2:0 0:1:1e-99 '#1' G111 X1 A180. K V1"),
-    *shlex.split("--format json --control sys:x nct-99m --set a.b=c --rules off --units inch --block --start --fact"),
-    *shlex.split("/ .. ::x nowhere.nc part.nc right.nc @part.nc:B x.png -o start.X end --help --vary --word --bring"),
+    *shlex.split(
+        "--format json --control sys:x nct-99m --setting a.b=c --rules off --units inch --block --start --fact"
+    ),
+    *shlex.split("/ .. ::x nowhere.nc part.nc right.nc @part.nc:B x.png -o start.X end --help --vary --word --goal"),
 )
 
 
@@ -328,7 +330,7 @@ def drawn_case(control: str, seed: int) -> Case:
         files = {"part.toml": sketch}
     elif "right.nc" in line:
         files["right.nc"] = right
-    others = [each for each in CONTROLS if each not in ("yasnac-lx3", "heidenhain", "cnc-pilot", control)]
+    others = [each for each in NAMED if each not in ("yasnac-lx3", "heidenhain", "cnc-pilot", control)]
     named = re.compile(r"(?<![^\s])[,#]?(?:[A-FH-LP-Z]|[A-Z]{2,5})(?:\d(?==)|(?==?[-+.\d]))")
     words = [f"{n}:{each[0]}" for n, line in enumerate(text.split("\n")) for each in named.finditer(line) if n]
     words = [*words, *("start.X", "X", "R")[: 1 if words else 3]]
@@ -485,13 +487,13 @@ def run_many(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--count", type=int, default=100, help="how many seeds of each control")
-    parser.add_argument("--control", choices=CONTROLS, action="append")
+    parser.add_argument("--control", choices=NAMED, action="append")
     parser.add_argument("--command", help="only cases of this command")
     parser.add_argument("--seconds", type=float, default=SLOW, help="of processor time that a run may take")
     asked = parser.parse_args(arguments)
     count, faults, begin = 0, 0, process_time()
     for seed in range(asked.seed, asked.seed + asked.count):
-        for control in asked.control or CONTROLS:
+        for control in asked.control or NAMED:
             case = drawn_case(control, seed)
             if asked.command not in (None, case.arguments[0]):
                 continue

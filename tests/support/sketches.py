@@ -6,7 +6,7 @@ from random import Random
 from chains import Arc, Chain, Fact, distance_between, form_residuals, measure, random_chain, random_facts
 
 from contoursolve import Sketch
-from contoursolve.solving import Drawn
+from contoursolve.solving import Drawing
 
 
 def sketch_of(chain: Chain, facts: Sequence[Fact]) -> Sketch:
@@ -23,7 +23,7 @@ def sketch_of(chain: Chain, facts: Sequence[Fact]) -> Sketch:
     return sketch
 
 
-def chain_of(drawn: Drawn, form: Chain) -> Chain:
+def chain_of(drawn: Drawing, form: Chain) -> Chain:
     """A drawing as a chain of the same form."""
     places = [place for number in form.numbers for place in drawn.points[f"P{number}"]]
     for number in form.arcs:

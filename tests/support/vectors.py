@@ -17,11 +17,11 @@ from oracle import Element
 import contoursolve
 from contoursolve import Answer, ArcSegment, Diagnostic, Result
 from contoursolve.comparison import Document, ReceiptVerdict, verify
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.output.document import to_json
 
 FOLDER = Path(__file__).parents[2] / "docs" / "vectors"
-FILES = {path.stem: path for path in sorted(FOLDER.glob("*.json")) if path.stem in DIALECTS}
+FILES = {path.stem: path for path in sorted(FOLDER.glob("*.json")) if path.stem in CONTROLS}
 VECTORS: dict[str, dict[str, dict[str, Any]]] = {
     name: {each["id"]: each for each in json.loads(path.read_text(encoding="utf-8"))["vectors"]}
     for name, path in FILES.items()

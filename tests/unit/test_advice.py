@@ -4,7 +4,7 @@ from math import hypot
 
 import pytest
 
-from contoursolve import DIALECTS, check, legal_blocks, solve
+from contoursolve import CONTROLS, check, solve
 
 START = "X40. Z0."
 
@@ -43,7 +43,7 @@ FORMS = {
 
 @pytest.mark.parametrize("control", FORMS)
 def test_every_example_of_a_form_is_a_contour_of_it(control):
-    blocks = legal_blocks(DIALECTS[control])
+    blocks = CONTROLS[control].examples
     counts = {name: sum(each.form == name for each in blocks) for name in dict.fromkeys(each.form for each in blocks)}
     assert ", ".join(f"{name} {count}" for name, count in counts.items()) == FORMS[control]
     for each in blocks:

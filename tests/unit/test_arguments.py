@@ -34,9 +34,6 @@ def test_what_is_given_in_another_form_is_told_with_what_fits():
     result = contoursolve.solve(BLOCK, start={"X": 40, "Z": 0})
     assert result.answers[0].contour == contoursolve.solve(BLOCK, start=START).answers[0].contour
     for ask, message in (
-        (lambda: contoursolve.list_solutions(result), "answer is an Answer, not Result; take one of its `answers`"),
-        (lambda: contoursolve.end_text(result), "answer is an Answer, not Result; take one of its `answers`"),
-        (lambda: contoursolve.to_dxf(result), "answers is a list of answers, such as `result.answers`"),
         (
             lambda: contoursolve.solve(BLOCK, start=(40, 0)),
             'the start is words such as "X40. Z0.", or {"X": 40, "Z": 0}',
@@ -44,12 +41,12 @@ def test_what_is_given_in_another_form_is_told_with_what_fits():
         (lambda: contoursolve.family(BLOCK, vary={"A": [1]}, start=(40, 0)), 'or {"X": 40, "Z": 0}, not (40, 0)'),
         (lambda: contoursolve.solve(BLOCK, start={"X": "a"}), "X of the start is a number, not 'a'"),
         (lambda: contoursolve.solve(BLOCK, variables=5), 'variables is a mapping of variables, such as {"#100": 95.0}'),
-        (lambda: contoursolve.feasible(BLOCK, "A", settings=5), "settings is a mapping of settings, such as"),
+        (lambda: contoursolve.ranges(BLOCK, "A", settings=5), "settings is a mapping of settings, such as"),
         (lambda: contoursolve.solve(BLOCK, facts=[5]), 'a fact is a text such as "length of line 1 = 30"'),
         (lambda: contoursolve.solve(BLOCK, trust=5), 'trust is words, such as "Z-50. A120.", not 5'),
         (lambda: contoursolve.Sketch().solve(), "the sketch is empty; add a line, an arc or a circle"),
         (lambda: contoursolve.parse(("G1", "X2")), "text is a text (str), not ('G1', 'X2')"),
-        (lambda: contoursolve.solve_file(5), 'path is the name of a file, such as "part.nc", not 5'),
+        (lambda: contoursolve.check(5), "text is a text (str), a Path or a Program, not 5"),
     ):
         with pytest.raises((TypeError, ValueError)) as caught:
             ask()

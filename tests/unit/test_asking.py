@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from oracle import Outcome, g111
 
-from contoursolve import Answer, ArcSegment, Contour, Status, list_solutions, solve
+from contoursolve import Answer, ArcSegment, Contour, Status, solve
 
 TOLERANCE = 1e-6
 """mm. What 12 decimals of a fact leave of a drawing that is not close to a singular one."""
@@ -368,7 +368,7 @@ def taper_cases(seed: int) -> Iterator[Case]:
 
 
 def solutions_of(answer: Answer) -> list[Drawing]:
-    listing = list_solutions(answer)
+    listing = answer.solutions
     return [drawing_of(each.contour) for each in listing.solutions if each.contour] if listing else []
 
 
@@ -391,7 +391,7 @@ def test_a_taper_comes_back_from_a_fact_instead_of_a_word(seed: int) -> None:
             assert abs(case.fact.miss(drawing)) < 1e-7, told
             assert_words_hold(case.taper, case.erased, drawing)
         nearest = min((gap_between(drawing, case.taper.drawn) for drawing in found), default=1e9)
-        listing = list_solutions(answer)
+        listing = answer.solutions
         assert nearest < TOLERANCE or (listing is not None and not listing.is_complete), told
         if answer.status is Status.SOLVED:
             assert answer.contour is not None
@@ -400,7 +400,7 @@ def test_a_taper_comes_back_from_a_fact_instead_of_a_word(seed: int) -> None:
         else:
             assert answer.status is Status.AMBIGUOUS, told
             assert len(found) > 1
-            assert all(each.value is None for each in answer.answers)
+            assert all(each.value is None for each in answer.asked)
         count += 1
     assert count >= 4
 
@@ -443,7 +443,7 @@ def test_a_refused_fact_leaves_a_system_that_can_be_looked_at() -> None:
 
 def assert_asked(case: Case, answer: Answer) -> None:
     """What is told for each question is the erased word, or the length of line 1."""
-    for asked in answer.answers:
+    for asked in answer.asked:
         word, value = asked.question.word.text, asked.value
         assert value is not None
         if word == case.erased + "?":
@@ -468,4 +468,4 @@ def test_a_direction_is_found_from_a_fact_about_a_corner(words: str, fact: str, 
     (answer,) = solve(f"G111 {words}", start="X40. Z0.", facts=[fact], depth="verdict").answers
     assert any(abs(drawing.points["V1"] - (-30 + 20j)) < TOLERANCE for drawing in solutions_of(answer))
     if answer.status is Status.SOLVED:
-        assert wrapped((answer.answers[0].value or 0.0) - value) == pytest.approx(0, abs=TOLERANCE)
+        assert wrapped((answer.asked[0].value or 0.0) - value) == pytest.approx(0, abs=TOLERANCE)

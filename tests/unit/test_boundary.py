@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import FamilyError, family, feasible, region
+from contoursolve import family, ranges
 from contoursolve.cli import main
+from contoursolve.errors import FamilyError
 from contoursolve.families import outcomes_of
 from contoursolve.solving import StatusCode
 
@@ -34,7 +35,7 @@ def only(found):
 
 def test_ranges_of_a_few_thousandths_are_found_in_a_wide_range():
     block = "G111 X100. A180. K-30. B120. I0. P5."
-    found = only(feasible(block, "I", start=START, rules="off", within=(-5000, 5000)))
+    found = only(ranges(block, "I", start=START, rules="off", within=(-5000, 5000)))
     # Two coordinates in X and the angle, each exact to half its increment.
     allowed = 0.0005 + 30 * radians(0.0005) + 1e-9
     assert (found.low.value, found.high.value) == (pytest.approx(-allowed), pytest.approx(allowed))
@@ -55,7 +56,7 @@ def test_ranges_of_a_few_thousandths_are_found_in_a_wide_range():
 def test_a_range_that_makes_no_sense_is_refused(block, word, within, message):
     options = LATHE if block == BLOCK else {}
     with pytest.raises(FamilyError, match=message):
-        feasible(block, word, within=within, **options)
+        ranges(block, word, within=within, **options)
 
 
 REGIONS = {
@@ -81,12 +82,12 @@ def crossings(found, value):
 @pytest.mark.parametrize("name", REGIONS)
 def test_a_cut_through_a_region_has_the_ends_of_the_range_of_the_other_word(name):
     block, options, words, within = REGIONS[name]
-    found = region(block, words, within, **options)
+    found = ranges(block, words, within, **options)
     (low, high), span = within
     for value in np.round(np.random.default_rng(len(name)).uniform(low, high, 8), 3).tolist():
-        ranges = feasible(with_value(block, words[0], value), words[1], within=span, **options).intervals
-        ranges = [each for each in ranges if each.high.value - each.low.value > found.seen[1]]
-        ends = [end.value for each in ranges for end in (each.low, each.high) if end.reason]
+        intervals = ranges(with_value(block, words[0], value), words[1], within=span, **options).intervals
+        intervals = [each for each in intervals if each.high.value - each.low.value > found.seen[1]]
+        ends = [end.value for each in intervals for end in (each.low, each.high) if end.reason]
         # A value without the contour alone, as between two angles, is narrower than what is sampled.
         expected = [end for end in ends if ends.count(end) == 1]
         assert sorted(crossings(found, value)) == pytest.approx(expected, abs=found.cell[1]), value
@@ -95,7 +96,7 @@ def test_a_cut_through_a_region_has_the_ends_of_the_range_of_the_other_word(name
 @pytest.mark.slow
 def test_every_value_of_a_region_has_the_outcome_of_its_single_solve_and_rules_bound_it_too():
     block, options, words, within = REGIONS["two roundings"]
-    found = region(block, words, within, **options)
+    found = ranges(block, words, within, **options)
     axes = [np.linspace(*ends, count) for ends, count in zip(within, found.outcomes.shape, strict=True)]
     every = family(block, vary=dict(zip(words, axes, strict=True)), **options)
     same = found.outcomes == outcomes_of(every["status"], every["reason"])
@@ -232,7 +233,7 @@ def check_against_family(block, word, found, options):
 
 @pytest.mark.parametrize(("block", "options", "word", "within"), STARTED)
 def test_ranges_with_facts_and_start_points_are_those_of_a_fine_family(block, options, word, within):
-    assert check_against_family(block, word, feasible(block, word, within=within, **options), options)
+    assert check_against_family(block, word, ranges(block, word, within=within, **options), options)
 
 
 @pytest.mark.slow
@@ -249,7 +250,7 @@ def test_ranges_with_facts_and_start_points_are_those_of_a_fine_family(block, op
 def test_a_cut_through_a_region_with_facts_is_what_a_fine_family_shows(name, words):
     block, options, ranges = FACTS[name]
     within = [ranges.get(word, (0, 60)) for word in words]
-    found = region(block, words, within, **options)
+    found = ranges(block, words, within, **options)
     (low, high), span = within
     axis = np.linspace(*span, 161)
     for value in np.round(np.random.default_rng(len(name)).uniform(low, high, 5), 3).tolist():

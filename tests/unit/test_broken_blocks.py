@@ -13,7 +13,7 @@ import pytest
 from records import replace
 from test_diagnosis import EQUATIONS, START, Words, answer_to, assert_layers_fit, block_of, rows_of, verdicts
 
-from contoursolve import Answer, Severity, completions, what_if
+from contoursolve import Answer, Severity
 from contoursolve.diagnostics import Applicability
 
 AGREEMENT = 0.001
@@ -263,13 +263,13 @@ def test_diagnosis_does_not_depend_on_order_unit_mirror_image_or_shift(change, r
         assert texts[0] == texts[1]
 
 
-# What-if and completions ------------------------------------------------------------------------------
+# Other words and completions ------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("address", ["K", "Z"])
-def test_what_if_refuses_to_edit_a_word_that_is_not_there_once(address):
+def test_with_words_refuses_to_edit_a_word_that_is_not_there_once(address):
     with pytest.raises(ValueError, match="exactly one"):
-        what_if("G111 A135. I10. Z-40. Z-40.", drop=[address], start=START)
+        answer_to("G111 A135. I10. Z-40. Z-40.", start=START).with_words(drop=[address])
 
 
 @pytest.mark.parametrize("seed", range(0, 200, 5))
@@ -277,7 +277,7 @@ def test_completions_are_exactly_the_words_that_make_a_block_legal_and_determine
     """Restated from the manual: the missing one of two of A, I, K or of two of line 2."""
     case = broken(Random(seed), "missing" if seed % 10 else KINDS[seed // 10 % 10])
     answer = case.solve(depth="verdict")
-    found = completions(case.text, control="yasnac-lx3", start=case.start_text)
+    found = answer.completions
     for each in found:
         assert each.word in each.block
         assert each.word.endswith("?") == (each.contour is None)

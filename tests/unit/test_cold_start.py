@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from contoursolve import DIALECTS
+from contoursolve import CONTROLS
 
 COUNTED = """
 import re, sys
@@ -39,9 +39,9 @@ def loaded_by(*arguments: str, told: str = "") -> tuple[int, int, set[str]]:
 @pytest.mark.parametrize(
     ("program", "control", "most"),
     [
-        ("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.", "yasnac_lx3", (162, 69)),
-        ("G18 DIAMON G0 X20 Z0\nG1 X40 RND=2\nZ-50", "siemens", (166, 79)),
-        ("0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+20 Y+20\n3 FL AN+0 LEN20\n4 END PGM A MM", "heidenhain", (193, 118)),
+        ("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.", "yasnac_lx3", (163, 69)),
+        ("G18 DIAMON G0 X20 Z0\nG1 X40 RND=2\nZ-50", "siemens", (167, 79)),
+        ("0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+20 Y+20\n3 FL AN+0 LEN20\n4 END PGM A MM", "heidenhain", (194, 118)),
     ],
 )
 def test_the_solve_of_one_block_loads_the_tables_of_its_control_alone(
@@ -52,7 +52,7 @@ def test_the_solve_of_one_block_loads_the_tables_of_its_control_alone(
     path.write_text(program, encoding="utf-8")
     modules, patterns, names = loaded_by("solve", str(path))
     tables = {name.split(".")[2] for name in names if name.startswith("contoursolve.controls.")}
-    assert tables & {name.replace("-", "_").split("_8")[0] for name in DIALECTS} == {control}
+    assert tables & {name.replace("-", "_").split("_8")[0] for name in CONTROLS} == {control}
     assert (modules <= most[0], patterns <= most[1]) == (True, True), (modules, patterns)
     assert not names & {"sympy", "scipy", "htpy", "pygls"}
 

@@ -92,7 +92,7 @@ def test_what_is_said_of_it_is_verified(tmp_path, name):
     case, program = CASES[name], tmp_path / "program.nc"
     first = f"{'L' if case.control == 'heidenhain' else 'G00'} {case.start}\n"
     program.write_text(first + case.block.format(A=case.text.format(case.right + 180)))
-    options = [f"--set={name}={value}" for name, value in case.options.get("settings", {}).items()]
+    options = [f"--setting={name}={value}" for name, value in case.options.get("settings", {}).items()]
     asked = ["solve", str(program), "--format", "json", "--control", case.control, *options]
     shown = CliRunner().invoke(main, asked).stdout
     assert len(json.loads(shown)["contours"]) == 1

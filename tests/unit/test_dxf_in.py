@@ -11,7 +11,8 @@ import ezdxf
 import pytest
 from ezdxf import units
 
-from contoursolve import ArcSegment, DxfError, LineSegment, read_dxf, solve_sketch
+from contoursolve import ArcSegment, LineSegment, read_dxf
+from contoursolve.errors import DxfError
 from contoursolve.geometry import Turn
 
 ROOT = Path(__file__).parents[2]
@@ -34,7 +35,7 @@ def data(document) -> bytes:
 
 def path_of(found):
     """The lines and arcs that a sketch comes to, mm."""
-    answer = solve_sketch(found.sketch).answer
+    answer = found.sketch.solve().answer
     return answer.contour.elements
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import contoursolve
-from contoursolve import DIALECTS, Status
+from contoursolve import CONTROLS, Status
 from contoursolve.notebook import Conversation, begin
 
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
@@ -301,7 +301,7 @@ def test_the_traits_of_a_line_are_those_of_the_program_and_variables_are_numbers
 
 
 def test_the_control_stays_when_what_shows_it_is_taken_out():
-    with pytest.raises(contoursolve.UnknownControlError):
+    with pytest.raises(contoursolve.errors.UnknownControlError):
         begin("G111 A180. K-30. B120. X80.\nG1 X-50 RND=2\nZ-90")
     now = Talk(f"{PAIR} Q-1")
     now.do("write", text=now.text.replace(",A171.87 Q-1", ""))
@@ -324,7 +324,7 @@ CONFLICTING = FRAME.format("2 FL AN+60 LEN50\n3 FL X+80 Y+20 AN-30")
 # A corner beside a departure is not solved, so that there is nothing to draw.
 APART = FRAME.format("2 L X+40 Y+0\n3 RND R5\n4 DEP LT LEN5").replace("99 END", "5 END")
 TNC = {"control": "heidenhain"}
-RULES = [rule for rule in DIALECTS["heidenhain"].catalogue if rule.code.startswith("heidenhain-")]
+RULES = [rule for rule in CONTROLS["heidenhain"].catalogue if rule.code.startswith("heidenhain-")]
 ACCEPTED = {text for rule in RULES for text in rule.accepted} - {APART}
 READ = [
     *((text, START, seed) for text in (WHOLE, "G112 X60. I10. K-8. R10. P1. Q1.") for seed in range(2)),
@@ -620,7 +620,7 @@ def test_the_front_end_sets_texts_and_loads_nothing():
 def test_what_is_missing_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     monkeypatch.delitem(sys.modules, "contoursolve.notebook.explorer", raising=False)
-    with pytest.raises(contoursolve.MissingExtraError) as error:
+    with pytest.raises(contoursolve.errors.MissingExtraError) as error:
         contoursolve.explore(WHOLE, **START)
     install = f'{sys.executable} -m pip install "contoursolve[notebook]"'
     assert str(error.value) == f"exploring a contour needs anywidget; install it with: {install}"

@@ -65,6 +65,6 @@ def test_the_program_without_python_says_that_it_lacks_the_package(monkeypatch):
 
 def _told(monkeypatch) -> str:
     monkeypatch.setitem(sys.modules, "resvg_py", None)
-    with pytest.raises(contoursolve.MissingExtraError) as refused:
+    with pytest.raises(contoursolve.errors.MissingExtraError) as refused:
         draw_answer(_ANSWER).png()
     return str(refused.value)

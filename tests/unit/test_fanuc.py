@@ -19,8 +19,9 @@ from oracle import Element, elements_of
 from oracle_corners import gap
 from oracle_fanuc import Machine, run
 
-from contoursolve import Diagnostic, Result, UnknownControlError, check, solve
+from contoursolve import Diagnostic, Result, check, solve
 from contoursolve.comparison import Document, ReceiptVerdict, verify
+from contoursolve.errors import UnknownControlError
 from contoursolve.output import to_json
 
 

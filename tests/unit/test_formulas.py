@@ -76,9 +76,9 @@ WORDS = ("--control", "yasnac-lx3", "--start", "X40. Z0.", "--block")
 @pytest.mark.parametrize(
     ("arguments", "status", "told"),
     [
-        (("--scratch", "#140-#140", "--let", "#1=95."), 1, "it needs 3 variables; #140-#140 has 1"),
-        (("--scratch", "#160-#140", "--let", "#1=95."), 2, "is no range of variables"),
-        (("--arcs", "radius", "--let", "#1=95."), 2, "goes without --arcs radius"),
+        (("--scratch", "#140-#140", "--variable", "#1=95."), 1, "it needs 3 variables; #140-#140 has 1"),
+        (("--scratch", "#160-#140", "--variable", "#1=95."), 2, "is no range of variables"),
+        (("--arcs", "radius", "--variable", "#1=95."), 2, "goes without --arcs radius"),
         ((), 1, "X#1"),
     ],
 )

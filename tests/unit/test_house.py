@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 import contoursolve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.solving import RefusalKind
 
 FLOORS = (
@@ -29,8 +29,8 @@ FLOORS = (
     "program",
     "comparison families",
     "postprocess pictures tool_radius",
-    "api output sketches",
-    "notebook try_edits",
+    "api output questions sketches",
+    "editing errors notebook outcomes tables try_edits",
     "__init__",
     "lsp cli workbench",
     "__main__",
@@ -145,6 +145,11 @@ def test_the_house_is_small_enough_to_be_walked_through():
         "__init__.py",
         "__main__.py",
         "api.py",
+        "editing.py",
+        "errors.py",
+        "outcomes.py",
+        "questions.py",
+        "tables.py",
         "tolerance.py",
         "try_edits.py",
     }
@@ -180,7 +185,18 @@ def test_a_room_imports_only_from_lower_floors():
 def test_the_language_server_knows_what_the_package_exports():
     known = {room for module in MODULES if room_of(module) == "lsp" for room in rooms(module)}
     # contoursolve.controls is the name of a command there.
-    assert known - {"controls"} == {"__init__", "diagnostics", "lsp", "notebook", "pictures"}
+    assert known - {"controls"} == {
+        "__init__",
+        "diagnosis",
+        "diagnostics",
+        "editing",
+        "errors",
+        "lsp",
+        "notebook",
+        "output",
+        "pictures",
+        "reading",
+    }
 
 
 def test_only_numeric_imports_sympy_casadi_and_flint():
@@ -286,9 +302,32 @@ def test_the_fields_of_every_public_record_are_told_of_and_numbers_with_their_un
     assert (untold, without_unit) == ([], [])
 
 
+PUBLIC = """
+    solve check fix explain parse system family ranges find sensitivity tolerances expand convert write draw export
+    report explore read_sketch read_dxf
+    errors editing tables pictures
+    Program Block Word Control CONTROLS Sketch ContourSketch SketchElement SketchCorner OpenProgram
+    Result Answer Contour LineSegment ArcSegment Status Solution Solutions EquationSystem Diagnosis
+    Diagnostic Severity Basis Fix FixedProgram
+    Family FeasibleRange FeasibleRegion FoundValues Sensitivity Tolerances ToleranceRange
+    Drawings Drawing Expansion Conversion Comparison Receipt WrittenContours ToolReport Picture
+"""
+"""By kind: verbs, modules, input, contours, findings, values, others."""
+
+
+def test_the_front_door_has_few_names():
+    """What is asked of one record is a method of it, and what few need stands in a module."""
+    assert sorted(contoursolve.__all__) == sorted(PUBLIC.split())
+    assert len(contoursolve.__all__) <= 70
+    errors = [getattr(contoursolve.errors, name) for name in contoursolve.errors.__all__]
+    assert all(issubclass(each, contoursolve.errors.UserError) for each in errors)
+    for door in (contoursolve.editing, contoursolve.tables):
+        assert all(hasattr(door, name) for name in door.__all__)
+
+
 def test_no_control_stands_in_where_none_is_named():
     """Who needs one says which; where nothing tells it, what holds for all of them counts."""
-    by_name = re.compile(r"""DIALECTS\[["'].*""")
+    by_name = re.compile(r"""CONTROLS\[["'].*""")
     assert [(short(module), found) for module in MODULES for found in by_name.findall(code_of(module))] == []
 
 
@@ -309,9 +348,9 @@ def literals(module: Path) -> Iterator[str]:
 
 def test_no_control_is_known_below_the_tables_of_the_controls():
     """Not by its name, its words or its codes: what differs is a field of a table."""
-    names = {part for name in DIALECTS for part in name.split("-")} - {"lathe", "mill", "cnc"}
+    names = {part for name in CONTROLS for part in name.split("-")} - {"lathe", "mill", "cnc"}
     named = re.compile(rf"\b({'|'.join(sorted(names))}|sinumerik|klartext|tnc)\b", re.IGNORECASE)
-    lexicons = [dialect.modes.lexicon for dialect in DIALECTS.values()]
+    lexicons = [dialect.modes.lexicon for dialect in CONTROLS.values()]
     addresses = {each for one in lexicons for each in (*one.addresses, *one.spelling.names)}
     words = {each for each in addresses if len(each.lstrip(",#")) > 1}
     found = []

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from test_family import ALL, filled
 
 import contoursolve
-from contoursolve.families import FamilyError, Way, family, feasible, find_word, inverse, spec_of, tolerance_for
+from contoursolve.families import FamilyError, Way, family, feasible, find, inverse, spec_of, tolerance_for
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 
@@ -47,22 +47,22 @@ def goal_of(point, answer, axes=(0, 1)):
 def test_an_angle_that_is_asked_for_is_looked_for_in_its_range(within, turns):
     """The direction of 188.794 degrees is that of -171.206 degrees, too."""
     block, facts = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
-    found = find_word(block, "A", "end Z-50.", start=START, facts=facts, within=within)
+    found = find(block, "A", "end Z-50.", start=START, facts=facts, within=within)
     assert [hit.value for hit in found.hits] == pytest.approx([188.79397 + 360 * each for each in turns], abs=1e-5)
 
 
 def test_a_block_that_leaves_something_open_has_no_answer():
     with pytest.raises(FamilyError, match=r"radius of the rounding P\? is still open"):
-        find_word("G111 X100. A180. K-30. B120. P?", "A", "end Z-50.", start=START)
-    asked = find_word(BLOCK.replace("P5.", "P?"), "K", "end X300.", start=START, facts=["straight part of line 2 = 20"])
+        find("G111 X100. A180. K-30. B120. P?", "A", "end Z-50.", start=START)
+    asked = find(BLOCK.replace("P5.", "P?"), "K", "end X300.", start=START, facts=["straight part of line 2 = 20"])
     assert (asked.hits, asked.remark.partition("; ")[0]) == ((), "K does not move end in this direction")
     with pytest.raises(FamilyError, match="no range"):
-        find_word(BLOCK, "A", "end Z-50.", start=START, facts=["length of line 1 = 30"], within=(200, 100))
+        find(BLOCK, "A", "end Z-50.", start=START, facts=["length of line 1 = 30"], within=(200, 100))
 
 
 def test_a_value_at_an_end_is_rounded_to_the_side_with_a_contour():
     """The largest rounding is 51.96152 mm: written as 51.962 it would not fit."""
-    hits = find_word(BLOCK.replace(" Q5.", ""), "P", "corner 1.begin Z9. X40.", start=START, within=(1, 60)).hits
+    hits = find(BLOCK.replace(" Q5.", ""), "P", "corner 1.begin Z9. X40.", start=START, within=(1, 60)).hits
     assert hits[0].value == pytest.approx(51.961524227)
     assert (hits[0].rounded, hits[0].rounded_away is not None) == (51.961, True)
 
@@ -81,7 +81,7 @@ def test_a_value_at_an_end_is_rounded_to_the_side_with_a_contour():
 )
 def test_a_goal_that_makes_no_sense_is_refused(word, goal, message):
     with pytest.raises(FamilyError, match=message):
-        find_word(BLOCK, word, goal, start=START)
+        find(BLOCK, word, goal, start=START)
 
 
 run = partial(calling.run, "find", "--block", BLOCK, "--start", START)
@@ -89,16 +89,16 @@ run = partial(calling.run, "find", "--block", BLOCK, "--start", START)
 
 def test_the_status_of_the_command_says_whether_there_is_a_value():
     goals = ("end Z-50.", "end Z-50. X90.", "end Z900.", "nowhere")
-    assert [run("--word", "A", "--bring", goal)[0] for goal in goals] == [0, 0, 1, 2]
+    assert [run("--word", "A", "--goal", goal)[0] for goal in goals] == [0, 0, 1, 2]
 
 
 def test_what_is_written_for_a_fact_and_for_the_start_point():
-    (hit,) = find_word(BLOCK, "start.X", "end Z-60.", start=START).hits
+    (hit,) = find(BLOCK, "start.X", "end Z-60.", start=START).hits
     assert hit.block == "X6.077 Z0."
     again = contoursolve.solve(BLOCK, start=hit.block).answers[0].contour
     assert hit.rounded_away == pytest.approx(abs(again.end[0] + 60), abs=1e-12)
     block, facts = "G111 X100. A180. K-30. B120. P?", ["straight part of line 2 = 20"]
-    (hit,) = find_word(block, "straight part of line 2", "corner 1.begin Z-20.", start=START, facts=facts).hits
+    (hit,) = find(block, "straight part of line 2", "corner 1.begin Z-20.", start=START, facts=facts).hits
     text, fact = hit.block.split("\n")
     again = contoursolve.solve(text, start=START, facts=[fact]).answers[0].contour
     assert abs(place_of("corner 1.begin", again)[0] + 20) == pytest.approx(hit.rounded_away, abs=1e-12)
@@ -117,13 +117,13 @@ def test_a_value_that_single_solves_do_not_confirm_leaves_the_list_open(give, mo
         return replace(found, zeros=tuple(replace(zero, value=zero.value + give) for zero in found.zeros))
 
     monkeypatch.setattr(inverse, "isolate", worse)
-    found = find_word(BLOCK, "A", "end Z-50.", start=START)
+    found = find(BLOCK, "A", "end Z-50.", start=START)
     assert (found.hits, found.is_complete) == ((), False)
     assert found.doubts[0].endswith("deg: there is a value, and single solves do not confirm it")
-    _, output, _ = run("--word", "A", "--bring", "end Z-50.")
+    _, output, _ = run("--word", "A", "--goal", "end Z-50.")
     assert "no value (at least; that these are all is not proven)" in output
     assert f"  not proven: {found.doubts[0]}" in output
-    assert json.loads(run("--word", "A", "--bring", "end Z-50.", "--format", "json")[1])["doubts"] == [*found.doubts]
+    assert json.loads(run("--word", "A", "--goal", "end Z-50.", "--format", "json")[1])["doubts"] == [*found.doubts]
 
 
 def g111_of(rng):
@@ -199,7 +199,7 @@ def ask_back(rng, scans):
             name = f"{word.span.line}:{word.address}" if "\n" in block else word.address
             if name.endswith(":Q") and options.get("control") == "nct-99m":
                 continue  # it only chooses between two places
-            found = find_word(block, name, goal_of("end", answer, (axis,)), **options)
+            found = find(block, name, goal_of("end", answer, (axis,)), **options)
             if "does not move" in found.remark:
                 continue
             count += 1
@@ -300,7 +300,7 @@ def test_places_of_elements_are_those_of_the_points_and_corners_that_end_them():
     room = tolerance_for(block, ",A", keep="line 2.room", within=0.01, **options)
     assert room.kept == "straight part of line 2"
     # At 179 degrees a rounding is left out: what jumps there is no value in doubt.
-    assert find_word(block, ",A", "corner 1.end Z-40.", **options).is_complete
+    assert find(block, ",A", "corner 1.end Z-40.", **options).is_complete
     with pytest.raises(FamilyError, match="the block has no word A; write ,A"):
         tolerance_for(block, "A", keep="N2 Z", within=0.01, **options)
 
@@ -326,7 +326,7 @@ def test_lengths_and_directions_are_kept_as_facts_name_them(block, facts, word, 
     for value in (found.stated, found.low.value, found.high.value):
         text = block.replace(f"{word}{found.stated:g}.", f"{word}{value!r}")
         more = [*facts, f"{keep} = ?"] if " of " in keep else facts
-        (*_, asked) = contoursolve.solve(text, start=START, facts=more).answers[0].answers
+        (*_, asked) = contoursolve.solve(text, start=START, facts=more).answers[0].asked
         values.append(asked.value * (1 + asked.question.is_diameter))
     assert [abs(each - values[0]) for each in values[1:]] == pytest.approx([within] * 2, abs=1e-8)
     assert found.low.value < found.stated < found.high.value

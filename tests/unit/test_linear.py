@@ -12,7 +12,7 @@ import pytest
 from counted import calls
 from long_chains import angles, corners, klartext
 
-from contoursolve import DIALECTS, check, expand, parse
+from contoursolve import CONTROLS, check, expand, parse
 
 TIMES = 8
 """How much longer the long line is than the short one."""
@@ -34,7 +34,7 @@ def line(shape: tuple[str, str, str], length: int) -> str:
 
 def read(text: str) -> None:
     parse(text)
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         dialect.modes.syntax.plain.several.match(text)
 
 

@@ -18,6 +18,7 @@ from test_pictures import check, labels, strokes
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis import statuses_text
+from contoursolve.output import map_page
 from contoursolve.output.map_frames import MOST_BYTES, MOST_FRAMES
 from contoursolve.pictures import (
     LEVELS,
@@ -70,7 +71,7 @@ def family_of(name, *counts):
 
 def region_of(name):
     block, box, options = BOXES[name]
-    return contoursolve.region(block, tuple(box), tuple(box.values()), **options)
+    return contoursolve.ranges(block, tuple(box), tuple(box.values()), **options)
 
 
 def solved_alone(family, values):
@@ -110,7 +111,7 @@ def test_each_solution_of_a_row_has_its_results_and_its_map():
         assert numpy.array_equal(own.result("length"), lengths[..., place], equal_nan=True)
     assert "length [mm]" in draw_family_map(own, result="length").title
     with pytest.raises(ValueError, match="write the word that chooses"):
-        contoursolve.explore_map(own)
+        contoursolve.explore(own)
 
 
 def test_an_unknown_result_is_refused_with_those_that_are_like_it():
@@ -121,11 +122,11 @@ def test_an_unknown_result_is_refused_with_those_that_are_like_it():
         ("status", "there is no result status"),
         (" ", "the results are end Z, end X, V1 Z"),
     ):
-        for ask in (draw_family_map, contoursolve.explore_map):
-            with pytest.raises(contoursolve.FamilyError, match=re.escape(said)):
+        for ask in (draw_family_map, contoursolve.explore):
+            with pytest.raises(contoursolve.errors.FamilyError, match=re.escape(said)):
                 ask(family, result=wrong)
-    with pytest.raises(contoursolve.FamilyError, match="take 2 or more"):
-        contoursolve.region(BLOCK, ("A", "P"), ((170, 190), (1, 9)), start=START).family(1, 5)
+    with pytest.raises(contoursolve.errors.FamilyError, match="take 2 or more"):
+        contoursolve.ranges(BLOCK, ("A", "P"), ((170, 190), (1, 9)), start=START).family(1, 5)
 
 
 # Maps -------------------------------------------------------------------------------------------------------------
@@ -264,7 +265,7 @@ def test_a_map_of_many_even_values_has_even_axes_and_counts_all_of_them():
     steps = numpy.diff([text.at[0] for text in ticks])
     assert len(ticks) > 3
     assert steps == pytest.approx(steps[0], abs=1e-6)
-    told = ", ".join(f"{number:,} {contoursolve.status_text(status)}" for status, number in family.summary().items())
+    told = ", ".join(f"{number:,} {status.text}" for status, number in family.summary().items())
     assert picture.title == f"P and A: {told}"
     assert "drawn: 200 of 401 values of A; the title counts all contours" in labels(picture)
     # A sweep draws the same from the values that it draws alone.
@@ -286,8 +287,8 @@ def test_an_axis_says_that_its_values_are_diameters():
     vary = {"X": numpy.linspace(60, 120, 20), "K": numpy.linspace(-40, -20, 20)}
     pictures = (
         draw_family_map(contoursolve.family(BLOCK, start=START, vary=vary)),
-        draw_range(contoursolve.feasible(BLOCK, "X", start=START)),
-        draw_region(contoursolve.region(BLOCK, ("X", "K"), ((60, 120), (-40, -20)), start=START)),
+        draw_range(contoursolve.ranges(BLOCK, "X", start=START)),
+        draw_region(contoursolve.ranges(BLOCK, ("X", "K"), ((60, 120), (-40, -20)), start=START)),
     )
     assert [[label for label in labels(each) if label.endswith("[mm]")] for each in pictures] == [
         ["X diameter [mm]", "K [mm]"], ["X diameter [mm]"], ["X diameter [mm]", "K [mm]"],
@@ -296,7 +297,7 @@ def test_an_axis_says_that_its_values_are_diameters():
 
 def test_where_every_value_is_refused_nothing_is_painted_as_solved():
     refused = {Role.REFUSED_FIELD, Role.OTHER_FIELD}
-    picture = draw_region(contoursolve.region(BLOCK, ("P", "Q"), ((-9.0, -5.0), (-9.0, -5.0)), start=START))
+    picture = draw_region(contoursolve.ranges(BLOCK, ("P", "Q"), ((-9.0, -5.0), (-9.0, -5.0)), start=START))
     check(picture)
     assert picture.title == "P and Q: no contour at every value sampled"
     assert {role for *_, role in fields_of(picture)} <= refused
@@ -383,8 +384,8 @@ def data_of(page):
 @pytest.mark.parametrize("name", PAGES)
 def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
     family = family_of(name, 6, 5)
-    page = contoursolve.map_page(family, "length")
-    assert page == contoursolve.map_page(family, "length")
+    page = map_page(family, "length")
+    assert page == map_page(family, "length")
     data = data_of(page)
     assert data["note"] == "This page holds the contours of all 30 values of the map."
     for axis, values in zip(data["axes"], family.ranges.values.values(), strict=True):
@@ -405,8 +406,8 @@ def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
 def test_a_page_asks_no_other_host_and_lets_nothing_out_of_its_texts():
     block = "G111 X100. A180. K-30. B120. P5. (</script><script>stolen=1</script><img src=x onerror=y>)"
     vary = {"A": [170, 180, 190], "P": [2, 5]}
-    page = contoursolve.map_page(contoursolve.family(block, start=START, vary=vary), version="1")
-    shown = contoursolve.explore_map(contoursolve.family(block, start=START, vary=vary))._repr_mimebundle_()[0]
+    page = map_page(contoursolve.family(block, start=START, vary=vary), version="1")
+    shown = contoursolve.explore(contoursolve.family(block, start=START, vary=vary))._repr_mimebundle_()[0]
     for text in (page, shown["text/html"]):
         found = Scripts(text)
         assert len(found.scripts) == 2
@@ -425,7 +426,7 @@ def test_the_page_about_maps_tells_how_many_contours_one_holds():
 def test_a_click_opens_the_block_with_these_values_in_the_explorer(name):
     _, box, _ = BOXES[name]
     family = family_of(name, 5, 4)
-    shown = contoursolve.explore_map(family)
+    shown = contoursolve.explore(family)
     low, high = ([ends[number] for ends in box.values()] for number in (0, 1))
     heard = []
     shown.observe(lambda change: heard.append(change["new"]), "text")
@@ -437,7 +438,7 @@ def test_a_click_opens_the_block_with_these_values_in_the_explorer(name):
         assert bool(shown.seen["path"]) == (alone is not None)
         if alone is not None:
             assert shown.answer.contour.end == pytest.approx(alone.end, abs=1e-9)
-            assert shown.seen["text"].startswith(f"solved, end {contoursolve.end_text(shown.answer)}")
+            assert shown.seen["text"].startswith(f"solved, end {shown.answer.end_text}")
         else:
             # A family has no program whose lines would name a corner.
             (amount,) = re.findall(r": (.*) on ", shown.seen["text"])
@@ -455,7 +456,7 @@ def test_a_map_is_of_a_family_over_two_words_or_of_a_region():
         (one, ValueError, "a grid of two words"),
         (contoursolve.solve(BLOCK, start=START), TypeError, "not of Result"),
     ):
-        for ask in (contoursolve.map_page, contoursolve.explore_map):
+        for ask in (map_page, contoursolve.explore):
             with pytest.raises(error, match=said):
                 ask(wrong)
     with pytest.raises(ValueError, match="a grid of two words"):
@@ -496,7 +497,7 @@ def test_a_contour_is_one_line_as_near_to_it_as_asked(ax, block, start, named):
 
 @pytest.mark.needs("matplotlib")
 def test_a_region_and_a_family_are_drawn_beside_what_is_there(ax):
-    region = contoursolve.region(BLOCK, ("A", "P"), ((150, 210), (1, 60)), start=START)
+    region = contoursolve.ranges(BLOCK, ("A", "P"), ((150, 210), (1, 60)), start=START)
     ax.plot([160], [10], label="mine")
     assert region.plot(ax, result="length") is ax
     borders = [each.reason.text for each in region.boundaries]
@@ -511,7 +512,7 @@ def test_a_region_and_a_family_are_drawn_beside_what_is_there(ax):
     assert (other.get_xlabel(), other.get_ylim()) == ("P [mm]", (150.0, 210.0))
     one = contoursolve.family(BLOCK, start=START, vary={"A": [170], "P": [1, 2]})
     for own, axes, options, error, said in (
-        (family, other, {"result": "end Y"}, contoursolve.FamilyError, "the axes of this contour are Z and X"),
+        (family, other, {"result": "end Y"}, contoursolve.errors.FamilyError, "the axes of this contour are Z and X"),
         (family, [other], {}, TypeError, "ax is axes of matplotlib"),
         (one, other, {"words": ("A", "P")}, ValueError, "two or more values"),
     ):
@@ -521,5 +522,5 @@ def test_a_region_and_a_family_are_drawn_beside_what_is_there(ax):
 
 def test_without_matplotlib_its_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
-    with pytest.raises(contoursolve.MissingExtraError, match=r'needs matplotlib; .* "contoursolve\[plot\]"'):
+    with pytest.raises(contoursolve.errors.MissingExtraError, match=r'needs matplotlib; .* "contoursolve\[plot\]"'):
         contoursolve.solve(BLOCK, start=START).answers[0].contour.plot()

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from oracle_mitsubishi import FORMS, random_block
 from vectors import program_of
 
-from contoursolve import UnknownControlError, solve
+from contoursolve import solve
+from contoursolve.errors import UnknownControlError
 
 CROSSING, ARCS, LEVER = (program_of("mitsubishi", name) for name in ("MI-G3-H0", "MI-G5", "MI-G6"))
 MILL = "G17 G90 G00 X0 Y0\n"

@@ -3,7 +3,7 @@ none. A shift by numbers moves the place, a table makes it unknown, and what is 
 
 import pytest
 
-from contoursolve import DIALECTS, OpenProgram, expand, solve
+from contoursolve import CONTROLS, OpenProgram, expand, solve
 from contoursolve.reading import ZeroMove
 
 FRAMES = "G17 G71 G90 G54\n{}\nG0 X0 Y0\n{}\nG1 X20 RND=5 F300\nY20\nM30"
@@ -211,7 +211,7 @@ def test_behind_a_refused_contour_nothing_is_known_by_words_that_are_not_read(wo
 
 SELECTIONS = [
     (control, name)
-    for control, dialect in DIALECTS.items()
+    for control, dialect in CONTROLS.items()
     for name, row in dialect.modes.zero.names.items()
     if row.move is ZeroMove.SELECT and row.axes_in("G17") != ("Z",) and not "G505" < name < "G599"
 ]

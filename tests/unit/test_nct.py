@@ -11,7 +11,7 @@ from oracle_nct import Settings, runs
 
 from contoursolve import check, solve
 from contoursolve.comparison import Document, ReceiptVerdict, verify
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.output import to_json
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
@@ -131,7 +131,7 @@ ALARMS = {
 
 
 def test_alarms_are_those_that_the_sheet_prints():
-    rows = [rule for rule in DIALECTS["nct-99m"].rules if rule.source.place.startswith(("16", "p. 2"))]
+    rows = [rule for rule in CONTROLS["nct-99m"].rules if rule.source.place.startswith(("16", "p. 2"))]
     found = {rule.code: rule.alarm.number.split()[0] for rule in rows if rule.alarm}
     assert {code: found.get(code) for code in ALARMS} == ALARMS
     assert {rule.source.evidence.value for rule in rows if rule.code in ALARMS} == {"printed"}

@@ -21,7 +21,7 @@ M30"""
 
 
 def test_a_contour_without_a_path_has_its_message():
-    picture = draw_result(contoursolve.solve_file(SHAFT.with_stem("shaft_broken")))
+    picture = draw_result(contoursolve.solve(SHAFT.with_stem("shaft_broken")))
     told = "cannot be cut: the rounding P4. does not fit: P4. is 4.000 mm, at most 2.500 mm fits on"
     assert f"3, program line 21, {told}" in "\n".join(labels(picture))
     assert f"Contour 3, program line 21, G111: {told} the face Z-75 from X60 to X66." in picture.description
@@ -43,7 +43,7 @@ def test_a_contour_that_is_too_small_is_shown_enlarged():
     assert {"A: rounding P0.5, rounding Q…", "20 times as large"} <= set(labels(details))
     assert labels(details).count("P0.5") == labels(details).count("Q0.3") == 2
     block = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.")
-    for large in (draw_result(contoursolve.solve_file(SHAFT)), draw_answer(block.answers[0])):
+    for large in (draw_result(contoursolve.solve(SHAFT)), draw_answer(block.answers[0])):
         assert not any("times as large" in text for text in labels(large))
 
 

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 import contoursolve
-from contoursolve import DIALECTS
+from contoursolve import CONTROLS
 from contoursolve.__main__ import commands
 from contoursolve.controls import GEOMETRY_RULES, NCT_99M, ControlName
 from contoursolve.diagnosis import Depth, Policy
@@ -68,31 +68,15 @@ def test_the_rows_of_the_control_itself_come_first_and_a_missing_one_is_named():
 
 DOORS = [
     getattr(contoursolve, name)
-    for name in [
-        "solve",
-        "system",
-        "check_file",
-        "expand",
-        "convert",
-        "family",
-        "region",
-        "feasible",
-        "find_word",
-        "sensitivity",
-        "tolerances",
-        "tolerance_for",
-        "family_of_tools",
-        "find_tools",
-        "explore",
-        "what_if",
-    ]
+    for name in ["solve", "system", "check", "expand", "convert", "family", "ranges", "find", "sensitivity"]
+    + ["tolerances", "explore"]
 ]
 
 
 def test_what_users_write_for_a_choice_is_one_of_its_values():
     """The texts that the types of the doors admit."""
     of_types = {
-        ControlName: DIALECTS,
+        ControlName: CONTROLS,
         Units: [each.value for each in Length],
         Rules: [each.value for each in Policy],
         Depths: [each.value for each in Depth],
@@ -105,8 +89,8 @@ def test_what_users_write_for_a_choice_is_one_of_its_values():
     }
     for names, values in of_types.items():
         assert get_args(names) == tuple(values)
-    assert {name: DIALECTS[name].name for name in DIALECTS} == {name: name for name in get_args(ControlName)}
-    assert DIALECTS.get("no control") is None
+    assert {name: CONTROLS[name].name for name in CONTROLS} == {name: name for name in get_args(ControlName)}
+    assert CONTROLS.get("no control") is None
 
 
 def test_the_keywords_of_every_door_are_the_fields_of_one_record():
@@ -117,7 +101,7 @@ def test_the_keywords_of_every_door_are_the_fields_of_one_record():
         own = {each.name: each.default for each in signature(door).parameters.values() if each.name in names}
         assert own == {name: getattr(told, name) for name in own}
         assert {"control", "units", "rules", "settings"} <= own.keys()
-        assert {"start", "facts"} <= own.keys() or door in (contoursolve.convert, contoursolve.what_if)
+        assert {"start", "facts"} <= own.keys() or door is contoursolve.convert
     for name in contoursolve.__all__:
         if isfunction(door := getattr(contoursolve, name)):
             kinds = {each.name: each.kind for each in signature(door).parameters.values()}
@@ -128,19 +112,20 @@ def test_the_keywords_of_every_door_are_the_fields_of_one_record():
 
 def test_every_door_takes_a_control_as_its_tables():
     result = contoursolve.solve(PAIR, control=MINE)
-    answer = result.answers[0]
+    answer = result.answer
     assert result.control == "mine"
     assert answer.contour == contoursolve.solve(PAIR).answers[0].contour
     assert contoursolve.check(PAIR, control=MINE) == ()
-    other = contoursolve.what_if(PAIR, change={"Q": "Q1"}, control=MINE)
-    assert other.answers[0].contour.points["P1"] == pytest.approx((-30, 40), abs=1e-3)
+    other = answer.with_words(change={"Q": "Q1"})
+    assert other.contour.points["P1"] == pytest.approx((-30, 40), abs=1e-3)
     line, start = "G1 X30 ,A45", "X0 Y0"
-    assert [each.word for each in contoursolve.completions("G1 ,A45", start=start, control=MINE)] == ["X?", "Y?"]
+    bare = contoursolve.solve("G1 ,A45", start=start, control=MINE).answer
+    assert [each.word for each in bare.completions] == ["X?", "Y?"]
     found = contoursolve.family(line, start=start, vary={",A": [0.0, 45.0]}, control=MINE)
     assert found["N1 Y"].tolist() == pytest.approx([0, 30])
     slopes = contoursolve.sensitivity(line, start=start, control=MINE).slopes
     assert slopes["N1 Y"]["X"] == pytest.approx(1)
-    assert contoursolve.feasible(line, "X", start=start, control=MINE).intervals[0].low.value == 0
+    assert contoursolve.ranges(line, "X", start=start, control=MINE).intervals[0].low.value == 0
     explorer = contoursolve.explore(PAIR, control=MINE)
     explorer.values = {"Q": 1}
     assert (explorer.result.control, explorer.text) == ("mine", PAIR.replace("Q-1", "Q1"))
@@ -161,7 +146,7 @@ def test_an_executor_takes_a_control_whose_functions_can_be_sent():
         found = contoursolve.family(line, start="X0 Y0", vary=values, control=MINE, executor=executor)
         assert found["N1 Y"].tolist() == pytest.approx([0, 30])
         nameless = replace(MINE, signs=lambda _: ())
-        with pytest.raises(contoursolve.FamilyError, match="functions must stand in a module"):
+        with pytest.raises(contoursolve.errors.FamilyError, match="functions must stand in a module"):
             contoursolve.family(line, start="X0 Y0", vary=values, control=nameless, executor=executor)
 
 
@@ -178,7 +163,7 @@ COMMANDS = {
     "plot": ("plot", "p.nc", "--force"),
     "sweep": ("sweep", *LINE, "--vary", ",A=0:80:1", "--workers", "2"),
     "range": ("range", *LINE, "--word", "X"),
-    "find": ("find", *LINE, "--word", ",A", "--bring", "end Y20"),
+    "find": ("find", *LINE, "--word", ",A", "--goal", "end Y20"),
     "sensitivity": ("sensitivity", *LINE),
     "explain": ("explain", "3017"),
 }
@@ -235,7 +220,7 @@ def test_the_other_commands_take_them_too(run):
     Path("r.json").write_text(run("solve", "p.nc", "--format", "json", *mine)[1], encoding="utf-8")
     assert run("verify", "p.nc", "r.json", *mine)[0] == 0
     told = run("verify", "p.nc", "r.json")[1]
-    assert f"unknown control 'mine'; choose from {', '.join(DIALECTS)}, or name the tables" in told
+    assert f"unknown control 'mine'; choose from {', '.join(CONTROLS)}, or name the tables" in told
     broken = run("check", "--block", PAIR.replace("Q-1", ",R2 ,C2"), "--format", "sarif", *mine)
     assert '"ruleId": "nct-two-corners"' in broken[1]
 
@@ -260,7 +245,7 @@ def test_verify_checks_forms_that_are_not_built_in(run, block, status):
 @pytest.mark.parametrize(
     ("control", "said"),
     [
-        ("tables_of_mine:OTHER", "tables_of_mine.py) has no contoursolve.Dialect of the name 'OTHER'"),
+        ("tables_of_mine:OTHER", "tables_of_mine.py) has no contoursolve.Control of the name 'OTHER'"),
         ("tables_of_mine:", "of the name ''"),
         ("absent_tables:MINE", "absent_tables cannot be imported: ModuleNotFoundError"),
         ("tables_of_mine.py:MINE", "; write the module without .py, tables_of_mine:NAME"),

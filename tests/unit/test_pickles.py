@@ -17,8 +17,8 @@ import pytest
 from msgspec import Struct
 
 import contoursolve
-from contoursolve import DIALECTS, Sketch
-from contoursolve.controls import GEOMETRY_RULES, NCT_99M, YASNAC_LX3
+from contoursolve import CONTROLS, Sketch
+from contoursolve.controls import GEOMETRY_RULES, NCT_99M
 
 START = "X40. Z0."
 WHOLE, SHORT = "G111 X100. A180. K-30. B120. P5. Q5.", "G111 X100. A180. B120."
@@ -51,28 +51,27 @@ def of_a_program(text: str, options: dict[str, Any]) -> Iterator[object]:
     result = contoursolve.solve(text, **options)
     yield from (result, result.program, *result.diagnostics)
     for answer in result.answers:
-        yield from (answer, answer.system, answer.read_by, answer.contour, *contoursolve.stated_words(answer))
-        yield contoursolve.list_solutions(answer)
+        yield from (answer, answer.system, answer.read_by, answer.contour, *answer.words)
+        yield answer.solutions
 
 
 def of_a_block() -> Iterator[object]:
     start: dict[str, Any] = {"start": START}
     yield contoursolve.family(WHOLE, vary={"P": [1.0, 5.0, 60.0]}, **start)
     yield contoursolve.family(WHOLE, vary={"A": [170.0, 180.0], "P": [1.0, 60.0]}, **start)
-    yield contoursolve.region(WHOLE, ("P", "Q"), ((1.0, 9.0), (1.0, 9.0)), **start)
-    yield contoursolve.feasible(WHOLE, "P", **start)
-    yield contoursolve.find_word(WHOLE, "P", "end Z-50.", **start)
+    yield contoursolve.ranges(WHOLE, ("P", "Q"), ((1.0, 9.0), (1.0, 9.0)), **start)
+    yield contoursolve.ranges(WHOLE, "P", **start)
+    yield contoursolve.find(WHOLE, "P", "end Z-50.", **start)
     yield contoursolve.sensitivity(WHOLE, **start)
-    yield contoursolve.tolerances(WHOLE, {"P": 0.05}, **start)
-    yield contoursolve.tolerance_for(WHOLE, "A", keep="end Z", within=0.1, **start)
-    yield from contoursolve.completions(SHORT, **start)
-    yield from contoursolve.words_to_add(contoursolve.solve(SHORT, **start).answers[0], YASNAC_LX3)
-    yield from contoursolve.legal_blocks(NCT_99M)[:5]
+    yield contoursolve.tolerances(WHOLE, allowed={"P": 0.05}, **start)
+    yield contoursolve.tolerances(WHOLE, "A", keep="end Z", within=0.1, **start)
+    lacking = contoursolve.solve(SHORT, **start).answer
+    yield from (*lacking.completions, *lacking.addable, *NCT_99M.examples[:5])
     yield contoursolve.expand(f"G00 {START}\n{WHOLE}")
     yield contoursolve.convert(f"G00 {START}\n{WHOLE}", "fanuc-lathe")
-    yield contoursolve.apply_fixes(f"G00 {START}\nG111 A135. I10. K-12. B180. Z-40.\n")
+    yield contoursolve.fix(f"G00 {START}\nG111 A135. I10. K-12. B180. Z-40.\n")
     turned = "G42 G01 X18. Z0.\nX20. Z-1.\nZ-20."
-    yield contoursolve.solve_with_tool(turned, "R0.8, tip 3", control="fanuc-lathe", start="X0. Z0.")
+    yield contoursolve.solve(turned, tool="R0.8, tip 3", control="fanuc-lathe", start="X0. Z0.").tool
     program = contoursolve.OpenProgram(f"G00 {START}\n{WHOLE}")
     assert program.check()
     yield from program.contours
@@ -87,7 +86,7 @@ def of_a_drawing() -> Iterator[object]:
     yield from (sketch, drawings := sketch.solve(), *drawings)
     for path in sorted((Path(__file__).parents[1] / "sketches").glob("*.toml")):
         known = contoursolve.read_sketch(path.read_text(encoding="utf-8"))
-        yield from (known, contoursolve.solve_sketch(known))
+        yield from (known, known.solve())
     yield contoursolve.write(known, "fanuc-lathe")
     document, stream = ezdxf.new(units=4), io.StringIO()
     document.modelspace().add_line((0, 0), (10, 5))
@@ -98,13 +97,13 @@ def of_a_drawing() -> Iterator[object]:
 @cache
 def errors() -> list[Exception]:
     """Errors as users meet them; they are compared by what they say and hold."""
-    found: list[Exception] = [contoursolve.MissingExtraError("a picture needs resvg")]
+    found: list[Exception] = [contoursolve.errors.MissingExtraError("a picture needs resvg")]
     asked: list[Callable[[], object]] = [
         partial(contoursolve.solve, WHOLE, control="yasnac"),
         partial(contoursolve.solve, WHOLE, settings={"yasnac-lx3.nothing": "1"}),
-        partial(contoursolve.solve_file, "nowhere.nc"),
-        partial(contoursolve.feasible, SHORT, "P", start=START),
-        partial(contoursolve.solve_with_tool, WHOLE, "R0.8", start=START),
+        partial(contoursolve.solve, Path("nowhere.nc")),
+        partial(contoursolve.ranges, SHORT, "P", start=START),
+        partial(contoursolve.solve, WHOLE, tool="R0.8", start=START),
         partial(contoursolve.write, contoursolve.solve(SHORT, start=START), "fanuc-lathe"),
         partial(contoursolve.read_dxf, b"nothing", part="milled"),
     ]
@@ -144,7 +143,7 @@ def test_a_record_comes_back_from_another_process() -> None:
 
 
 def test_tables_of_a_built_in_control_are_the_same_objects_again() -> None:
-    for control in DIALECTS.values():
+    for control in CONTROLS.values():
         for table in (control, control.modes, control.modes.lexicon, *control.forms, *control.rules):
             assert pickle.loads(pickle.dumps(table)) is deepcopy(table) is table
     back = pickle.loads(pickle.dumps(MINE))
@@ -165,7 +164,7 @@ def types_in(value: Any, seen: dict[int, Any]) -> Iterator[type]:
         return
     seen[id(value)] = value
     yield type(value)
-    if isinstance(value, contoursolve.Dialect):
+    if isinstance(value, contoursolve.Control):
         return  # its tables hold nothing that a user gets
     inside = []
     if isinstance(value, Mapping):

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import pytest
 from click.testing import CliRunner
-from fuzzing import CONTROLS, examples, mutate
+from fuzzing import NAMED, examples, mutate
 
 import contoursolve
 from contoursolve.__main__ import commands
@@ -226,7 +226,7 @@ def test_random_blocks_of_every_status_are_drawn(seed):
     for _ in range(4):
         text, start = random_block(draw)
         answers = contoursolve.solve(f"{text} {HOSTILE}", start=start, **options).answers
-        control = draw.choice(CONTROLS)
+        control = draw.choice(NAMED)
         text = draw.choice(examples(control))
         for _ in range(draw.randrange(1, 4)):
             text = mutate(text, draw)
@@ -389,7 +389,7 @@ def test_text_of_a_program_is_escaped():
 def test_the_same_contour_gives_the_same_bytes_in_every_process_and_an_svg_needs_no_package():
     program = (
         "import contoursolve, sys; from contoursolve.pictures import draw_result\n"
-        "sys.stdout.buffer.write(draw_result(contoursolve.solve_file(sys.argv[1])).svg.encode())\n"
+        "sys.stdout.buffer.write(draw_result(contoursolve.solve(pathlib.Path(sys.argv[1]))).svg.encode())\n"
         "assert not {'resvg_py', 'sympy', 'scipy', 'PIL'} & sys.modules.keys()"
     )
     found = subprocess.run(
@@ -398,7 +398,7 @@ def test_the_same_contour_gives_the_same_bytes_in_every_process_and_an_svg_needs
         capture_output=True,
         env={**os.environ, "PYTHONHASHSEED": "7", "PYTHONPATH": os.pathsep.join(sys.path)},
     ).stdout
-    assert found == draw_result(contoursolve.solve_file(SHAFT)).svg.encode()
+    assert found == draw_result(contoursolve.solve(SHAFT)).svg.encode()
 
 
 def test_a_png_that_cannot_be_made_is_refused(monkeypatch, tmp_path):
@@ -408,7 +408,7 @@ def test_a_png_that_cannot_be_made_is_refused(monkeypatch, tmp_path):
             picture.png(wrong)
     with monkeypatch.context() as patch:
         patch.setattr("contoursolve.pictures.svg._has_fonts", lambda: False)
-        with pytest.raises(contoursolve.MissingExtraError, match="needs a font"):
+        with pytest.raises(contoursolve.errors.MissingExtraError, match="needs a font"):
             picture.png()
     monkeypatch.setitem(sys.modules, "resvg_py", None)
     status, output = plot(SHAFT, "-o", tmp_path / "a.png")
@@ -422,7 +422,7 @@ def test_a_png_that_cannot_be_made_is_refused(monkeypatch, tmp_path):
 
 def test_contours_that_begin_at_one_place_share_a_label_beside_the_path():
     (path,) = (each for each in PROGRAMS if each.stem == "unusual")
-    words = labels(draw_result(contoursolve.solve_file(path)))
+    words = labels(draw_result(contoursolve.solve(path)))
     assert "unusual.nc: 4 contours (4 solved)" in words
     assert [word for word in words if "line" in word] == ["1, 2, 3, 4  program lines 5, 8, 11, 14"]
 
@@ -506,7 +506,7 @@ def plot(*arguments):
 
 
 def test_plot_writes_one_contour_or_each_in_the_theme_that_is_asked_for(tmp_path):
-    result = contoursolve.solve_file(SHAFT)
+    result = contoursolve.solve(SHAFT)
     status, output = plot(SHAFT, "--line", 69, "-o", tmp_path / "a.PNG", "--theme", "dark")
     assert (status, "a.PNG: program line 69, solved" in output) == (0, True)
     wanted = next(answer for answer in result.answers if answer.lines[0] == 69)

@@ -11,7 +11,7 @@ import pytest
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 
 PACKAGE = Path(contoursolve.__file__).parent
 MOST_WORDS = 20
@@ -43,7 +43,7 @@ def faults(text: str) -> list[str]:
 
 def shown() -> Iterator[tuple[str, str]]:
     """The texts of rules, commands and public docstrings, and those that the code puts together, with their places."""
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         for rule in dialect.rules:
             yield from ((rule.code, text) for text in (rule.message, rule.help, rule.note))
     context = click.Context(main)

@@ -2,7 +2,8 @@
 
 import pytest
 
-from contoursolve import OpenProgram, UnknownControlError, check, expand, solve
+from contoursolve import OpenProgram, check, expand, solve
+from contoursolve.errors import UnknownControlError
 
 TURNED_PLAIN = "G0 X20. Z-1.\nG1 X9. F0.2\nG1 Z9. F0.03\nG1 X14. K0.3\nG1 Z16. R0.4\nG1 X20.\nG0 X30.\nM30"
 FIRST = "O0101\nG99 G21\nT0101\nG96 S180 M03\nG00 X32. Z2.\nG01 Z0. F0.2\nX20. ,C1.\nZ-20. ,R2.\nX30.\nM30"

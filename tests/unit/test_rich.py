@@ -10,10 +10,10 @@ from xml.etree import ElementTree
 
 import pandas
 import pytest
-from fuzzing import CONTROLS, examples, mutate
+from fuzzing import NAMED, examples, mutate
 
 import contoursolve
-from contoursolve import DIALECTS, families
+from contoursolve import CONTROLS, families
 from contoursolve.solving import ArcSegment
 
 LARGEST = 400_000
@@ -102,7 +102,7 @@ def check(data, has_picture=None):
 def test_any_block_is_shown_as_text_html_and_svg_that_hold_nothing_but_what_they_should(seed):
     rng = random.Random(f"rich {seed}")
     for number in range(3):
-        control = rng.choice(CONTROLS)
+        control = rng.choice(NAMED)
         text = rng.choice(examples(control))
         for _ in range(rng.randrange(3)):
             text = mutate(text, rng)
@@ -122,7 +122,7 @@ def test_a_record_that_is_printed_is_the_text_that_a_notebook_shows():
     solved = contoursolve.solve(WHOLE, start="X40. Z0.").answers[0]
     family = contoursolve.family(WHOLE, start="X40. Z0.", vary={"P": [1, 60]})
     shown = (result, answer, result.program, *result.diagnostics, answer.diagnosis, *result.program.blocks)
-    for record in (*shown, solved.contour, family, DIALECTS["yasnac-lx3"].rules[0]):
+    for record in (*shown, solved.contour, family, CONTROLS["yasnac-lx3"].rules[0]):
         assert str(record) == record._repr_mimebundle_()[TEXT]
         assert f"{type(record).__name__}(" not in str(record)
 
@@ -143,9 +143,9 @@ def test_families_and_paths_show_themselves():
     assert (row[:4], slopes.slopes["V2 X"]["X"]) == (["V2", "X", "dia", "1.0000"], 1.0)
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_rules_show_themselves(control):
-    for rule in DIALECTS[control].rules:
+    for rule in CONTROLS[control].rules:
         told = check(rule._repr_mimebundle_()).words
         assert (rule.code in "".join(told), told.count("Wrong")) == (True, len(rule.told.rejected))
 
@@ -154,8 +154,8 @@ QUESTIONS = {
     "range": lambda block, options: families.feasible(block, "P", **options),
     "region": lambda block, options: families.region(block, ("A", "P"), ((150, 210), (1, 60)), **options),
     "region of angles": lambda block, options: families.region(block, ("A", "B"), ((90, 270), (90, 200)), **options),
-    "found": lambda block, options: families.find_word(block, "B", "end Z-50.", **options),
-    "nearest": lambda block, options: families.find_word(block, "B", "end Z-50. X90.", **options),
+    "found": lambda block, options: families.find(block, "B", "end Z-50.", **options),
+    "nearest": lambda block, options: families.find(block, "B", "end Z-50. X90.", **options),
     "tolerances": lambda block, options: families.tolerances(block, {"A": 0.1, "K": 0.02}, **options),
     "derivatives": lambda block, options: families.tolerances(block, **options),
     "sensitivity": lambda block, options: families.sensitivity(block, **options),
@@ -198,7 +198,7 @@ def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkey
     def fail(*_, **__):
         raise RuntimeError("no")
 
-    monkeypatch.setattr("contoursolve.pictures.drawing.draw_answer", fail)
+    monkeypatch.setattr("contoursolve.pictures.drawing.compose", fail)
     data = answer._repr_mimebundle_()
     assert SVG not in data
     assert "cannot be drawn" in "".join(Page(data[HTML]).words)

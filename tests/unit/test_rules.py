@@ -2,7 +2,7 @@
 
 import pytest
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import ArcIssue, ReadIssue
 from contoursolve.solving import NoteKind, RefusalKind
@@ -23,9 +23,9 @@ ALARMS = {
 }
 """The alarm numbers on the pages that we have; no other may be invented."""
 
-RULES = {(name, rule.code): rule for name, dialect in DIALECTS.items() for rule in dialect.catalogue}
+RULES = {(name, rule.code): rule for name, dialect in CONTROLS.items() for rule in dialect.catalogue}
 EXAMPLES = [
-    pytest.param(DIALECTS[control], rule, program, is_right, id=f"{control}-{code}-{kind}{number}")
+    pytest.param(CONTROLS[control], rule, program, is_right, id=f"{control}-{code}-{kind}{number}")
     for (control, code), rule in RULES.items()
     for kind, is_right, programs in (("wrong", False, rule.rejected), ("right", True, rule.accepted))
     for number, program in enumerate(programs, 1)
@@ -48,11 +48,11 @@ def test_an_example_says_what_its_control_says(dialect, rule, program, is_right)
         assert "None" not in each.message + each.help
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_every_rule_has_one_code_and_examples_of_both_kinds_and_no_alarm_is_invented(control):
-    rules = [rule.told for rule in DIALECTS[control].rules if not rule.absent]
+    rules = [rule.told for rule in CONTROLS[control].rules if not rule.absent]
     assert [rule.code for rule in rules if not (rule.accepted and rule.rejected)] == []
-    codes = [rule.code for rule in DIALECTS[control].rules]
+    codes = [rule.code for rule in CONTROLS[control].rules]
     assert sorted(codes) == sorted(set(codes))
     assert {rule.alarm.number.split()[0] for rule in rules if rule.alarm} <= ALARMS.get(control, set())
 
@@ -81,7 +81,7 @@ def test_grades_are_those_of_the_sheet():
 
 
 def test_nothing_cites_a_page_that_has_not_been_seen():
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         sources = [rule.source for rule in dialect.rules]
         sources += [each.source for each in (*dialect.settings, *dialect.assumptions)]
         sources += [each.source for each in dialect.modes.lexicon.addresses.values()]
@@ -92,4 +92,4 @@ def test_nothing_cites_a_page_that_has_not_been_seen():
 def test_every_event_has_a_row_in_every_control_that_it_can_happen_in():
     """A finding without a row would be a crash; events that only one control knows are in one table."""
     for kind in (FaultKind, ReadIssue, RefusalKind, NoteKind, ArcIssue):
-        assert not set(kind) - {rule.about for dialect in DIALECTS.values() for rule in dialect.rules}
+        assert not set(kind) - {rule.about for dialect in CONTROLS.values() for rule in dialect.rules}

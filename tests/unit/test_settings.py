@@ -4,7 +4,7 @@ import pytest
 from click.testing import CliRunner
 
 from contoursolve.cli import main
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import Evidence
 
 CIRCLES = "G17 G90 G0 X90 Y0\nG42 G1 X50 D0\nG3 X-50 Y0 I-50 J0\nG3 X-40 Y60 I-40 J20 R40 Q-1\n"
@@ -44,17 +44,17 @@ def test_a_project_file_that_makes_no_sense_is_an_error_that_names_it(tmp_path, 
 
 @pytest.mark.parametrize("text", ["nct-99m.circle-circle-q", "circle-circle-q=left", "nct-99m.q=1", "=", "nct-99m.=x"])
 def test_a_setting_that_there_is_not_is_refused(text):
-    outcome = CliRunner().invoke(main, ["solve", "--set", text, "--block", "G1 X1"])
+    outcome = CliRunner().invoke(main, ["solve", "--setting", text, "--block", "G1 X1"])
     assert outcome.exit_code == 2
     assert "Traceback" not in outcome.output
 
 
 def test_the_catalogue_lists_every_assumption_and_every_setting_with_its_values():
     printed = CliRunner().invoke(main, ["rules"]).output
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         for each in dialect.assumptions:
             assert f"assumption {dialect.name}.{each.name}: {each.meaning} ({each.source})" in printed
             assert each.source.evidence is Evidence.ASSUMED
         for setting in dialect.settings:
             assert setting.default in setting.values
-            assert all(f"--set {dialect.name}.{setting.name}={value}" in printed for value in setting.values)
+            assert all(f"--setting {dialect.name}.{setting.name}={value}" in printed for value in setting.values)

@@ -11,22 +11,22 @@ from vectors import program_of
 
 from contoursolve import expand, solve
 from contoursolve.comparison import compare, follow
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length
 from contoursolve.program import Request, run as run_program
 
-CONTROLS = ("siemens-840d", "siemens-808d")
+NAMED = ("siemens-840d", "siemens-808d")
 MILL = "G17 G90 G0 X0 Y0\n"
-SI_G4 = program_of(CONTROLS[0], "SI-G4")
+SI_G4 = program_of(NAMED[0], "SI-G4")
 
 
-def siemens(text: str, control: str = CONTROLS[0], depth: str = "full", **settings: str):
+def siemens(text: str, control: str = NAMED[0], depth: str = "full", **settings: str):
     named = {f"{control}.{name.replace('_', '-')}": value for name, value in settings.items()}
     return solve(text, control=control, settings=named, depth=depth)
 
 
-def path(text: str, control: str = CONTROLS[0], **settings: str) -> list[Element]:
+def path(text: str, control: str = NAMED[0], **settings: str) -> list[Element]:
     """All contours, one behind the other; they have no errors."""
     result = siemens(text, control, **settings)
     assert not result.has_errors, [each.message for each in result.diagnostics]
@@ -39,7 +39,7 @@ def ends(text: str, **settings: str) -> list[tuple[float, float]]:
 
 def followed(text: str):
     """The whole path of a program."""
-    dialect = DIALECTS[CONTROLS[0]]
+    dialect = CONTROLS[NAMED[0]]
     return follow(run_program(parse(text), Request(dialect, Length.MM)), dialect, Length.MM, dialect.modes.axes)
 
 
@@ -91,7 +91,7 @@ def test_under_diam90_coordinates_and_increments_make_one_contour_and_a_word_may
     text = "G18 G90 DIAM90\nG0 X40 Z2\nG1 Z-10 F0.2 RND=0.5\n{} RND=1\nG90 Z-30 RND=1\n{}\nM30\n"
     plain, meant = text.format("X50", "X60"), text.format(word, "G91 X5" if "G91" in word else "X=DIC(10)")
     assert path(meant) == path(plain)
-    written = expand(meant, control=CONTROLS[0]).text
+    written = expand(meant, control=NAMED[0]).text
     assert compare(*(followed(text) for text in (plain, written)), 0.001).is_equal
     assert path(meant.replace("DIAM90", "DIAMON").replace("X5 ", "X10 ").replace("X5\n", "X10\n")) == path(plain)
 
@@ -103,22 +103,22 @@ def test_under_diam90_coordinates_and_increments_make_one_contour_and_a_word_may
 @pytest.mark.parametrize("word", ["RND", "CHR", "CHF"])
 def test_the_808d_makes_corners_beside_rapids_and_larger_ones_where_that_is_set(text, word):
     text = MILL + text.format(word)
-    made, plain = path(text, CONTROLS[1]), path(text.replace("G0 X30", "G1 X30").replace("G0 Y40", "G1 Y40"))
+    made, plain = path(text, NAMED[1]), path(text.replace("G0 X30", "G1 X30").replace("G0 Y40", "G1 Y40"))
     assert made[:3] == plain[:3]
     assert path(text, rapid_corner="made") == made
     assert siemens(text).has_errors
-    assert siemens(text, CONTROLS[1], rapid_corner="error").diagnostics
+    assert siemens(text, NAMED[1], rapid_corner="error").diagnostics
 
 
 @pytest.mark.parametrize("behind", ["M30", "M8\n" * 4 + "Y40", "G18\nX40 Z40"])
 @pytest.mark.parametrize("word", ["RND", "CHR", "CHF"])
 def test_the_808d_leaves_out_a_corner_without_a_second_move(word, behind):
     text = f"{MILL}G1 X10\nX30 {word}=5\n{behind}"
-    result = siemens(text, CONTROLS[1])
+    result = siemens(text, NAMED[1])
     assert [each.code for each in result.diagnostics] == [f"siemens-{word.lower()}-left-out"]
     (answer,) = result.answers
     assert [(each.kind, each.end) for each in elements_of(answer)] == [("line", 30 + 0j)]
-    for refusing in (siemens(text), siemens(text, CONTROLS[1], no_second_move="error")):
+    for refusing in (siemens(text), siemens(text, NAMED[1], no_second_move="error")):
         assert refusing.has_errors
 
 
@@ -150,7 +150,7 @@ def test_three_blocks_may_stand_between_and_not_four(text):
 
 def test_a_long_stream_keeps_a_rounding_in_force():
     text = MILL + "RNDM=2\nG1 X10\nX10 Y10\nX20 Y10\nX20 Y0\nX30\nG0 X0 Y0\nM30\n"
-    moves = re.findall(r"^G0[123].*$", expand(text, control=CONTROLS[0]).text, re.MULTILINE)
+    moves = re.findall(r"^G0[123].*$", expand(text, control=NAMED[0]).text, re.MULTILINE)
     turns = [each.split()[0] for each in moves if each.startswith(("G02", "G03"))]
     assert turns == ["G03", "G02", "G02", "G03"], "left at 10 0, right at 10 10 and 20 10, left at 20 0"
 

@@ -91,7 +91,7 @@ def test_a_drawing_says_what_it_is() -> None:
     drawings = stated(sketch, "k tangent to a", "X of center of k = 10", "Y of center of k = 0", "radius of k = ?")
     assert repr(drawings) == "<Drawings ambiguous: 2 drawings; these are all (by closed form)>"
     assert repr(drawings[0]) == (
-        "<Drawn k tangent to a outside: k.center X10.0000 Y0.0000 mm, k.radius 7.0000 mm, radius of k = 7.0000 mm>"
+        "<Drawing k tangent to a outside: k.center X10.0000 Y0.0000 mm, k.radius 7.0000 mm, radius of k = 7.0000 mm>"
     )
     assert str(drawings).split("\n") == [
         "ambiguous: 2 drawings; these are all (by closed form)",

@@ -51,7 +51,7 @@ def test_an_end_may_be_as_far_as_another_line():
     lines = [{"X": 60, "Y": 10}, {"AN": 90, "LEN": 20}, {"AN": 180, "X": 30}, {"AN": -80}]
     elements = [contoursolve.SketchElement("line", {n: Decimal(v) for n, v in each.items()}) for each in lines]
     elements[-1] = replace(elements[-1], facts=("end of line 4 lies on line 1",))
-    found = contoursolve.solve_sketch(contoursolve.ContourSketch("milled", tuple(elements), {"X": 0, "Y": 0}))
+    found = contoursolve.ContourSketch("milled", tuple(elements), {"X": 0, "Y": 0}).solve()
     x, y = found.elements[-1].segment.end
     assert y == pytest.approx(x / 6)
     assert (30 - y) / (x - 30) == pytest.approx(tan(radians(80)))
@@ -75,7 +75,7 @@ def test_an_end_may_be_as_far_as_another_line():
     ],
 )  # fmt: skip
 def test_a_contradiction_is_told_with_its_amount(name, number, fields, status, code, wrong, off):
-    found = contoursolve.solve_sketch(changed(sketch(name), number, **fields))
+    found = changed(sketch(name), number, **fields).solve()
     assert found.status == status
     assert not found.is_finished
     assert code is None or any(each.code == code and each.fields for each in found.findings)
@@ -87,16 +87,16 @@ def test_a_contradiction_is_told_with_its_amount(name, number, fields, status, c
 
 
 def test_fixes_are_changes_of_fields():
-    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 3, LEN=30), with_ranges=True)
+    found = changed(sketch("turned_shaft"), 3, LEN=30).solve(with_ranges=True)
     fixes = [fix for each in found.findings for fix in each.fixes]
     assert len(fixes) > 2
     for fix in fixes:
         elements = [fix.elements.get(number, each) for number, each in enumerate(found.sketch.elements, 1)]
-        assert contoursolve.solve_sketch(replace(found.sketch, elements=tuple(elements))).is_finished
+        assert replace(found.sketch, elements=tuple(elements)).solve().is_finished
 
 
 def test_ways_and_entries_of_what_is_missing():
-    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 3, X=None), with_ranges=True)
+    found = changed(sketch("turned_shaft"), 3, X=None).solve(with_ranges=True)
     assert found.missing == "one entry is missing: Z, X, LEN, IZ or IX of line 3, or X, LEN or IZ of line 4"
     sliding = {name for name, state in states(found).items() if state == "sliding"}
     assert sliding == {"line 3", "corner 3", "line 4"}
@@ -108,27 +108,27 @@ def test_ways_and_entries_of_what_is_missing():
     assert [(each.low, each.high) for each in entries[3, "X"].ranges] == [("41.172", "98.343")]
     assert all(each.example for each in found.entries)
     for each in found.entries:
-        assert contoursolve.solve_sketch(changed(found.sketch, each.number, **{each.field: each.example})).is_finished
+        assert changed(found.sketch, each.number, **{each.field: each.example}).solve().is_finished
 
 
 @pytest.mark.parametrize("name", [name for name in sorted(ENDS) if name.startswith("guessed") or "ball" in name])
 def test_a_guess_chooses_and_is_no_dimension(name):
     bare = sketch(name)
     bare = replace(bare, elements=tuple(replace(each, guess={}) for each in bare.elements))
-    found = contoursolve.solve_sketch(bare)
+    found = bare.solve()
     assert found.status == "ambiguous"
     assert len(found.solutions) == 2
     for number, solution in enumerate(found.solutions):
         element, place = solution.guess
-        again = contoursolve.solve_sketch(changed(bare, element, guess=place))
+        again = changed(bare, element, guess=place).solve()
         assert [each.is_chosen for each in again.solutions] == [n == number for n in range(2)]
         assert again.program == found.program
         assert [each.segment for each in again.elements] == [
             next((each for each in solution.segments if each.name == part.name), None) for part in again.elements
         ]
-    equal = contoursolve.solve_sketch(changed(sketch("guessed_length"), 1, guess={"X": Decimal(0)}))
+    equal = changed(sketch("guessed_length"), 1, guess={"X": Decimal(0)}).solve()
     assert equal.remarks == ("two contours are equally near to the guess: put it nearer to one of them",)
-    unused = contoursolve.solve_sketch(sketch("milled_chord"))
+    unused = sketch("milled_chord").solve()
     assert unused.remarks == ("the guess is not used: what is given has one solution",)
 
 
@@ -138,7 +138,7 @@ def test_every_state_of_typing_has_an_answer(name, count):
     *before, last = whole.elements[:count]
     for number in range(len(last.words) + 1):
         words = dict([*last.words.items()][:number])
-        found = contoursolve.solve_sketch(replace(whole, elements=(*before, replace(last, words=words))))
+        found = replace(whole, elements=(*before, replace(last, words=words))).solve()
         assert found.is_finished or found.missing or found.findings
         assert [each.name.partition(" ")[0] for each in found.elements if "corner" not in each.name] == [
             each.kind for each in (*before, last)
@@ -148,8 +148,8 @@ def test_every_state_of_typing_has_an_answer(name, count):
 @pytest.mark.parametrize("name", ENDS)
 def test_a_sketch_without_elements_or_a_start_says_so(name):
     whole = sketch(name)
-    assert contoursolve.solve_sketch(replace(whole, elements=())).elements == ()
-    assert contoursolve.solve_sketch(replace(whole, start={})).missing.startswith("where it begins is missing")
+    assert replace(whole, elements=()).solve().elements == ()
+    assert replace(whole, start={}).solve().missing.startswith("where it begins is missing")
 
 
 @pytest.mark.parametrize(
@@ -162,7 +162,7 @@ def test_a_sketch_without_elements_or_a_start_says_so(name):
 )
 def test_a_page_is_told_all_as_plain_data(name, fields, roles):
     whole = changed(sketch(name), 3, **fields) if fields else sketch(name)
-    view, found = contoursolve.sketch_view(whole), contoursolve.solve_sketch(whole)
+    view, found = contoursolve.editing.sketch_view(whole), whole.solve()
     assert json.loads(json.dumps(view)) == view
     assert [each["state"] for each in view["elements"]] == [each.state.value for each in found.elements]
     assert roles.keys() <= {*states(found).values()}
@@ -193,8 +193,8 @@ Y = 60
 
 
 def test_all_contours_that_fit_are_drawn_by_name_and_only_what_they_share_has_dimensions():
-    found = contoursolve.solve_sketch(contoursolve.read_sketch(SEVERAL))
-    texts = re.findall(r"<text[^>]*>(.*?)</text>", contoursolve.draw_sketch(found).svg, re.DOTALL)
+    found = contoursolve.read_sketch(SEVERAL).solve()
+    texts = re.findall(r"<text[^>]*>(.*?)</text>", contoursolve.draw(found).svg, re.DOTALL)
     shown = [re.sub(r"<[^>]*>", "", each) for each in texts]
     step, last = (40**2 - 25**2) ** 0.5, (40**2 - 35**2) ** 0.5
     ends = [50 + one * step + other * last for one in (1, -1) for other in (1, -1)]
@@ -207,7 +207,7 @@ def test_all_contours_that_fit_are_drawn_by_name_and_only_what_they_share_has_di
     assert shown.count("AN0") == 1
     assert not [each for each in shown if each.startswith(("LEN20", "LEN40", "end", "FSELECT"))]
     chosen = contoursolve.read_sketch(SEVERAL + "guess = { X = 40 }")
-    svg = contoursolve.draw_sketch(contoursolve.solve_sketch(chosen)).svg
+    svg = contoursolve.draw(chosen.solve()).svg
     assert [f"contour {number}" in svg for number in (1, 2, 3, 4)] == [True, True, False, True]
     assert "LEN20" in svg
 
@@ -215,7 +215,7 @@ def test_all_contours_that_fit_are_drawn_by_name_and_only_what_they_share_has_di
 def test_what_an_arc_lacks_is_no_error_and_names_the_arc():
     plain = contoursolve.read_sketch(SEVERAL)
     arcs = tuple(contoursolve.SketchElement("arc", {}) for _ in range(2))
-    found = contoursolve.solve_sketch(replace(plain, elements=(*plain.elements[:1], *arcs)))
+    found = replace(plain, elements=(*plain.elements[:1], *arcs)).solve()
     assert found.missing == "the sense of arc 2 and arc 3 is missing: clockwise or counter-clockwise"
     assert [(each.number, each.field) for each in found.entries] == [(2, "turn"), (3, "turn")]
     assert not [each for each in found.findings if each.severity.value == "error"]
@@ -228,7 +228,7 @@ def test_what_an_arc_lacks_is_no_error_and_names_the_arc():
 def test_the_gap_of_a_closed_contour_is_that_of_the_open_one(name, count):
     given = sketch(name)
     bare = replace(given, elements=tuple(replace(each, guess={}) for each in given.elements))
-    open_, found = contoursolve.solve_sketch(bare), contoursolve.solve_sketch(replace(bare, closed=True))
+    open_, found = bare.solve(), replace(bare, closed=True).solve()
     gaps = [each.off_mm for each in found.findings if (0, "closed") in each.fields]
     paths = [each.segments for each in open_.solutions] or [open_.answer.contour.elements]
     ends = {round(dist(each[0].start, each[-1].end), 6) for each in paths}
@@ -238,7 +238,7 @@ def test_the_gap_of_a_closed_contour_is_that_of_the_open_one(name, count):
 
 
 def test_fixes_tell_no_place_that_they_leave_where_it_is():
-    found = contoursolve.solve_sketch(changed(sketch("turned_shaft"), 2, Z=-30, X=40, AN=170), with_ranges=True)
+    found = changed(sketch("turned_shaft"), 2, Z=-30, X=40, AN=170).solve(with_ranges=True)
     titles = [fix.title for each in found.findings for fix in each.fixes]
     assert "delete AN170" in titles
     assert any(" -> " in each for each in titles)

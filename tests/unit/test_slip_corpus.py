@@ -14,7 +14,7 @@ from contoursolve.program import changed
 FOLDER = Path(__file__).parents[1] / "slips"
 SLIPS = json.loads((FOLDER / "by_hand.json").read_text())
 PAIRS = json.loads((FOLDER / "pairs.json").read_text())
-CONTROLS = contoursolve.DIALECTS.keys() - {"siemens-808d", "cnc-pilot"}
+NAMED = contoursolve.CONTROLS.keys() - {"siemens-808d", "cnc-pilot"}
 
 
 def words(lines: list[str]) -> list[str]:
@@ -54,7 +54,7 @@ def test_names_are_unique_and_every_control_takes_part():
     meant = {(each["part"], each["control"], *each["right"]) for each in SLIPS}
     assert len({part for part, *_ in meant}) == len(meant) >= 35
     assert meant <= {(each["part"], each["control"], *each["program"]) for each in RIGHT}
-    assert {each["control"] for each in SLIPS} == {each["control"] for each in RIGHT} == CONTROLS
+    assert {each["control"] for each in SLIPS} == {each["control"] for each in RIGHT} == NAMED
 
 
 def both(pair: dict) -> dict:
@@ -92,7 +92,8 @@ def fixed(
     entry: dict, result: contoursolve.Result, finding: contoursolve.Diagnostic, fix: contoursolve.Fix
 ) -> list[str]:
     old = dict(enumerate(entry["slip"], 1))
-    return changed("\n".join(entry["slip"]), contoursolve.changes_of(fix, result.lines_of(finding), old)).split("\n")
+    changes = contoursolve.editing.changes_of(fix, result.lines_of(finding), old)
+    return changed("\n".join(entry["slip"]), changes).split("\n")
 
 
 @pytest.mark.parametrize(

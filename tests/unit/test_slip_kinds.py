@@ -2,7 +2,7 @@
 
 import pytest
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis.edits import apply_edits
 from contoursolve.diagnosis.slip_kinds import FEW, OF_DIGITS
 from contoursolve.diagnosis.slips_around import Marked, drafts_around
@@ -19,7 +19,7 @@ OF_BLOCKS = {each.slip.name: each for each in SEVERAL}
 def cases_of(example):
     """The blocks of an example on each control, with the state before them, and what is meant."""
     typed, meant = example.split(" for ")
-    for dialect in DIALECTS.values():
+    for dialect in CONTROLS.values():
         blocks = tuple(parse_block(text, at, dialect.modes.syntax) for at, text in enumerate(typed.split("|"), 1))
         state = dialect.initial_state(Length.MM)
         ahead = ((blocks[:1], state),) if len(blocks) > 3 else ()

@@ -5,7 +5,7 @@ import re
 import pytest
 from click.testing import CliRunner
 
-from contoursolve import DIALECTS, Status, expand, solve, solve_file
+from contoursolve import CONTROLS, Status, expand, solve
 from contoursolve.cli import main
 from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.output.document import to_json
@@ -71,7 +71,7 @@ def test_decisions_in_another_file_are_made_as_well(tmp_path):
     main_program = tmp_path / "main.h"
     for value, status in ((1, Status.SOLVED), (2, Status.UNDERDETERMINED)):
         main_program.write_text(f"BEGIN PGM A MM\nQ1 = {value}\nCALL PGM PLAN.H\nFL X+40 AN+30\nEND PGM A MM")
-        assert [each.status for each in solve_file(main_program).answers] == [status]
+        assert [each.status for each in solve(main_program).answers] == [status]
 
 
 CALLING = {
@@ -234,7 +234,7 @@ def test_a_loop_that_may_never_end_is_followed_as_far_as_a_setting_says(setting,
     """Of its three blocks all run again in each pass but the first, and the head once more at the end."""
     text = f"#1=0\nWHILE[#1 LT {passes}]DO1\n#1=#1+1.\nEND1\nG0 X0. Y0.\nG1 X20. ,R1. F1.\nY20."
     result = solve(text, control=MILL, settings={f"{MILL}.most-blocks": setting} if setting else {})
-    told = "blocks run again: the program may never end; --set fanuc-mill.most-blocks=NUMBER follows more of them"
+    told = "blocks run again: the program may never end; --setting fanuc-mill.most-blocks=NUMBER follows more of them"
     most = f"{int(setting or 5_000):,}"
     assert not_followed(result) == ([] if line is None else [(line, f"more than {most} {told}")])
 
@@ -269,7 +269,7 @@ ENDS = {
 LIKE = {"siemens-840d": "siemens", "siemens-808d": "siemens", "isg": "isg", KLARTEXT: KLARTEXT}
 
 
-@pytest.mark.parametrize("control", [each for each in DIALECTS if each not in ("cnc-pilot", "yasnac-lx3")])
+@pytest.mark.parametrize("control", [each for each in CONTROLS if each not in ("cnc-pilot", "yasnac-lx3")])
 def test_an_end_and_a_call_in_one_block_is_told_whatever_their_order(control):
     """How a CNC PILOT calls is on no page that we have."""
     text, call, ends = ENDS[LIKE.get(control, "fanuc")]
@@ -313,7 +313,7 @@ def test_a_jump_that_cannot_be_decided_is_not_written_out(name, keeps_going):
     control, text, line = UNDECIDED[name]
     inline = expand(text.format(line), control=control, inline=True, keep_going=keeps_going)
     (left,) = inline.summary.left
-    advice = "delete the block, or its /" if line.startswith("/") else "state its value by --let"
+    advice = "delete the block, or its /" if line.startswith("/") else "state its value by --variable"
     assert (inline.text, left.lines) == (None, (3,))
     assert re.fullmatch(rf"{re.escape(line)} cannot be decided: .+; {advice}, or leave out --inline", left.reason)
 

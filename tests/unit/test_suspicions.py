@@ -78,8 +78,8 @@ def test_a_suspicion_is_no_error_and_is_switched_off_in_three_ways(tmp_path, mon
         return done.exit_code, [each["code"] for each in json.loads(done.stdout)["diagnostics"]]
 
     assert run(BACK, "--control", "yasnac-lx3") == (0, ["suspected"])
-    assert run(BACK, "--control", "yasnac-lx3", "--set", "yasnac-lx3.suspicions=off") == (0, [])
+    assert run(BACK, "--control", "yasnac-lx3", "--setting", "yasnac-lx3.suspicions=off") == (0, [])
     assert run("(contoursolve control: yasnac-lx3, suspicions: off)\n" + BACK) == (0, [])
     Path("contoursolve.toml").write_text('control = "yasnac-lx3"\n\n[yasnac-lx3]\nsuspicions = "off"\n')
     assert run(BACK) == (0, [])
-    assert run(BACK, "--set", "yasnac-lx3.suspicions=on") == (0, ["suspected"])
+    assert run(BACK, "--setting", "yasnac-lx3.suspicions=on") == (0, ["suspected"])

@@ -6,6 +6,7 @@ from math import dist
 import pytest
 
 import contoursolve
+from contoursolve.output import to_dxf
 from contoursolve.pictures import draw_answer
 
 SHAFT, START = "G111 X100. A180. K-30. B120. P5.", "X40. Z0."
@@ -34,9 +35,9 @@ def test_a_picture_is_saved_by_the_ending_of_its_name(tmp_path):
     assert (tmp_path / "a.svg").read_text(encoding="utf-8").startswith("<svg ")
     picture.save(tmp_path / "a.png")
     assert (tmp_path / "a.png").read_bytes()[1:4] == b"PNG"
-    with pytest.raises(ValueError, match="to_dxf"):
+    with pytest.raises(ValueError, match=r"contoursolve\.export"):
         picture.save(tmp_path / "a.dxf")
-    assert contoursolve.to_dxf(answers).split()[1] == b"SECTION"
+    assert to_dxf(answers).split()[1] == b"SECTION"
 
 
 @pytest.mark.needs("pyarrow")

@@ -17,7 +17,7 @@ ALLOWED = {"A": 0.05, "B": 0.04, "K": 0.02, "X": 0.03, "Q": 0.1}
 
 def test_a_million_draws_are_as_far_off_as_the_tolerances_say():
     """Uniform within its tolerance, a word has the standard deviation tolerance / sqrt(3)."""
-    found = tolerances(BLOCK, ALLOWED, start=START)
+    found = tolerances(BLOCK, allowed=ALLOWED, start=START)
     rng = np.random.default_rng(7)
     stated = {each.word: each.stated for each in found.effects}
     drawn = {word: stated[word] + rng.uniform(-off, off, 100_000) for word, off in ALLOWED.items()}
@@ -43,7 +43,7 @@ def test_a_million_draws_are_as_far_off_as_the_tolerances_say():
 )
 def test_a_tolerance_that_makes_no_sense_is_refused(allowed, message):
     with pytest.raises(FamilyError, match=message):
-        tolerances(BLOCK, allowed, start=START)
+        tolerances(BLOCK, allowed=allowed, start=START)
 
 
 run = partial(calling.run, "sensitivity", "--block", BLOCK, "--start", START)

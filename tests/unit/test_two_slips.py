@@ -18,7 +18,7 @@ def one_after_the_other(control: str, lines: list[str]) -> list[str]:
             break
         finding, fix = found[0]
         old = dict(enumerate(lines, 1))
-        changes = contoursolve.changes_of(fix, result.lines_of(finding), old)
+        changes = contoursolve.editing.changes_of(fix, result.lines_of(finding), old)
         lines = changed("\n".join(lines), changes).split("\n")
     return lines
 
@@ -76,7 +76,7 @@ def test_one_fix_undoes_two_slips_that_no_single_one_explains(name):
         text = text.replace(meant, typed, 1)
     result = contoursolve.solve(text.replace("|", "\n"), control=control)
     finding, fix = next((each, fix) for each in result.diagnostics for fix in each.fixes)
-    changes = contoursolve.changes_of(fix, result.lines_of(finding), dict(enumerate(text.split("|"), 1)))
+    changes = contoursolve.editing.changes_of(fix, result.lines_of(finding), dict(enumerate(text.split("|"), 1)))
     assert changed(text.replace("|", "\n"), changes).split("\n") == right.split("|")
 
 
@@ -121,8 +121,8 @@ def test_a_fix_that_keeps_the_contour_does_not_hide_a_likelier_slip():
     text = "G17 G90 G21 G00 X0. Y0.\nG01 X0. Y-18. ,C2. F300.\nX-7.5 Y-730.99\nX22.95 Y-760.24\nG00 Z50.\nM30\n"
     (finding,) = contoursolve.solve(text, control="fanuc-mill").diagnostics
     assert [each.applicability.value for each in finding.fixes[:2]] == ["changes-contour", "safe"]
-    assert contoursolve.apply_fixes(text, control="fanuc-mill").text == text
-    mended = contoursolve.apply_fixes(text, control="fanuc-mill", unsafe=True).text
+    assert contoursolve.fix(text, control="fanuc-mill").text == text
+    mended = contoursolve.fix(text, control="fanuc-mill", unsafe=True).text
     assert mended == text.replace("Y-730.99", "Y-73.99")
 
 

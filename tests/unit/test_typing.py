@@ -8,7 +8,7 @@ import pytest
 from generate_typing import FORMS, Slip, Sound, random_slip, random_sound
 
 from contoursolve import solve
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics.finding import Fix
 from contoursolve.program.pipeline import Result
 from contoursolve.solving.contour import Contour
@@ -69,7 +69,7 @@ def contradictions(text: str, control: str) -> Iterator[tuple[str, list[str]]]:
 _NUMBERS = re.compile(r"-?\d+\.?\d*")
 
 
-REJECTED = [(text, name) for name, each in DIALECTS.items() for rule in each.catalogue for text in rule.rejected]
+REJECTED = [(text, name) for name, each in CONTROLS.items() for rule in each.catalogue for text in rule.rejected]
 
 
 @pytest.mark.parametrize("part", range(20))

@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.families import FamilyError
 
 START = "G00 X40. Z0.\n"
@@ -52,24 +52,24 @@ def test_what_is_said_of_a_value_holds_for_it(value):
 @pytest.mark.parametrize(
     ("block", "told"),
     [
-        (BLOCK, "#101 is set by nothing before; state it with --let"),
+        (BLOCK, "#101 is set by nothing before; state it with --variable"),
         ("G111 A180. K-30. B120. X[#100+1.]", "#100 is a part of [#100+1.]"),
         ("G111 A180. K-30. B120. X#100 P#100", "#100 stands in several words"),
     ],
 )
 def test_a_variable_that_is_no_word_is_told(block, told):
     with pytest.raises(FamilyError, match=r".") as error:
-        contoursolve.feasible(block, "#100", start="X40. Z0.")
+        contoursolve.ranges(block, "#100", start="X40. Z0.")
     assert told in str(error.value)
 
 
 def test_the_command_line_states_values():
     arguments = ["range", "--block", BLOCK, "--start", "X40. Z0.", "--word", "#100"]
-    done = CliRunner().invoke(main, [*arguments, "--let", "#101=5."])
+    done = CliRunner().invoke(main, [*arguments, "--variable", "#101=5."])
     assert (done.exit_code, "#100 at least 50.000 mm" in done.output) == (0, True)
     assert "now" not in done.output
     for wrong in ("#101", "#101=x", "=5", "#101=nan"):
-        done = CliRunner().invoke(main, [*arguments, "--let", wrong])
+        done = CliRunner().invoke(main, [*arguments, "--variable", wrong])
         assert (done.exit_code, "NAME=NUMBER" in done.output) == (2, True)
 
 
@@ -124,9 +124,9 @@ def test_formulas_with_the_empty_variable_are_those_with_0():
 @pytest.mark.parametrize(
     ("control", "name", "told"),
     [
-        *((each, "foo.bar", "there is no variable FOO.BAR") for each in DIALECTS),
-        *((each, "#-1", "there is no variable #-1") for each in DIALECTS),
-        *((each, "yasnac-lx3.foo", "a setting is stated with --set") for each in DIALECTS),
+        *((each, "foo.bar", "there is no variable FOO.BAR") for each in CONTROLS),
+        *((each, "#-1", "there is no variable #-1") for each in CONTROLS),
+        *((each, "yasnac-lx3.foo", "a setting is stated with --setting") for each in CONTROLS),
         *((each, "R100", "write #100") for each in MACRO_B),
         ("siemens-840d", "#100", "variables are called R100 or a name such as _ANG: write R100"),
         ("isg", "#100", "write P100"),
@@ -137,7 +137,7 @@ def test_formulas_with_the_empty_variable_are_those_with_0():
 )
 def test_a_value_of_what_is_no_variable_is_told(control, name, told):
     named = ["--control", control] if control else []
-    done = CliRunner().invoke(main, ["check", *named, "--block", "G0 X0", "--let", f"{name}=1"])
+    done = CliRunner().invoke(main, ["check", *named, "--block", "G0 X0", "--variable", f"{name}=1"])
     assert (done.exit_code, told in done.output) == (2, True), done.output
 
 
@@ -183,7 +183,7 @@ def test_a_variable_that_the_program_declares_has_any_name(head):
 def test_the_variable_whose_value_is_to_be_stated_is_named_as_it_is(control, typed, stated):
     text = f"G17 G90 G0 X0 Y0\nG1 X60. F9\n{typed}\nX5."
     (finding,) = contoursolve.check(text, control=control)
-    assert finding.help.endswith(f'--let "{stated}=95."')
+    assert finding.help.endswith(f'--variable "{stated}=95."')
     assert not contoursolve.check(text, control=control, variables={stated: 30.0})
 
 

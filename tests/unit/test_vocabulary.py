@@ -3,7 +3,7 @@
 import pytest
 
 import contoursolve
-from contoursolve import DIALECTS, Severity, Status
+from contoursolve import CONTROLS, Severity, Status
 from contoursolve.diagnostics.source import Evidence
 
 MILL = "G17 G90 G0 X0 Y0\n"
@@ -27,7 +27,7 @@ def test_a_machine_builder_s_words_are_a_setting():
     text = MILL + "G1 X60 CLAMP=8 F200\nY40 CHR=5\nX20 V9Q=4"
     assert {each.code for each in findings(SINUMERIK, text)} == {"word-unknown", "address-unknown"}
     assert not findings(SINUMERIK, text, settings={"siemens-840d.words": "clamp,V9Q"})
-    with pytest.raises(contoursolve.SettingError, match="names with commas between them"):
+    with pytest.raises(contoursolve.errors.SettingError, match="names with commas between them"):
         findings(SINUMERIK, text, settings={"siemens-840d.words": "a b"})
 
 
@@ -103,7 +103,7 @@ def test_predefined_words_neither_move_nor_shift(command):
     text = f"G18 G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\n{command}\nG1 Z-20 RND=2\nX52\nM30"
     result = contoursolve.solve(text, control=SINUMERIK)
     assert (result.diagnostics, result.answers[0].contour.end) == ((), (-20.0, 26.0))
-    (row,) = (each for each in DIALECTS[SINUMERIK].modes.codes.values() if each.name == "WAITS")
+    (row,) = (each for each in CONTROLS[SINUMERIK].modes.codes.values() if each.name == "WAITS")
     assert row.source.evidence is Evidence.ASSUMED
 
 

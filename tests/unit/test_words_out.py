@@ -12,6 +12,7 @@ import contoursolve
 from contoursolve.__main__ import commands
 from contoursolve.comparison import Motion, Travel, follow
 from contoursolve.geometry import Length
+from contoursolve.postprocess import NumberGround
 from contoursolve.sketches import read_sketch, solve_sketch
 
 SKETCHES = sorted((Path(__file__).parent.parent / "sketches").glob("*.toml"))
@@ -41,15 +42,15 @@ def test_the_command_says_why_it_writes_nothing(
 
 
 def check_all(
-    answer: contoursolve.Answer, found: contoursolve.Written, control: contoursolve.Dialect | None = None
+    answer: contoursolve.Answer, found: contoursolve.WrittenContours, control: contoursolve.Control | None = None
 ) -> None:
     """Each candidate has no finding, and runs along the contour, over its whole length; the cheapest comes first."""
     assert found.candidates
-    inch, control = answer.unit.value == "inch", control or contoursolve.DIALECTS[found.control]
+    inch, control = answer.unit.value == "inch", control or contoursolve.CONTROLS[found.control]
     for each in found.candidates:
         told = contoursolve.check(each.program, control=control, strict=True)
         assert [one.code for one in told if one.code != "no-contour"] == []
-        limit = (0.0052 if inch else 0.0021) if each.words(contoursolve.NumberGround.COMPUTED) else 1e-6
+        limit = (0.0052 if inch else 0.0021) if each.words(NumberGround.COMPUTED) else 1e-6
         is_rounded = limit > 1e-6 or each.deviation > 1e-6  # the start may be rounded, too
         path = followed(each.program, control, answer)
         assert len(path) >= len(answer.contour.elements)
@@ -67,7 +68,7 @@ def check_all(
 PARTS = 12
 
 
-def followed(text: str, control: contoursolve.Dialect, answer: contoursolve.Answer) -> list[Travel]:
+def followed(text: str, control: contoursolve.Control, answer: contoursolve.Answer) -> list[Travel]:
     """The cuts of a program."""
     result = contoursolve.solve(text, control=control)
     steps = follow(result, control, Length.MM, answer.plane.axes).steps
@@ -107,15 +108,15 @@ def test_a_control_of_the_other_kind_says_so():
     found = contoursolve.write(plate, "yasnac-lx3")
     assert (found.candidates, found.reason) == ((), "the contour is milled, and this control is for lathes")
     shaft = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
-    table = contoursolve.write_for_all(shaft)
-    assert [each.control for each in table] == [*contoursolve.DIALECTS]
+    table = contoursolve.write(shaft)
+    assert [each.control for each in table] == [*contoursolve.CONTROLS]
     assert [each.control for each in table if each.candidates] == [
         *("yasnac-lx3", "fanuc-lathe", "haas-lathe", "siemens-840d", "siemens-808d", "isg", "cnc-pilot")
     ]
     lathe = contoursolve.write(shaft, "mitsubishi", settings={"mitsubishi.diameter": "on"})
     assert lathe.candidates[0].lines == ("G01 Z-30 ,R5", "X100 A120")
     assert "(contoursolve control: mitsubishi, diameter: on)" in lathe.candidates[0].program.split("\n")
-    check_all(shaft.answers[0], lathe, contoursolve.DIALECTS["mitsubishi"].configure({"diameter": "on"}))
+    check_all(shaft.answers[0], lathe, contoursolve.CONTROLS["mitsubishi"].configure({"diameter": "on"}))
 
 
 BY_LENGTH = """sketch = 1
@@ -156,7 +157,7 @@ def test_plain_lines_that_come_first_say_why(sketch: str, control: str, told: st
 def test_an_open_contour_has_no_words():
     open_ = contoursolve.solve("G00 X40. Z0.\nG111 X100. A180. B120.")
     with pytest.raises(
-        contoursolve.UnfinishedError, match="there is no contour to write: cannot be cut; solve it first"
+        contoursolve.errors.UnfinishedError, match="there is no contour to write: cannot be cut; solve it first"
     ):
         contoursolve.write(open_, "fanuc-lathe")
 
@@ -200,6 +201,6 @@ def test_random_contours_are_the_same_for_all_controls(
     result = contoursolve.solve("\n".join((head, *lines)), control="siemens-840d", depth="verdict")
     solved = [each for each in result.answers if each.contour is not None and each.contour.elements]
     assume(solved and not any(each.is_error for each in solved[0].diagnostics))
-    for found in contoursolve.write_for_all(solved[0]):
+    for found in contoursolve.write(solved[0]):
         if found.candidates:
             check_all(solved[0], found)

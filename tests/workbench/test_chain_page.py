@@ -157,7 +157,7 @@ def test_what_is_missing_or_wrong_is_said_as_python_says_it(old, new, opened, fo
     page = opened()
     page.get_by_role("button", name="wrong.toml").click()
     page.locator(".card").first.wait_for()
-    known = contoursolve.sketch_view(read_sketch(text), with_ranges=True)
+    known = contoursolve.editing.sketch_view(read_sketch(text), with_ranges=True)
     expect(page.locator(".missing")).to_have_text(known["said"])
     states = [each["state"] for each in known["elements"] if not each["name"].startswith("corner")]
     for number, state in enumerate(states):
@@ -191,7 +191,7 @@ def test_twenty_four_wrong_sketches_are_told_as_python_tells_them(opened, folder
     page = opened()
     for name, plain in files.items():
         page.get_by_role("button", name=name).click()
-        known = contoursolve.sketch_view(read_sketch(json.dumps(plain, default=str)), with_ranges=True)
+        known = contoursolve.editing.sketch_view(read_sketch(json.dumps(plain, default=str)), with_ranges=True)
         expect(page.locator(".missing")).to_have_text(known["said"], timeout=SECONDS * 1000)
         page.get_by_role("button", name="File").click()
         page.get_by_role("menuitem", name="Open from the folder").click()

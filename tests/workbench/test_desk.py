@@ -11,7 +11,7 @@ from workbench_page import Page
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.gcode import decode
 from contoursolve.notebook import Conversation, begin
 from contoursolve.pictures import Theme
@@ -30,7 +30,7 @@ def opened(text: str, control: str | None = None, name: str = "part.nc", folder:
     return page
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_the_broken_program_of_every_control_is_opened_mended_and_saved(control, tmp_path):
     page = Page(Desk(tmp_path))
     seen = page.ask("open", example=control)
@@ -403,7 +403,7 @@ def test_the_control_comes_from_a_choice_a_comment_the_project_file_or_the_words
     (tmp_path / "a.nc").write_text(BROKEN)
     page = Page(Desk(tmp_path))
     for text, told in (
-        ('control = "none"\n', f"{settings}, line 1: there is no control 'none'; choose from {', '.join(DIALECTS)}"),
+        ('control = "none"\n', f"{settings}, line 1: there is no control 'none'; choose from {', '.join(CONTROLS)}"),
         ("nothing = [", f"{settings} cannot be read: Invalid value (at end of document)"),
     ):
         settings.write_text(text)
@@ -436,13 +436,13 @@ def test_the_words_of_a_contour_in_the_explorer_have_their_places():
 
 PROGRAMS = [*(ROOT / "docs" / "programs").glob("*.*"), *(ROOT / "notebooks" / "programs").glob("*.nc")]
 READ = sorted(each for each in PROGRAMS if each.suffix != ".dxf")
-CONTROLS = {"plate.nc": "nct-99m", "cover.nc": "nct-99m", "bracket.nc": "isg", "flange.mpf": "siemens-840d"}
+NAMED = {"plate.nc": "nct-99m", "cover.nc": "nct-99m", "bracket.nc": "isg", "flange.mpf": "siemens-840d"}
 
 
 @pytest.mark.parametrize("path", READ, ids=lambda path: path.name)
 def test_a_contour_in_the_explorer_is_that_of_the_whole_program(path):
     """The desk examines only what a move makes necessary; the explorer of a notebook solves all of it each time."""
-    text, control = decode(path.read_bytes(), path.name), CONTROLS.get(path.name)
+    text, control = decode(path.read_bytes(), path.name), NAMED.get(path.name)
     page = Page(Desk())
     contours = page.ask("open", name=path.name, text=text, control=control)["contours"]
     for contour in contours[:2]:

@@ -5,13 +5,13 @@ import re
 import pytest
 from workbench_page import Page
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.workbench import Desk
 
 ASKED = re.compile(r"--(set|let|start|control)\b")
 RULES = [
     (control, rule.code, number)
-    for control, dialect in DIALECTS.items()
+    for control, dialect in CONTROLS.items()
     for rule in dialect.catalogue
     if ASKED.search(rule.message + rule.help + rule.note)
     for number in range(len(rule.rejected))
@@ -23,7 +23,7 @@ def opened(text, control=None):
 
 
 def text_of(control, code, number=0):
-    return next(each for each in DIALECTS[control].catalogue if each.code == code).rejected[number]
+    return next(each for each in CONTROLS[control].catalogue if each.code == code).rejected[number]
 
 
 @pytest.mark.parametrize(("control", "code", "number"), RULES)
@@ -35,7 +35,7 @@ def test_no_finding_asks_for_an_option(control, code, number):
     assert not ASKED.search(" ".join(texts + labels))
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_the_comment_that_it_names_is_taken(control):
     text = text_of(control, "word-unknown")
     (told,) = [each["help"] for each in opened(text, control)["findings"] if each["code"] == "word-unknown"]

@@ -11,7 +11,7 @@ import pytest
 from editor import random_edit
 from workbench_page import Page, units
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.workbench import Desk
 from contoursolve.workbench.desk import ACTIONS, MOST_WINDOWS
 
@@ -50,7 +50,7 @@ class RandomPage(Page):
     def open_anything(self, draw):
         roll = draw.random()
         if roll < 0.6:
-            self.ask("open", example=draw.choice([*DIALECTS]))
+            self.ask("open", example=draw.choice([*CONTROLS]))
         elif roll < 0.8:
             self.ask("open", name=draw.choice(NAMES), base64=b64encode(draw.randbytes(draw.randrange(60))).decode())
             self.renew()

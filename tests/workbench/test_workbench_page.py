@@ -6,7 +6,7 @@ import pytest
 from served_page import SCREENS, said
 from test_server import Served
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import CONTROLS
 from contoursolve.workbench import Desk
 from contoursolve.workbench.desk import MOST_PROGRAMS
 
@@ -34,11 +34,11 @@ def do(page, command) -> None:
     page.get_by_role("menuitem", name=command).click()
 
 
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_an_example_of_each_control_is_mended_and_saved(control, opened, folder) -> None:
     from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
 
-    page = opened(DIALECTS[control].title)
+    page = opened(CONTROLS[control].title)
     desk = Desk()
     view = desk.answer({"do": "open", "example": control})
     while view["examined"] < view["lines"]:

@@ -71,7 +71,7 @@ _SLIPS = {
     "corners-overlap": {"each": "12"},
     "cnc-pilot-angle-redundant": {
         "wrong": "{start}G1 X50 Z-20 A26.565\nG1 Z-40",
-        "options": "--set CONTROL.redundant-angle=error",
+        "options": "--setting CONTROL.redundant-angle=error",
     },
     "value-variable": {"right": "{program}"},
     "half-circle": {"wrong": "FERTIGTEIL\nG0 X40 Z-20\nG2 X80 Z-20 R9.9995"},

@@ -124,8 +124,8 @@ _ON_MILLS = {
 _OFF = {"options": "--rules off"}
 _BESIDE_ARCS = dict.fromkeys(("radius-too-small", "circle-undefined", "radius-difference", "half-circle"), _OFF)
 _VANISHED = {"wrong": "{start}G01 X0 {corner}{size}\nM8\n{turn}", **_OFF}
-_STRAIGHT = {"turn": "{hardly_turned}", "options": "--set CONTROL.guard-corner=error"}
-_ALLOWED = "--set CONTROL.generation=classic"
+_STRAIGHT = {"turn": "{hardly_turned}", "options": "--setting CONTROL.guard-corner=error"}
+_ALLOWED = "--setting CONTROL.generation=classic"
 _TURNED = (
     "{start}G01 W-20. ,R5.\nU20. W-10.",
     "{start}G01 Z-20. ,R2.\nX40.\nG02 X60. Z-30. I10. K0",
@@ -135,10 +135,10 @@ FANUC_LATHE_WORDS = OwnWords(
     _TURNING,
     {
         **_BESIDE_ARCS,
-        "fanuc-angle-supplementary": {"contour": "{angled_block}", "options": "--set CONTROL.angle=supplementary"},
+        "fanuc-angle-supplementary": {"contour": "{angled_block}", "options": "--setting CONTROL.angle=supplementary"},
         "fanuc-angle-redundant": {
             "wrong": "{start}G01 X40. Z-17.3205 ,A150.",
-            "options": "--set CONTROL.redundant-angle=error",
+            "options": "--setting CONTROL.redundant-angle=error",
         },
         "fanuc-corner-straight": _STRAIGHT,
     },
@@ -149,7 +149,10 @@ FANUC_MILL_WORDS = OwnWords(
     _MILLING,
     {
         "line-vanishes": _VANISHED,
-        "fanuc-chamfer-along-arc": {"contour": "{arc_blocks}", "options": "--set CONTROL.chamfer-on-arc=arc_length"},
+        "fanuc-chamfer-along-arc": {
+            "contour": "{arc_blocks}",
+            "options": "--setting CONTROL.chamfer-on-arc=arc_length",
+        },
         "fanuc-corner-straight": _STRAIGHT,
     },
     _ON_MILLS,

@@ -67,7 +67,7 @@ _SLIPS = {
     "word-unused": {"contour": "{block}\n3 RND R5", "options": "--rules off"},
     "heidenhain-first-taken": {
         "wrong": "{start}2 FL LEN40 P1X+30 P1Y+10\n3 FL X+80 Y+20{tail}",
-        "options": "--set CONTROL.ambiguous=first",
+        "options": "--setting CONTROL.ambiguous=first",
     },
     "cut-free": {
         "wrong": "{start}2 FL X+0 Y+20\n3 FL Y+20\n4 FL X+50 Y+20{tail}",

@@ -236,7 +236,8 @@ _OWN = (
         examples=(_LINES, START + "2 FL X+40 Y+0\n3 FC DR- R20 CCX+60 CCY+0 X+80\n4 FLT Y-20"),
         severity=Severity.INFO),
     row("heidenhain-parameter", "{words}: the value of the parameter is not known here",
-        'set it by a formula of numbers before this block, or state it: --let "Q1=5"', BOOK.assumed("Q parameters"),
+        'set it by a formula of numbers before this block, or state it: --variable "Q1=5"',
+        BOOK.assumed("Q parameters"),
         ReadIssue.VARIABLE,
         (START + "2 Q1 = ( 40 + 20 ) / 2\n3 FL X+Q1 Y+5\n4 END PGM A MM", ("( 40 + 20 ) / 2", "Q2 + 5"))),
 )  # fmt: skip

@@ -48,24 +48,27 @@ _GAPS = {
     "foreign": "C4.",
     "opposite": "210.",
 }
-_INCREMENTS = {"options": "--set CONTROL.number=increment"}
+_INCREMENTS = {"options": "--setting CONTROL.number=increment"}
 _SLIPS: dict[str, dict[str, str]] = {
     **dict.fromkeys(("point-missing", "point-lost", "start-in-increments", "move-in-increments"), _INCREMENTS),
     "mitsubishi-two-corners": {
         "contour": "{line} {before} ,C5. {corner}{size}\n{turn}",
-        "options": "--set CONTROL.two-corner-words=error",
+        "options": "--setting CONTROL.two-corner-words=error",
     },
-    "corner-twice": {"more": " {other_corner}", "options": "--set CONTROL.two-corner-words=error"},
-    "mitsubishi-corner-arc": {"contour": "{arc_blocks}", "options": "--set CONTROL.corner=I"},
-    "mitsubishi-chamfer-along-arc": {"contour": "{arc_blocks}", "options": "--set CONTROL.chamfer-on-arc=arc_length"},
-    "mitsubishi-centre-from-end": {"contour": "{leaving}", "options": "--set CONTROL.first-centre=end"},
+    "corner-twice": {"more": " {other_corner}", "options": "--setting CONTROL.two-corner-words=error"},
+    "mitsubishi-corner-arc": {"contour": "{arc_blocks}", "options": "--setting CONTROL.corner=I"},
+    "mitsubishi-chamfer-along-arc": {
+        "contour": "{arc_blocks}",
+        "options": "--setting CONTROL.chamfer-on-arc=arc_length",
+    },
+    "mitsubishi-centre-from-end": {"contour": "{leaving}", "options": "--setting CONTROL.first-centre=end"},
     "mitsubishi-centre-of-diameter": {
         "wrong": "G18 G90 G00 X0 Z0\nG03 P30. Q0 H0\nG01 X20. Z-60. A-90.",
-        "options": "--set CONTROL.diameter=on",
+        "options": "--setting CONTROL.diameter=on",
     },
     "mitsubishi-h-missing": {
         "wrong": "{start}G01 A10.\nG02 X60. Y10. I-20. J-25.",
-        "options": "--set CONTROL.h-default=error",
+        "options": "--setting CONTROL.h-default=error",
     },
 }
 _SLIPS |= {
@@ -73,7 +76,7 @@ _SLIPS |= {
     "arc-empty": {"wrong": "{start}{line} A0.\nG02 X60. Y0 I-20. J-25. H1"},
     "axis-crossed": {
         "wrong": "G18 G90 G00 X20. Z0.\nG01 Z-20. ,R2.\nX-20. Z-30.",
-        "options": "--set CONTROL.diameter=on",
+        "options": "--setting CONTROL.diameter=on",
     },
 }
 _ABSENT = {

@@ -59,22 +59,22 @@ _SLIPS = {
     "comma-word-unknown": {"behind": "\nG1 X50 ,R5 G4"},
     "siemens-chamfer-along-arc": {
         "wrong": "{start}G1 X30 CHR=2\nG2 X50 Y20 CR=20",
-        "options": "--set CONTROL.chamfer-on-arc=arc_length",
+        "options": "--setting CONTROL.chamfer-on-arc=arc_length",
     },
     "siemens-closing-increment": {
         "wrong": "{start}G1 X10 Y5\nANG=30 RND=6\nX=IC(60) Y=IC(20) ANG=-45",
-        "options": "--set CONTROL.closing-incremental=error",
+        "options": "--setting CONTROL.closing-incremental=error",
     },
     **{
         f"siemens-{word.lower()}-left-out": {
             "wrong": f"{{start}}G1 X30 {word}=5\nG18\nX40 Z40",
-            "options": "--set CONTROL.no-second-move=leave-out",
+            "options": "--setting CONTROL.no-second-move=leave-out",
         }
         for word in ("CHR", "CHF", "RND")
     },
-    "siemens-corner-without-next": {"turn": "M30", "options": "--set CONTROL.no-second-move=error"},
-    "siemens-plane-changes": {"turn": "G18 X40 Z40", "options": "--set CONTROL.no-second-move=error"},
-    "siemens-corner-rapid": {"line": "", "options": "--set CONTROL.rapid-corner=error"},
+    "siemens-corner-without-next": {"turn": "M30", "options": "--setting CONTROL.no-second-move=error"},
+    "siemens-plane-changes": {"turn": "G18 X40 Z40", "options": "--setting CONTROL.no-second-move=error"},
+    "siemens-corner-rapid": {"line": "", "options": "--setting CONTROL.rapid-corner=error"},
     "axis-crossed": {"wrong": "G18 DIAMON G90 G0 X20 Z0\nG1 Z-20 RND=2\nX-20 Z-30"},
     "corner-twice": {"contour": "G1 X30 CHR=5 CHF=5\nX40 Y40"},
     "start-diameter": {"wrong": "G18 DIAMON\nG1 X40 RND=2\nZ-50\nG0 Y5", "options": '--start "X20 Z0"'},

@@ -231,7 +231,7 @@ _FOLLOWING_RULES = (
         (_ROLE, "G112"), severity=Severity.WARNING),
     row("g111-rapid-behind",
         "{words} {have} no G code: after {code}, G00 is in force again, so this is a rapid along the part",
-        "write G01 or G00; if {code} leaves G01 in force on your control: --set yasnac-lx3.motion-after=g01",
+        "write G01 or G00; if {code} leaves G01 in force on your control: --setting yasnac-lx3.motion-after=g01",
         MOTION_AFTER.source, ReadIssue.RAPID_BEHIND,
         ((_GOOD + "\nG01 Z-90.", _GOOD + "\nG00 X200.", "G01 X40. Z0. F0.2\nG111 X100. A180. K-30. B120.\nZ-90."),
          _GOOD + "\nZ-90.", _GOOD + " Q5.\nM08\nW-30.", "G00 X100. Z-50.\nG112 U0 I10. K-50. R30.\nZ-150."),

@@ -4,7 +4,7 @@ from math import dist, isclose, radians, sin, tan
 
 # By hand: line 2 is 30 / sin(60 deg) long. What is not straight is the rounding's setback, radius * tan(30 deg).
 by_hand = (30 / sin(radians(60)) - 20) / tan(radians(30))
-assert isclose(taper.answers[0].value, by_hand, abs_tol=1e-9)
+assert isclose(taper.asked[0].value, by_hand, abs_tol=1e-9)
 assert taper.filled.blocks[0].endswith("P25.359")
 
 # By hand: the bore's centre lies 20 and 15 mm from V1, 25 mm away, and 7, 24, 25 is a right triangle: the lines run in

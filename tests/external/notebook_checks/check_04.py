@@ -3,7 +3,7 @@
 from math import asin, atan2, cos, degrees, hypot, radians, tan
 
 # By hand: at A180. the first straight is 30 mm long, and a rounding takes P * tan(30 deg) of it.
-rounding = contoursolve.feasible(BLOCK, "P", start=START)
+rounding = contoursolve.ranges(BLOCK, "P", start=START)
 assert abs(rounding.intervals[0].high.value - 30 / tan(radians(30))) < 1e-9
 assert rounding.is_complete
 
@@ -23,14 +23,14 @@ assert (~asked.has_contour).sum() == 2
 
 # Each version is what the block says with its two values.
 for A, P, end in zip(versions["A"], versions["P"], versions["corner 2.end Z"], strict=True):
-    (alone,) = contoursolve.what_if(BLOCK, change={"A": f"A{A}", "P": f"P{P}"}, start=START).answers
+    alone = contoursolve.solve(BLOCK, start=START).answer.with_words(change={"A": f"A{A}", "P": f"P{P}"})
     assert abs(alone.contour.end[0] - end) < 1e-12
 
 # By hand: the start is hypot(30, 10) from the boss's centre. At 180 degrees the rounding begins where the line does if
 # the two centres, 25 + R apart, are 30 apart in X and 10 + R in Y.
-angles = contoursolve.feasible(CHAIN, "2:,A").intervals[0]
+angles = contoursolve.ranges(CHAIN, "2:,A").intervals[0]
 assert abs(angles.low.value - (180 + degrees(atan2(10, 30) - asin(25 / hypot(30, 10))))) < 1e-6
-assert abs(contoursolve.feasible(CHAIN, ",R").intervals[0].high.value - 12.5) < 1e-9
+assert abs(contoursolve.ranges(CHAIN, ",R").intervals[0].high.value - 12.5) < 1e-9
 row = chain["status"][(chain["2:,A"][:, 0] == 180).argmax()]
 assert ((row == 0) == (chain[",R"][0] <= 12.5)).all()
 

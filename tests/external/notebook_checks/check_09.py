@@ -46,7 +46,7 @@ assert contradiction.status.value == "conflicting"
 assert [line.partition(" ")[2] for line in fix.replacement.splitlines()] == [*PLATE]
 
 # A plate exists as long as the rounding leaves something of the line before it.
-assert all(result.answers[0].status.value == "solved" for result in fan.values())
+assert all(answer.status.value == "solved" for answer in fan.values())
 rows = zip(family["R"].flat, family["LEN"].flat, family["status"].flat, strict=True)
 assert all((status == 0) == (room(radius, length) > 0) for radius, length, status in rows)
 assert all(abs(left - room(radius)) < 1e-9 for radius, left in zip(radii["R"], radii["line 4.room"], strict=True))

@@ -1,0 +1,151 @@
+"""Pictures, files and pages of results; and the page of a rule."""
+
+from __future__ import annotations
+
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+# What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
+from contoursolve import families, output, pictures, sketches
+from contoursolve.controls import CONTROLS
+from contoursolve.diagnosis import Answer
+from contoursolve.diagnostics import UserError, choice_of, did_you_mean, importing
+from contoursolve.gcode import write_whole
+from contoursolve.pictures import Picture, Theme
+from contoursolve.program import Result, find_dialect
+from contoursolve.reading import Control
+from contoursolve.sketches import ContourSketch
+
+
+def draw(record: Any, *, tool: Any = None, theme: Theme | str = "light", **options: Any) -> Picture:
+    """The picture of a contour, of all contours of a program, of where a block has one, or of a sketch.
+
+    Args:
+        record: an `Answer`, a `Result`, a `Family` over two words, a `FeasibleRange`, a `FeasibleRegion`, a `Sketch`,
+            its `Drawings` or one `Drawing`; a `ContourSketch`, or what its `solve()` gives.
+        tool: the `ToolReport` of the tool that is drawn with contours; without it that of the result, if it has one.
+        theme: `light`, `dark`, or `page` for a page of HTML, light or dark as its reader prefers.
+        title: the title, in the place of the picture's own.
+        like: of an answer, its picture before a word was moved: scale, origin and height stay, labels keep their sides.
+        has_remarks: of an answer, whether the findings are written below.
+        is_whole: of a program, whether turned parts have both halves; without it, where the contours stay at least half
+            as large.
+        words: of a family, the two words that go to the right and up.
+        result: of a family or a region, the result that colours the contours, with lines of equal value: `"V2.Z"`,
+            `"line 1.room"`, `"length"`.
+
+    Returns:
+        A `Picture`: it shows itself in a notebook, and has `.svg`, `.png()` and `.save(path)`.
+
+    Raises TypeError for an option that the record does not have, ValueError for a family that is no grid of two words
+    and a sketch of which nothing is known, FamilyError for a result that is none.
+
+    >>> from contoursolve import solve
+    >>> draw(solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answer).title
+    'G111 (taper multiple cornering), program line 1: solved'
+    """
+    theme = choice_of(Theme, theme, "theme") if isinstance(theme, str) else theme
+    if isinstance(record, ContourSketch):
+        record = record.solve()
+    if isinstance(record, sketches.SketchAnswer):
+        found = sketches.draw_sketch(record, theme=theme, **options)
+        if found is None:
+            raise ValueError(f"nothing of the sketch can be drawn: {record.said}")
+        return found
+    tool = record.tool if tool is None and isinstance(record, Result) else tool
+    if tool is not None:
+        options["beside"] = output.beside_of(tool, record if isinstance(record, Answer) else None)
+    return pictures.draw(record, theme=theme, **options)
+
+
+def export(record: Any, path: str | Path, *, tool: Any = None, result: str | None = None) -> None:
+    """Write a file by the ending of its name.
+
+    * `.dxf`: the solved contours of a `Result` for CAD, with the path of its tool; needs `contoursolve[dxf]`.
+    * `.json`: a `Result`, as `contoursolve solve --format json` prints it.
+    * `.csv`, `.parquet`: the rows of a `Family`; Parquet needs `contoursolve[family]`.
+    * `.html`: the page of a `Result` (see `report`), or the map of a `Family` over two words or of a `FeasibleRegion`:
+      pointer and arrow keys choose values, and their contour is drawn. `result` colours the map, as for `draw`. It
+      holds at most 800 contours, and 400 kB of them. Needs `contoursolve[report]`.
+
+    `tool` is a `ToolReport`; without it that of the result, if it has one. Raises ValueError for a record that has no
+    file of this ending, or nothing to write; MissingExtraError without a package; UserError where the file cannot be
+    written.
+    """
+    target, ending = Path(path), Path(path).suffix.lower()
+    kinds = _FILES.get(ending)
+    if kinds is None:
+        raise ValueError(f"{target}: a file ends in {', '.join(_FILES)}; a picture has save()")
+    if not isinstance(record, kinds):
+        raise ValueError(f"{target}: a {type(record).__name__} is not written as {ending}")
+    tool = record.tool if tool is None and isinstance(record, Result) else tool
+    if isinstance(record, families.Family) and ending != ".html":
+        write = record.to_csv if ending == ".csv" else record.to_parquet
+        write(target)
+        return
+    write_whole(target, (_bytes_of(record, ending, tool, result),), keeps_backup=False)
+
+
+_FILES: dict[str, Any] = {
+    ".dxf": Result,
+    ".json": Result,
+    ".csv": families.Family,
+    ".parquet": families.Family,
+    ".html": (Result, families.Family, families.FeasibleRegion),
+}
+"""The records that are written as a file, by its ending."""
+
+
+def _bytes_of(record: Any, ending: str, tool: Any, result: str | None) -> bytes:
+    if ending == ".dxf":
+        with importing("dxf", "a drawing for CAD"):
+            drawing = output.drawing_for_cad(record, tool)
+        if drawing is None:
+            raise ValueError("no contour is solved: the drawing would be empty")
+        return drawing[0]
+    if ending == ".json":
+        return f"{output.to_json(record, tool)}\n".encode()
+    if isinstance(record, Result):
+        return report(record, tool=tool).encode()
+    with importing("report", "a page"):
+        return output.map_page(record, result, version=_version()).encode()
+
+
+def report(result: Result, *, tool: Any = None, is_explained: bool = False) -> str:
+    """The page of HTML about a result: its contours with pictures, words, paths and findings, and the program.
+
+    With `is_explained`, equations and constructions, too. `tool` is a `ToolReport`; without it that of the result, if
+    it has one. Raises MissingExtraError without the package of `contoursolve[report]`.
+    """
+    with importing("report", "a report"):
+        pieces = output.report_page(result, _version(), is_explained=is_explained, tool=tool or result.tool)
+        return "".join(pieces)
+
+
+def _version() -> str:
+    try:
+        return version("contoursolve")
+    except PackageNotFoundError:  # it runs from its source
+        return ""
+
+
+def explain(code: str, control: str | Control | None = None) -> str:
+    """A page of Markdown about a rule by its code (`g111-line-1`), or about all rules behind an alarm number.
+
+    It says what is wrong and what to do, with wrong and right blocks and the place in the manual; of every control that
+    has the rule, or of one. Raises UserError if none has it.
+
+    >>> explain("g111-line-1").splitlines()[0]
+    '# g111-line-1'
+    """
+    chosen = [control if isinstance(control, Control) else find_dialect(control)] if control else [*CONTROLS.values()]
+    wanted = str(code).strip().lower()
+    behind = {row.rule.code for row in output.alarm_rows(chosen) if row.is_called(wanted)}
+    known = {rule.code for each in chosen for rule in each.catalogue}
+    found = sorted({wanted} & known | behind & known)
+    if not found:
+        raise UserError(
+            f"no rule has the code or the alarm {code!r}; {did_you_mean(wanted, sorted(known))}".rstrip("; ")
+        )
+    return "\n".join(output.rule_page(each, chosen) for each in found)
