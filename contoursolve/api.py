@@ -65,7 +65,7 @@ def parse(text: str | Path, *, name: str = "<program>") -> Program:
     >>> parse("G111 X100. A180. K-30. B120.").blocks[0].words[1].text
     'X100.'
     """
-    check_type("text", text, str | Path)
+    check_type("text", text, str | Path, "a text (str), or a Path")
     return read_program(text) if isinstance(text, Path) else gcode.parse(text, name)
 
 

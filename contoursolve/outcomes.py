@@ -10,7 +10,7 @@ from typing import Any
 from contoursolve import families, output, pictures, sketches
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer
-from contoursolve.diagnostics import UserError, choice_of, did_you_mean, importing
+from contoursolve.diagnostics import UserError, check_type, choice_of, did_you_mean, importing
 from contoursolve.gcode import write_whole
 from contoursolve.pictures import Picture, Theme
 from contoursolve.program import Result, find_dialect
@@ -18,12 +18,24 @@ from contoursolve.reading import Control
 from contoursolve.sketches import ContourSketch
 
 
-def draw(record: Any, *, tool: Any = None, theme: Theme | str = "light", **options: Any) -> Picture:
+def draw(  # noqa: PLR0913 - the options of all that can be drawn
+    record: Any,
+    *,
+    tool: Any = None,
+    theme: Theme | str = "light",
+    title: str | None = None,
+    like: Picture | None = None,
+    has_remarks: bool | None = None,
+    is_whole: bool | None = None,
+    words: tuple[str, str] | None = None,
+    result: str | None = None,
+) -> Picture:
     """The picture of a contour, of all contours of a program, of where a block has one, or of a sketch.
 
     Args:
-        record: an `Answer`, a `Result`, a `Family` over two words, a `FeasibleRange`, a `FeasibleRegion`, a `Sketch`,
-            its `Drawings` or one `Drawing`; a `ContourSketch`, or what its `solve()` gives.
+        record: an `Answer`, a `Result`, a `Family` over two words, a `FeasibleRange`, a `FeasibleRegion`, an
+            `EquationSystem` (its matrix), a `Sketch`, its `Drawings` or one `Drawing`; a `ContourSketch`, or what its
+            `solve()` gives.
         tool: the `ToolReport` of the tool that is drawn with contours; without it that of the result, if it has one.
         theme: `light`, `dark`, or `page` for a page of HTML, light or dark as its reader prefers.
         title: the title, in the place of the picture's own.
@@ -32,7 +44,7 @@ def draw(record: Any, *, tool: Any = None, theme: Theme | str = "light", **optio
         is_whole: of a program, whether turned parts have both halves; without it, where the contours stay at least half
             as large.
         words: of a family, the two words that go to the right and up.
-        result: of a family or a region, the result that colours the contours, with lines of equal value: `"V2.Z"`,
+        result: of a family or a region, the result that colours the contours, with lines of equal value: `"V2 Z"`,
             `"line 1.room"`, `"length"`.
 
     Returns:
@@ -46,6 +58,9 @@ def draw(record: Any, *, tool: Any = None, theme: Theme | str = "light", **optio
     'G111 (taper multiple cornering), program line 1: solved'
     """
     theme = choice_of(Theme, theme, "theme") if isinstance(theme, str) else theme
+    named: dict[str, Any] = {"title": title, "like": like, "has_remarks": has_remarks, "is_whole": is_whole}
+    named |= {"words": words, "result": result}
+    options = {name: value for name, value in named.items() if value is not None}
     if isinstance(record, ContourSketch):
         record = record.solve()
     if isinstance(record, sketches.SketchAnswer):
@@ -118,6 +133,7 @@ def report(result: Result, *, tool: Any = None, is_explained: bool = False) -> s
     With `is_explained`, equations and constructions, too. `tool` is a `ToolReport`; without it that of the result, if
     it has one. Raises MissingExtraError without the package of `contoursolve[report]`.
     """
+    check_type("result", result, Result)
     with importing("report", "a report"):
         pieces = output.report_page(result, _version(), is_explained=is_explained, tool=tool or result.tool)
         return "".join(pieces)
@@ -139,6 +155,7 @@ def explain(code: str, control: str | Control | None = None) -> str:
     >>> explain("g111-line-1").splitlines()[0]
     '# g111-line-1'
     """
+    check_type("code", code, str)
     chosen = [control if isinstance(control, Control) else find_dialect(control)] if control else [*CONTROLS.values()]
     wanted = str(code).strip().lower()
     behind = {row.rule.code for row in output.alarm_rows(chosen) if row.is_called(wanted)}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 # What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
 from contoursolve import families, tool_radius
+from contoursolve.diagnostics import check_type
 from contoursolve.families import (
     BlockOptions,
     BranchesName,
@@ -91,7 +92,8 @@ def family(
     >>> family(block + " Q5.", start="X40. Z0.", side="right", tip=3, vary=vary)["tool.fits"].tolist()
     [[True, False], [True, True], [True, True]]
     """
-    if not any(each.lower() == families.TOOL for each in vary):
+    check_type("vary", vary, Mapping, 'the values of words by their names, such as {"A": [170, 180]}')
+    if not any(str(each).lower() == families.TOOL for each in vary):
         _check_toolless(options, "a value of `tool` in vary")
         several: dict[str, Any] = {"executor": executor, "branches": branches}
         return families.family(block, vary=vary, paired=paired, workers=workers, **several, **_of_block(options))

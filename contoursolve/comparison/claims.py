@@ -298,10 +298,19 @@ class ContourReceipt(Struct, frozen=True):
 
 
 class Receipt(Struct, frozen=True):
-    """The verdict on a result, with the bytes that it is about; `control` is None where neither input tells.
+    """The verdict on a result, with the bytes that it is about.
 
-    `start` and `facts` are what was given apart from the program, `settings` those under which it was read, as the
-    result says, by `control.name`.
+    Attributes:
+        program: the program, with its SHA-256.
+        result: the result that was checked, with its own.
+        control: the name of the control; None where neither input tells.
+        unit: the unit of the program, mm or inch.
+        contours: the verdict on each contour.
+        omissions: the contours of the program that the result leaves out.
+        rules: what the manual's rules did, as the result says.
+        start: the words of the start point that were given apart from the program; None without any.
+        facts: the facts that were given apart from it.
+        settings: the settings under which it was read, as the result says, by `control.name`.
     """
 
     program: Document

@@ -25,9 +25,17 @@ from contoursolve.gcode import Block
 
 
 class Comparison(Struct, frozen=True):
-    """Two paths, and all their differences, the largest first; those that are no distance come last, as they run.
+    """Two paths, and all their differences.
 
-    Where they are the same, they are so to within `deviation` mm, at most at these lines.
+    Attributes:
+        old: the path of the first program.
+        new: that of the second one.
+        tolerance: the distance up to which two paths are the same, mm.
+        differences: all differences, the largest first; those that are no distance come last, as they run.
+        difference: the first one along the path; None where the paths are the same.
+        deviation: the distance to within which they are the same, mm.
+        lines: the lines of the first and of the second program where the deviation is largest.
+        alignment: the moves of both that belong together.
     """
 
     old: ToolPath
@@ -35,10 +43,8 @@ class Comparison(Struct, frozen=True):
     tolerance: float
     differences: tuple[Difference, ...]
     difference: Difference | None
-    """The first one along the path."""
     deviation: float
     lines: tuple[int, int] | None
-    """The lines of OLD and of NEW where the deviation is largest."""
     alignment: Alignment
 
     @property

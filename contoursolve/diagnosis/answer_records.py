@@ -10,7 +10,12 @@ from contoursolve.solving import Certificate, Contour
 
 
 class AskedValue(Struct, frozen=True):
-    """A value that was asked for: mm (radius) or degrees; None where nothing determines it."""
+    """A value that was asked for.
+
+    Attributes:
+        question: the word with `?`, and what it asks for.
+        value: mm (radius) or degrees; None where nothing determines it.
+    """
 
     question: Question
     value: float | None
@@ -25,10 +30,16 @@ class Filled(Struct, frozen=True):
 
 
 class StatedWord(Struct, frozen=True):
-    """A word of a contour, with its key: `A`, or `2:,A` where two blocks have one.
+    """A word of a contour.
 
-    `meaning` says what it is. `value` and `unit` (mm, in, deg) are as written; a variable or `?` has no value. `fixes`
-    names the points and corners that it fixes.
+    Attributes:
+        key: its name: `A`, or `2:,A` where two blocks have one.
+        word: the word in the program.
+        meaning: what it states.
+        value: its value as it is written; None for a variable or `?`.
+        unit: what it is written in: mm, in or deg.
+        fixes: the points and corners that it fixes, by name.
+        is_ignored: whether the control drops it by a rule.
     """
 
     key: str
@@ -43,9 +54,13 @@ class StatedWord(Struct, frozen=True):
 class Addition(Struct, frozen=True):
     """A word that a block may still take.
 
-    `text` is the word. It has its value where the geometry fixes that, and `?` where it is still to be chosen. It goes
-    into the program line `line`; `replacement` has all lines of the contour with it. `contour` is the one that the
-    block has then. It is None where other words are missing, or the value is.
+    Attributes:
+        address: its address, such as `P` or `,A`.
+        meaning: what it states.
+        text: the word: with its value where the geometry fixes that, with `?` where it is still to be chosen.
+        line: the program line into which it goes.
+        replacement: all lines of the contour with it.
+        contour: the contour that the block has then; None where other words are missing, or the value is.
     """
 
     address: str
@@ -57,8 +72,13 @@ class Addition(Struct, frozen=True):
 
 
 class Completion(Struct, frozen=True):
-    """A word that completes a block, and the whole block with it. `contour` is what it then has, None while the word's
-    number is open."""
+    """A word that completes a block.
+
+    Attributes:
+        word: the word; it ends with `?` where its number is still to be chosen.
+        block: the whole block with it.
+        contour: the contour that it then has; None while the number is open.
+    """
 
     word: str
     block: str
@@ -66,8 +86,18 @@ class Completion(Struct, frozen=True):
 
 
 class Solution(Struct, frozen=True):
-    """One solution: its name, its path (None if the control cannot make it, with the reasons), what selects it,
-    and whether it is the contour that was solved."""
+    """One solution of a contour.
+
+    Attributes:
+        name: its name, such as `A`; empty where there is one alone.
+        contour: its path, mm; None if the control cannot make it.
+        asked: the values that were asked for, in it.
+        reasons: what speaks against its path.
+        selects: the words, or sides, that select it.
+        is_chosen: whether it is the contour that was solved.
+        certificate: how sure its points are, mm.
+        picks: the numbers that choose it, where the control has a word for these.
+    """
 
     name: str
     contour: Contour | None
@@ -77,11 +107,20 @@ class Solution(Struct, frozen=True):
     is_chosen: bool
     certificate: Certificate
     picks: tuple[Pick, ...] = ()
-    """The numbers that choose it, where the control has a word for these."""
 
 
 class Solutions(Struct, frozen=True):
-    """All solutions that were found, a sequence, and whether these are proven to be all."""
+    """All solutions of a contour that were found: a sequence.
+
+    Attributes:
+        solutions: the solutions, each with its path and what selects it.
+        is_complete: whether these are all, with proof.
+        method: how they were found: by a closed form, or by a search.
+        doubts: what could not be decided, where they may not be all.
+        chosen_by: the words that chose the control's own; empty where there is nothing to choose.
+        within: the distance from the start point within which these are all, mm, where they were searched for; None
+            where a closed form gives them.
+    """
 
     solutions: tuple[Solution, ...]
     is_complete: bool
@@ -89,8 +128,6 @@ class Solutions(Struct, frozen=True):
     doubts: tuple[str, ...]
     chosen_by: str
     within: float | None = None
-    """The distance from the start point within which these are all, mm, where they were searched for; None where a
-    closed form gives them."""
 
     def __len__(self) -> int:
         return len(self.solutions)

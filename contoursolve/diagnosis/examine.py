@@ -98,12 +98,12 @@ from contoursolve.solving import (
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
-    from contoursolve.diagnosis import equation_system
+    from contoursolve.diagnosis import equation_system, hand_sheet
     from contoursolve.diagnosis.edits import Edit
-    from contoursolve.diagnosis.hand_sheet import Derivation
     from contoursolve.gcode import Block, Word
 else:
     equation_system = LateModule("contoursolve.diagnosis.equation_system")
+    hand_sheet = LateModule("contoursolve.diagnosis.hand_sheet")
 
 
 class Policy(Enum):
@@ -201,7 +201,7 @@ class Answer(Shown, Struct, frozen=True):
         read_by: the control and the policy by which it was read.
         diagnosis: the checks, freedoms and ties; made where there is a finding.
         certificate: what is proven of the path; None where nothing was.
-        answers: the values that were asked for.
+        asked: the values that were asked for with `?`.
         alternatives: every solution, where more than the control's own was looked for; see `list_alternatives`.
         filled: the block with the values that were asked for filled in, where it then stands alone.
         calls: the lines of the blocks that call it, if it belongs to a subprogram.
@@ -224,7 +224,6 @@ class Answer(Shown, Struct, frozen=True):
     diagnosis: Diagnosis | None = None
     certificate: Certificate | None = None
     asked: tuple[AskedValue, ...] = ()
-    """The values that were asked for with `?`."""
     alternatives: Alternatives | None = None
     filled: Filled | None = None
     calls: tuple[int, ...] = ()
@@ -327,7 +326,7 @@ class Answer(Shown, Struct, frozen=True):
         return "\n".join(from_above("construction_lines", self))
 
     @property
-    def derivation(self) -> Derivation:
+    def derivation(self) -> hand_sheet.Derivation:
         """The calculation by hand. Raises ValueError without a contour."""
         return self.system.derivation
 

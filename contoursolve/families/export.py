@@ -50,7 +50,7 @@ class Measure(Struct, frozen=True):
 
 def measures_of(template: Template, ranges: Ranges, columns: Iterable[str]) -> dict[str, Measure]:
     """The measures of the words and of some columns."""
-    answer = template.solve({word: float(values[0]) for word, values in ranges.values.items()})
+    answer = template.solve({word: float(ranges.values[word][0]) for word in template.words})
     plane = answer.plane
     diameters = {axis for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True) if is_diameter}
     asked = asked_of(answer.profile)
@@ -231,7 +231,8 @@ class Family(Shown):
     @property
     def _results(self) -> ResultNames:
         """The names of the results."""
-        answer = self.spec.template().solve({word: float(values[0]) for word, values in self.ranges.values.items()})
+        template = self.spec.template()
+        answer = template.solve({word: float(self.ranges.values[word][0]) for word in template.words})
         return ResultNames(answer.profile, (name for name, each in self.columns.items() if each.dtype.kind == "f"))
 
     def _word(self, name: str) -> str | None:

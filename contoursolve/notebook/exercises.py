@@ -9,10 +9,10 @@ from typing import Any
 from msgspec import Struct
 
 from contoursolve.api import solve
-from contoursolve.diagnosis import Answer, Derivation, change, edited, misreadings, typed_text, with_value
+from contoursolve.diagnosis import Answer, Derivation, change, edited, either, misreadings, typed_text, with_value
 from contoursolve.diagnostics import Shown
 from contoursolve.gcode import FACT, Word
-from contoursolve.geometry import Unit
+from contoursolve.geometry import GrammarError, ResultName, Unit, read_result, vocabulary_of
 from contoursolve.reading import Control
 
 _TRIES = 30
@@ -35,7 +35,15 @@ class OfferedAnswer(Struct, frozen=True):
 
 class Exercise(Shown, Struct, frozen=True):
     """A question about a block with the answers to choose from. What it shows hides which is right; `right` is its
-    letter, and `solution` the calculation by hand."""
+    letter, and `solution` the calculation by hand.
+
+    Attributes:
+        block: the block with the numbers that were drawn.
+        start: the words of its start point.
+        question: what is asked.
+        choices: the answers to choose from, one of them right.
+        answer: what `solve` says of the block.
+    """
 
     block: str
     start: str
@@ -61,7 +69,7 @@ class Exercise(Shown, Struct, frozen=True):
 
 def exercise(
     block: str,
-    ask: str = "V2.Z",
+    ask: str = "V2 Z",
     *,
     seed: int = 1,
     most: int = 3,
@@ -70,12 +78,12 @@ def exercise(
 ) -> Exercise:
     """An exercise of a block: its numbers are drawn around those that it has, and a coordinate is asked for.
 
-    `ask` is a point of the contour and an axis, as in a family, or `end.Z`. The wrong answers, `most` at most, are what
+    `ask` is a point of the contour and an axis, as in a family, or `end Z`. The wrong answers, `most` at most, are what
     comes out if a word is misread: an angle from the other axis, a sign, a diameter for a radius. The same seed gives
     the same exercise. Raises ValueError for a point or an axis that is not there, and where no numbers around those of
     the block make a contour with a wrong answer.
 
-    >>> made = exercise("G111 X100. A180. K-30. B120. P5.", "V2.Z", seed=4, start="X40. Z0.")
+    >>> made = exercise("G111 X100. A180. K-30. B120. P5.", "V2 Z", seed=4, start="X40. Z0.")
     >>> made.block, made.question
     ('G111 X85. A180. K-27. B105. P6.', 'Z of V2, in mm?')
     """
@@ -125,12 +133,15 @@ def _drawn(answer: Answer, draw: Random) -> str:
 
 def _place(answer: Answer, ask: str) -> tuple[str, int]:
     """The point that is asked for, and the number of its axis. Raises ValueError."""
-    point, _, axis = ask.rpartition(".")
     axes, points = answer.plane.axes, (*_points(answer), "end")
-    if axis.upper() not in axes or point not in points:
-        told = ", ".join(f"{name}.{letter}" for name in points for letter in axes)
+    try:
+        named = read_result(ask, vocabulary_of(answer.profile))
+    except GrammarError:
+        named = ResultName()
+    if named.point is None or named.axis is None or named.point.text not in points:
+        told = either([f"{name} {letter}" for name in points for letter in axes])
         raise ValueError(f"an exercise asks for {told}; not for {ask}")
-    return point, axes.index(axis.upper())
+    return named.point.text, named.axis
 
 
 def _points(answer: Answer) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, overload
 
 from contoursolve.controls import ControlName
-from contoursolve.diagnostics import LateModule, check_type, importing
+from contoursolve.diagnostics import LateModule, importing
 from contoursolve.families import Family, FeasibleRegion, with_numbers
 from contoursolve.notebook.exploration import begin, rewrite_block
 from contoursolve.program import Rules, Units
@@ -75,7 +75,6 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     and for a family that is no grid of two words.
     """
     if not isinstance(block, str):
-        check_type("block", block, Family | FeasibleRegion, "a block, a family or a region")
         with importing("notebook", "exploring a map"):
             from contoursolve.notebook.map_explorer import MapExplorer  # noqa: PLC0415 - needs an extra
         return MapExplorer(block, result)

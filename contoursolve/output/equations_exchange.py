@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from contoursolve.diagnosis import EquationSystem
-from contoursolve.diagnostics import json_text
+from contoursolve.diagnostics import check_type, json_text
 from contoursolve.numeric import smt_lib
 from contoursolve.output.equations import NOBODY
 from contoursolve.output.plain_text import printable
@@ -30,7 +30,13 @@ def systems_to_json(systems: Systems) -> str:
 
 
 def _several(systems: Systems) -> Iterable[EquationSystem]:
-    return (systems,) if isinstance(systems, EquationSystem) else systems
+    if isinstance(systems, EquationSystem):
+        return (systems,)
+    check_type("systems", systems, Iterable, "a system, or several")
+    several = tuple(systems)
+    for each in several:
+        check_type("each of systems", each, EquationSystem)
+    return several
 
 
 def _system(system: EquationSystem) -> dict[str, Any]:

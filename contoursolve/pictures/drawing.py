@@ -39,7 +39,9 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, **options: Any) -> Pic
     """
     kind = type(record).__name__
     if kind not in _DRAWN:
-        raise TypeError(f"{kind} has no picture; one is drawn of a contour, a program, a family, a range, or a sketch")
+        raise TypeError(
+            f"{kind} has no picture; one is drawn of a contour, a program, a family, a range, a system, or a sketch"
+        )
     make, known = _DRAWN[kind]
     unknown = next((name for name in options if name not in known), None)
     if unknown is not None:
@@ -233,6 +235,7 @@ _DRAWN: Mapping[str, tuple[Callable[..., Picture], tuple[str, ...]]] = {
     "Family": (draw_family_map, ("title", "words", "result")),
     "FeasibleRange": (draw_range, ("title",)),
     "FeasibleRegion": (draw_region, ("title", "result")),
+    "EquationSystem": (draw_matrix, ("title",)),
     "Sketch": (_draw_sketch, ("title",)),
     "Drawings": (draw_drawings, ("title",)),
     "Drawing": (draw_drawings, ("title",)),

@@ -38,7 +38,17 @@ _PIECES = 48
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A drawing; `width` and `height` are in pixels of CSS. `svg` is one element without an XML declaration."""
+    """A drawing.
+
+    Attributes:
+        svg: one element of SVG, without an XML declaration.
+        title: its title.
+        description: what it shows, in words, for who cannot see it.
+        width: pixels of CSS, a unit of length.
+        height: the same.
+        sheet: the parts that it is made of.
+        theme: its colours.
+    """
 
     svg: str = field(repr=False)
     title: str

@@ -50,6 +50,7 @@ class Result(Shown, Struct, frozen=True):
         profiles: the profiles of cycles.
         around: the values of variables, and where subprograms are.
         is_concluded: whether a finding says from what its control is concluded.
+        tool: the `ToolReport` of the tool for which it was solved; None without one.
     """
 
     program: Program

@@ -5,7 +5,7 @@ import numpy
 import pytest
 
 import contoursolve
-from contoursolve.families import FamilyError, family, feasible, find_word, sensitivity, tolerance_for, tolerances
+from contoursolve.families import FamilyError, family, feasible, find, sensitivity, tolerance_for, tolerances
 
 TAPER = ("G111 X100. A180. K-30. B120. P5. Q5.", "B", {"start": "X40. Z0."})
 BLOCKS = {
@@ -63,7 +63,7 @@ def test_a_result_that_is_listed_has_one_number_wherever_it_is_asked_for(name):
             assert (room.kept, room.plus >= STEP - 1e-9) == (result, True)
         if result in wanted:
             goal = f"{result}{float(own[1]) / in_mm!r}"
-            assert is_found(find_word(block, word, goal, **options), room.stated + STEP, own), result
+            assert is_found(find(block, word, goal, **options), room.stated + STEP, own), result
         point, _, axis = result.rpartition(" ")
         if axis in axes:
             factor = 1 + answer.plane.diameters[axes.index(axis)]
@@ -72,7 +72,7 @@ def test_a_result_that_is_listed_has_one_number_wherever_it_is_asked_for(name):
                 if result in wanted
                 else own[0] / factor
             )
-            asked = contoursolve.solve(block, facts=[f"{result} = ?"], depth="verdict", **options).answers[0].answers[0]
+            asked = contoursolve.solve(block, facts=[f"{result} = ?"], depth="verdict", **options).answer.asked[0]
             assert [at * factor, asked.value * factor] == pytest.approx([own[0], own[0]], abs=1e-6), result
 
 
@@ -135,7 +135,7 @@ def test_what_is_no_result_is_refused_with_those_that_are(wrong):
         found.result: told,
         lambda name: tolerance_for(block, word, keep=name, within=1, **options): told,
         lambda name: tolerances(block, point=name, **options): at_point,
-        lambda name: find_word(block, word, f"{name} Z-50.", **options): at_point if wrong else "no goal",
+        lambda name: find(block, word, f"{name} Z-50.", **options): at_point if wrong else "no goal",
     }
     for ask, message in asked.items():
         with pytest.raises(FamilyError) as caught:
@@ -162,7 +162,7 @@ def test_what_is_no_word_is_refused_with_those_that_are():
         assert message in str(caught.value)
     for ask in (
         lambda: feasible(block, ("A",), **options),
-        lambda: find_word(block, "A", ("end", -50), **options),
+        lambda: find(block, "A", ("end", -50), **options),
         lambda: tolerance_for(block, "A", keep=("end", "Z"), within=1, **options),
         lambda: tolerances(block, point=2, **options),
         lambda: family(block, vary={1: [2]}, **options),

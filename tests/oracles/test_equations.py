@@ -423,7 +423,7 @@ def test_a_start_is_words_or_numbers_by_letters():
     for start in (("X40.", "Z0."), 3):
         with pytest.raises(TypeError, match="the start is words such as"):
             contoursolve.solve(SHAFT, start=start)
-    with pytest.raises(TypeError, match="facts are texts such as"):
+    with pytest.raises(TypeError, match="facts is texts, such as"):
         contoursolve.solve(SHAFT, start=START, facts=3)
 
 

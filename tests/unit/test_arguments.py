@@ -45,8 +45,8 @@ def test_what_is_given_in_another_form_is_told_with_what_fits():
         (lambda: contoursolve.solve(BLOCK, facts=[5]), 'a fact is a text such as "length of line 1 = 30"'),
         (lambda: contoursolve.solve(BLOCK, trust=5), 'trust is words, such as "Z-50. A120.", not 5'),
         (lambda: contoursolve.Sketch().solve(), "the sketch is empty; add a line, an arc or a circle"),
-        (lambda: contoursolve.parse(("G1", "X2")), "text is a text (str), not ('G1', 'X2')"),
-        (lambda: contoursolve.check(5), "text is a text (str), a Path or a Program, not 5"),
+        (lambda: contoursolve.parse(("G1", "X2")), "text is a text (str), or a Path, not ('G1', 'X2')"),
+        (lambda: contoursolve.check(5), "the program is a text (str), a Path or a Program, not int"),
     ):
         with pytest.raises((TypeError, ValueError)) as caught:
             ask()

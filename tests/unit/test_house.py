@@ -304,13 +304,13 @@ def test_the_fields_of_every_public_record_are_told_of_and_numbers_with_their_un
 
 PUBLIC = """
     solve check fix explain parse system family ranges find sensitivity tolerances expand convert write draw export
-    report explore read_sketch read_dxf
+    report explore exercise to_smt systems_to_json read_sketch read_dxf
     errors editing tables pictures
     Program Block Word Control CONTROLS Sketch ContourSketch SketchElement SketchCorner OpenProgram
     Result Answer Contour LineSegment ArcSegment Status Solution Solutions EquationSystem Diagnosis
     Diagnostic Severity Basis Fix FixedProgram
     Family FeasibleRange FeasibleRegion FoundValues Sensitivity Tolerances ToleranceRange
-    Drawings Drawing Expansion Conversion Comparison Receipt WrittenContours ToolReport Picture
+    Drawings Drawing Expansion Conversion Comparison Receipt WrittenContours ToolReport Picture Exercise
 """
 """By kind: verbs, modules, input, contours, findings, values, others."""
 

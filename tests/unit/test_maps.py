@@ -163,7 +163,7 @@ def dense(line):
 
 @pytest.mark.parametrize("name", ["a taper", "a chain with a boss", "a question"])
 def test_a_line_of_equal_value_runs_where_single_solves_have_its_value(name):
-    result = {"a taper": "line 1.room", "a chain with a boss": "length", "a question": "asked.P"}[name]
+    result = {"a taper": "straight part of line 1", "a chain with a boss": "length", "a question": "asked.P"}[name]
     _, box, _ = BOXES[name]
     picture = draw_region(region_of(name), result=result)
     one, two = box
@@ -185,7 +185,7 @@ def test_a_map_of_a_result_says_what_it_shows_and_only_then_has_its_colours():
     assert "V2 Z [mm]: " in shown.title
     assert "level-8" in shown.svg
     assert not any(role.value in draw_family_map(family, theme=Theme.PAGE).svg for role in LEVELS)
-    (remark,) = [each for each in labels(shown) if each.startswith("V2.Z [mm]: from")]
+    (remark,) = [each for each in labels(shown) if each.startswith("V2 Z [mm]: from")]
     low, high = numpy.nanmin(family.result("V2 Z")), numpy.nanmax(family.result("V2 Z"))
     assert [float(each) for each in re.findall(r"-?\d+\.\d+", remark)[:2]] == pytest.approx([low, high], abs=0.01)
     assert "solved" not in labels(shown)

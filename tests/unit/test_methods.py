@@ -114,11 +114,10 @@ def test_a_line_has_no_area():
 
 def test_a_system_has_degrees_of_freedom_and_the_directions_in_which_nothing_holds_it():
     system = contoursolve.system("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.")
-    assert (system.dof, system.null_space, system.conflicts, system.redundant) == (0, (), (), ())
+    assert (system.dof, system.null_space.motions, system.conflicts, system.redundant) == (0, (), (), ())
     free = system.free("K")
-    assert free.dof == len(free.null_space) == 1
-    for vector in free.null_space:
-        assert all(each.simplify() == 0 for each in free.jacobian * vector)
+    assert free.dof == free.null_space.dimension == 1
+    assert all(each.simplify() == 0 for each in free.jacobian * free.null_space.exact)
     stated, conditions = system.of_word("B")
     assert [each.source.text for each in stated] == ["B120."]
     assert [str(each.expression) for each in conditions] == ["sin(B)"]

@@ -68,8 +68,19 @@ def test_the_rows_of_the_control_itself_come_first_and_a_missing_one_is_named():
 
 DOORS = [
     getattr(contoursolve, name)
-    for name in ["solve", "system", "check", "expand", "convert", "family", "ranges", "find", "sensitivity"]
-    + ["tolerances", "explore"]
+    for name in (
+        "solve",
+        "system",
+        "check",
+        "expand",
+        "convert",
+        "family",
+        "ranges",
+        "find",
+        "sensitivity",
+        "tolerances",
+        "explore",
+    )
 ]
 
 

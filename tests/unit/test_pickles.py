@@ -18,7 +18,9 @@ from msgspec import Struct
 
 import contoursolve
 from contoursolve import CONTROLS, Sketch
+from contoursolve.comparison import Document, verify
 from contoursolve.controls import GEOMETRY_RULES, NCT_99M
+from contoursolve.output.document import to_json
 
 START = "X40. Z0."
 WHOLE, SHORT = "G111 X100. A180. K-30. B120. P5. Q5.", "G111 X100. A180. B120."
@@ -67,14 +69,18 @@ def of_a_block() -> Iterator[object]:
     yield contoursolve.tolerances(WHOLE, "A", keep="end Z", within=0.1, **start)
     lacking = contoursolve.solve(SHORT, **start).answer
     yield from (*lacking.completions, *lacking.addable, *NCT_99M.examples[:5])
+    program = Document("p.nc", f"G00 {START}\n{WHOLE}".encode())
+    yield verify(program, Document("p.json", to_json(contoursolve.solve(program.data.decode())).encode()))
+    yield contoursolve.exercise(WHOLE, "V2 Z", seed=1, **start)
+    yield contoursolve.draw(contoursolve.solve(WHOLE, **start))
     yield contoursolve.expand(f"G00 {START}\n{WHOLE}")
     yield contoursolve.convert(f"G00 {START}\n{WHOLE}", "fanuc-lathe")
     yield contoursolve.fix(f"G00 {START}\nG111 A135. I10. K-12. B180. Z-40.\n")
     turned = "G42 G01 X18. Z0.\nX20. Z-1.\nZ-20."
     yield contoursolve.solve(turned, tool="R0.8, tip 3", control="fanuc-lathe", start="X0. Z0.").tool
-    program = contoursolve.OpenProgram(f"G00 {START}\n{WHOLE}")
-    assert program.check()
-    yield from program.contours
+    opened = contoursolve.OpenProgram(f"G00 {START}\n{WHOLE}")
+    assert opened.check()
+    yield from opened.contours
 
 
 def of_a_drawing() -> Iterator[object]:
