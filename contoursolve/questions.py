@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 # What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
 from contoursolve import families, tool_radius
-from contoursolve.diagnostics import check_type
+from contoursolve.diagnostics import LateModule, check_type
 from contoursolve.families import (
     BlockOptions,
     BranchesName,
@@ -22,9 +22,11 @@ from contoursolve.program import takes
 from contoursolve.tool_radius import ToolOptions
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
+    from concurrent import futures
 
-    from numpy.typing import ArrayLike
+    from numpy import typing as arrays
+else:
+    arrays, futures = LateModule("numpy.typing"), LateModule("concurrent.futures")
 
 _OF_TOOL = ("side", "tip", "outside")
 
@@ -33,10 +35,10 @@ _OF_TOOL = ("side", "tip", "outside")
 def family(
     block: str,
     *,
-    vary: Mapping[str, ArrayLike],
+    vary: Mapping[str, arrays.ArrayLike],
     paired: bool = False,
     workers: int | None = None,
-    executor: Executor | None = None,
+    executor: futures.Executor | None = None,
     branches: BranchesName = "chosen",
     **options: Unpack[ToolOptions],
 ) -> Family:

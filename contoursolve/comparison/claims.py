@@ -11,7 +11,7 @@ import msgspec
 from msgspec import Meta, Struct, field
 
 from contoursolve import gcode
-from contoursolve.diagnostics import UserError
+from contoursolve.diagnostics import UserError, hash_of
 from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError, decode
 from contoursolve.geometry import Length
 
@@ -323,6 +323,8 @@ class Receipt(Struct, frozen=True):
     start: str | None = None
     facts: tuple[str, ...] = ()
     settings: Mapping[str, str] = field(default_factory=dict)
+
+    __hash__ = hash_of
 
     @property
     def verdict(self) -> ReceiptVerdict:

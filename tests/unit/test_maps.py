@@ -190,7 +190,7 @@ def test_a_map_of_a_result_says_what_it_shows_and_only_then_has_its_colours():
     assert [float(each) for each in re.findall(r"-?\d+\.\d+", remark)[:2]] == pytest.approx([low, high], abs=0.01)
     assert "solved" not in labels(shown)
     fixed = draw_family_map(family, result="V1 Z")
-    assert "V1.Z [mm]: -30.000 wherever there is a contour" in labels(fixed)
+    assert "V1 Z [mm]: -30.000 wherever there is a contour" in labels(fixed)
     assert "V2 X [mm, diameter]" in draw_family_map(family, result="V2 X").title
 
 
