@@ -105,7 +105,7 @@ def solve(
         name: what findings call a text.
 
     Returns:
-        Frozen records. `answers` has one for each contour, with its status and path (mm, X of a lathe as radius), and
+        Frozen records. `answers` has one for each contour, with its status and path (mm, X of a lathe as radius).
         `answer` is the only one; `diagnostics` are all findings. With a tool, `tool` has its `runs`: each has its
         `path` (mm, X of a lathe as radius; None where the tool does not fit) and its `faults`.
 

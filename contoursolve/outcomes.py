@@ -30,12 +30,12 @@ def draw(  # noqa: PLR0913 - the options of all that can be drawn
     words: tuple[str, str] | None = None,
     result: str | None = None,
 ) -> Picture:
-    """The picture of a contour, of all contours of a program, of where a block has one, or of a sketch.
+    """The picture of a contour, a program, a family, a range, a system or a sketch.
 
     Args:
-        record: an `Answer`, a `Result`, a `Family` over two words, a `FeasibleRange`, a `FeasibleRegion`, an
-            `EquationSystem` (its matrix), a `Sketch`, its `Drawings` or one `Drawing`; a `ContourSketch`, or what its
-            `solve()` gives.
+        record: an `Answer` or a `Result`; a `Family` over two words, a `FeasibleRange` or a `FeasibleRegion`; an
+            `EquationSystem`, which has a matrix; a `Sketch`, its `Drawings` or one `Drawing`; a `ContourSketch`, or
+            what its `solve()` gives.
         tool: the `ToolReport` of the tool that is drawn with contours; without it that of the result, if it has one.
         theme: `light`, `dark`, or `page` for a page of HTML, light or dark as its reader prefers.
         title: the title, in the place of the picture's own.
@@ -50,8 +50,8 @@ def draw(  # noqa: PLR0913 - the options of all that can be drawn
     Returns:
         A `Picture`: it shows itself in a notebook, and has `.svg`, `.png()` and `.save(path)`.
 
-    Raises TypeError for an option that the record does not have, ValueError for a family that is no grid of two words
-    and a sketch of which nothing is known, FamilyError for a result that is none.
+    Raises TypeError for an option that the record does not have. Raises ValueError for a family that is no grid of two
+    words, and for a sketch without anything known. Raises FamilyError for a result that is none.
 
     >>> from contoursolve import solve
     >>> draw(solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answer).title

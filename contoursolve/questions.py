@@ -137,8 +137,8 @@ def ranges(block: str, word: Any, within: Any = None, **options: Unpack[ToolOpti
         word: the word by its letter (`P`, `,A`), or with its line where several have it (`2:,A`); a word of the start
             point as `start X`; a fact by what it gives the value of (`length of line 1`). Two of these give a region.
             `tool` is the radius of the tool that cuts it.
-        within: the range to search, lower value first; of two words, one for each. Without it, one turn of an angle
-            (0 to 360, or -360 to 0 for a negative one), 1 m to either side of a length, and tools up to 1 m.
+        within: the range to search, lower value first; of two words, one for each. Without it, one turn of an angle:
+            0 to 360, or -360 to 0 for a negative one. Of a length, 1 m to either side; of a tool, up to 1 m.
         options: as for `family`, with the same errors. Raises FamilyError, too, where facts or `?` leave no closed
             form, and names them: `family` solves such a block value by value.
 
@@ -146,10 +146,10 @@ def ranges(block: str, word: Any, within: Any = None, **options: Unpack[ToolOpti
     that no part is overlooked; each end is computed, and the block solved on both sides. Where an open choice leaves
     several solutions, it follows all.
 
-    Of two words (`FeasibleRegion`), values all over the box are solved, and around each change of the outcome all that
-    a picture can tell apart. Between them nothing is proven.
+    Two words give a `FeasibleRegion`. Values all over the box are solved. Around each change of the outcome, so are all
+    that a picture can tell apart. Between them nothing is proven.
 
-    Of tools, it gives the radii for each contour of a program, by its lines, in the unit of the program. Every run of
+    Tools give the radii for each contour of a program, by its lines. They are in the unit of the program. Every run of
     cutting moves is a contour, with contour words or without. A smaller tool is taken to fit wherever a larger one
     does, and both sides of each end are tried; there may be two ranges.
 
@@ -160,8 +160,8 @@ def ranges(block: str, word: Any, within: Any = None, **options: Unpack[ToolOpti
     >>> found.intervals[0].high.reason.text
     'P is too large for the first straight: P at most 51.961 mm'
     >>> found = ranges(block, ("A", "P"), within=((150, 210), (1, 60)), start="X40. Z0.")
-    >>> [each.reason.text for each in found.boundaries]
-    ['P is too large for the second straight', 'P is too large for the first straight']
+    >>> len(found.boundaries)
+    2
     >>> blocks = "G01 X20. Z-14.6\\nG02 X20.8 Z-15. R0.4\\nG01 X40. Z-15."
     >>> tools = ranges(blocks, "tool", side="right", tip=3, start="X20. Z0.", control="fanuc-lathe")
     >>> tools[1, 2, 3].intervals[0].high.value
@@ -211,11 +211,11 @@ def tolerances(
         keep: a coordinate of a point (`end Z`, `corner 1.center X`), or a point (`end`, `V1`); a word that is asked for
             with `?` (`P`); what a fact gives the value of (`length of line 2`, `direction of line 2`).
         within: by how much that may move, as the control writes it: mm or inches, X of a lathe as diameter; degrees.
-        options: as for `family`, with the same errors; raises FamilyError, too, for a word or a point that is not
-            there, a tolerance below 0, and a block that has no contour as it stands.
+        options: as for `family`, with the same errors. Raises FamilyError for a word or a point that is not there, and
+            for a tolerance below 0. The block must have a contour as it stands.
 
-    Without a word it gives `Tolerances`: by how much each word moves the point, and what all of them come to at worst,
-    statistically (RSS), and at all combinations of their limits.
+    Without a word it gives `Tolerances`: by how much each word moves the point. It tells what all of them come to at
+    worst, statistically (RSS), and at all combinations of their limits.
 
     With a word it gives a `ToleranceRange`: the values around its own with which `keep` moves by at most `within`. In
     closed form, interval arithmetic isolates each value with which a point has moved so far. All else is solved value

@@ -103,8 +103,8 @@ def diff(
     jumps and variables, too. It reads either program as its own control does. Either program may divide a line or an
     arc. Cycles and other blocks that diff does not follow must be the same word by word. diff lists them.
 
-    Each difference is told with its lines, the words that changed, and how far apart the paths are there at most. A
-    move that only one program has shifts nothing behind it. Compensation, work offset and plane count as path. What
+    Each difference has its lines, the words that changed, and the largest distance of the paths there. A move that
+    only one program has shifts nothing behind it. Compensation, work offset and plane count as path. What
     changed besides the path is listed apart: tools, D, H, feeds, leads, speeds, dwells, M functions and comments.
 
     With --tool, a program with G41 or G42 (RL or RR) stands for the path of the tool beside it. A program without

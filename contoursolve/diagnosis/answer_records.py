@@ -117,7 +117,7 @@ class Solutions(Struct, frozen=True):
         is_complete: whether these are all, with proof.
         method: how they were found: by a closed form, or by a search.
         doubts: what could not be decided, where they may not be all.
-        chosen_by: the words that chose the control's own; empty where there is nothing to choose.
+        chosen_by: the words that chose the control's own; empty where no choice is open.
         within: the distance from the start point within which these are all, mm, where they were searched for; None
             where a closed form gives them.
     """

@@ -237,7 +237,7 @@ class Diagnosis(Shown, Struct, frozen=True):
 
     Attributes:
         layers: the checks that it went through, in their order.
-        freedoms: the points that nothing determines, each with the direction in which it can slide.
+        freedoms: the points that can still move, each with the direction in which it can slide.
         ties: the smallest sets of words that say the same.
         ties_complete: whether the ties are all there are, found exhaustively.
         repairs_complete: whether all smallest sets of words to drop and to add were tried.

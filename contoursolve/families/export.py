@@ -109,7 +109,7 @@ class Family(Shown):
         ranges: the values of the free words, as they are written.
         columns: all other arrays by name, flat: (rows,), or (rows, solutions) with all branches.
         spec: plain data from which its block can be read again.
-        premises: what its contours rest on beside the words.
+        premises: what its contours assume besides the words.
         remark: that rows are read one by one, and why; empty if they are not.
         solutions: the names of the solutions along the last axis, as `list_solutions` tells them apart; none without
             that axis. A row that lacks one has no points there, and the status `no-solution`.

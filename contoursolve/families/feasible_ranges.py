@@ -128,8 +128,8 @@ class FeasibleRange(Shown, Struct, frozen=True):
         doubts: why more values may have a contour.
         refusal: the error of the block as it stands; empty if it has a contour.
         is_diameter: whether the values are diameters.
-        is_open: whether it is a variable of which nobody says the value; `stated` says nothing then.
-        premises: what the contours rest on beside the words.
+        is_open: whether it is a variable without a value; `stated` says nothing then.
+        premises: what the contours assume besides the words.
         holds: the verb of a sentence about the ranges.
         warnings: warnings that no value of the word ends.
     """

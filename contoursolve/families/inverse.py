@@ -68,7 +68,7 @@ class Hit(Struct, frozen=True):
 
 class FoundValues(Shown, Struct, frozen=True):
     """All values of a word, within a range, that meet a goal, in order; for a goal of two coordinates, all that are
-    nearer to it than their neighbours, the nearest first. Values are told apart to nine digits.
+    nearer to it than their neighbours, the nearest first. Values that differ in the first nine digits are two.
 
     Attributes:
         word: the word by its name, such as `A`.
@@ -82,7 +82,7 @@ class FoundValues(Shown, Struct, frozen=True):
         doubts: why these are not proven to be all.
         remark: why there is no value: the word does not move the point, with the words that do; or the block as it
             stands has no contour. Else empty.
-        premises: what the contours rest on beside the words.
+        premises: what the contours assume besides the words.
     """
 
     word: str

@@ -88,7 +88,7 @@ class Tolerances(Shown, Struct, frozen=True):
         effects: what each word does to the point, the one that moves it most first.
         spread: how far it may be off on each axis to first order, mm.
         limits: where it lies at all combinations of the limits, mm; None without tolerances or with too many of them.
-        premises: what the contour rests on beside its words.
+        premises: what the contour assumes besides its words.
     """
 
     point: str

@@ -69,7 +69,7 @@ class FeasibleRegion(Shown, Struct, frozen=True, eq=False):
         exists: whether the contour exists at any value that was looked at.
         outcomes: what came of values evenly spaced over the box: an array with one axis for each word.
         spec: the block, and how it is read.
-        premises: what its contours rest on beside the words.
+        premises: what its contours assume besides the words.
     """
 
     words: tuple[str, str]

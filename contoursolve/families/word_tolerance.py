@@ -73,7 +73,7 @@ class ToleranceRange(Shown, Struct, frozen=True):
         linear: the tolerance by the derivative alone; None where that is zero or does not exist.
         doubts: what may have been overlooked between the ends.
         is_diameter: whether the values are diameters.
-        premises: what the contours rest on beside the words.
+        premises: what the contours assume besides the words.
     """
 
     word: str

@@ -80,8 +80,8 @@ def exercise(
 
     `ask` is a point of the contour and an axis, as in a family, or `end Z`. The wrong answers, `most` at most, are what
     comes out if a word is misread: an angle from the other axis, a sign, a diameter for a radius. The same seed gives
-    the same exercise. Raises ValueError for a point or an axis that is not there, and where no numbers around those of
-    the block make a contour with a wrong answer.
+    the same exercise. Raises ValueError for a point or an axis that is not there. It does so, too, where no numbers
+    near those of the block make a contour with a wrong answer.
 
     >>> made = exercise("G111 X100. A180. K-30. B120. P5.", "V2 Z", seed=4, start="X40. Z0.")
     >>> made.block, made.question

@@ -71,8 +71,8 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     exported HTML, the map still answers: it holds at most 800 contours, and tells where they are.
 
     Raises FamilyError for a variable without a value, and MissingExtraError without the packages of
-    `contoursolve[notebook]`. Raises ValueError for several contours without `line`, for a line that belongs to none,
-    and for a family that is no grid of two words.
+    `contoursolve[notebook]`. Raises ValueError for several contours without `line`, and for a line that belongs to
+    none. A family must be a grid of two words.
     """
     if not isinstance(block, str):
         with importing("notebook", "exploring a map"):

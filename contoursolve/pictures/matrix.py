@@ -80,7 +80,7 @@ def lay_out_matrix(system: EquationSystem, title: str | None = None) -> Sheet:
         *_cells(system, grid, rows, columns),
         *_frames(system, grid, len(columns)),
     ]
-    found = f"{len(rows)} equations, {len(columns)} unknowns, rank {system.rank}"
+    found = f"{len(rows)} equations, {len(columns)} unknowns; {system.rank} equations say something new"
     told = [(_TOLD[state], Role.MUTED) for state in BlockState if any(each.state is state for each in system.blocks)]
     if any(isinstance(item, Dot) for item in items):
         told.append(("A dot is a derivative that is too long for its cell.", Role.MUTED))

@@ -306,7 +306,7 @@ class ToolReport(Struct, frozen=True):
     Attributes:
         runs: the runs of cutting moves, each with the path of the tool (mm) and its faults.
         findings: what the tool cannot cut, or leaves.
-        path: the path of the program, of which the runs are parts.
+        path: the path of the program; the runs are parts of it.
     """
 
     runs: tuple[ToolRun, ...]

@@ -388,7 +388,7 @@ def test_text_of_a_program_is_escaped():
 @pytest.mark.slow
 def test_the_same_contour_gives_the_same_bytes_in_every_process_and_an_svg_needs_no_package():
     program = (
-        "import contoursolve, sys; from contoursolve.pictures import draw_result\n"
+        "import contoursolve, pathlib, sys; from contoursolve.pictures import draw_result\n"
         "sys.stdout.buffer.write(draw_result(contoursolve.solve(pathlib.Path(sys.argv[1]))).svg.encode())\n"
         "assert not {'resvg_py', 'sympy', 'scipy', 'PIL'} & sys.modules.keys()"
     )
