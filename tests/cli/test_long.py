@@ -92,9 +92,13 @@ print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
 @pytest.mark.skipif(sys.platform == "win32", reason="asks the system for the memory of a process")
 @pytest.mark.parametrize(("arguments", "lines"), [(("check",), 30_000), (("solve", "--format", "json"), 15_000)])
 def test_long_programs_take_little_memory(arguments, lines, tmp_path):
-    program = tmp_path / "long.nc"
-    program.write_text(long_program(lines))
-    command = [sys.executable, "-m", "contoursolve", *arguments, str(program)]
-    measured = [sys.executable, "-c", MEASURE, str(tmp_path / "out"), *command]
-    done = subprocess.run(measured, check=True, capture_output=True, text=True)
-    assert int(done.stdout) * (1 if sys.platform != "darwin" else 1 / 1024) < MOST / 2
+    def taken(number):
+        program = tmp_path / f"long-{number}.nc"
+        program.write_text(long_program(number))
+        command = [sys.executable, "-m", "contoursolve", *arguments, str(program)]
+        measured = [sys.executable, "-c", MEASURE, str(tmp_path / "out"), *command]
+        done = subprocess.run(measured, check=True, capture_output=True, text=True)
+        return int(done.stdout) * (1 if sys.platform != "darwin" else 1 / 1024)
+
+    # The libraries alone take more on one machine than on another.
+    assert taken(lines) - taken(300) < MOST / 3
