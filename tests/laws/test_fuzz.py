@@ -101,6 +101,7 @@ def test_what_solve_says_of_mutants_is_complete_and_each_word_has_a_meaning(coun
 
 
 MENDED = [
+    ("isg", "check part.nc", "G90 G17 G0 X0 Y0\nG302.005 I5\nG1 X10\nG1 Y10"),
     ("fanuc-lathe", "check part.nc", "G0 X0 Z0\nG1 X#100 ,A30"),
     ("fanuc-lathe", "sensitivity {blocks}", "G00 X20. Z0.\nG01 Z-20. ,R5. (contoursolve trust: X777.)\nX40. Z-30."),
     ("haas-mill", "convert part.nc --to fanuc-mill --rules off", "G17 G90 G00 X0 Y0\nG00 X30.\n,C5.\nX40. Y40."),

@@ -176,7 +176,7 @@ def _corner_of(
     language: Language, block: Block, here: State, modes: Modes
 ) -> tuple[dict[str, Given], dict[str, Word], dict[str, Word]]:
     """The size that a block of its own gives a corner, with its word; the last one given if it has none."""
-    name = language.corner.codes[int(_shapes_of(language, block)[0].number or 0)]
+    name = language.corner.codes[int(shapes_of(language, block)[0].number or 0)]
     own, kept = block.find(language.corner.size), here.memory.get(language.corner.size)
     word = own or kept
     size = modes.words(here).given(name, word, here.unit) if word else None
@@ -190,7 +190,7 @@ def _crowding(language: Language, member: Member) -> dict[str, bool]:
     block = member.corner
     if block is None:
         return {}
-    codes = _shapes_of(language, block)
+    codes = shapes_of(language, block)
     sizes = [word for word in block.words if word.address == language.corner.size]
     others = [word for word in block.words if word.address not in (*"NGFSTMDH", language.corner.size)]
     size = language.corner.codes[int(codes[0].number or 0)]
@@ -202,7 +202,7 @@ def _crowding(language: Language, member: Member) -> dict[str, bool]:
     }
 
 
-def _shapes_of(language: Language, block: Block) -> list[Word]:
+def shapes_of(language: Language, block: Block) -> list[Word]:
     """The codes of a block that make a corner."""
     return [word for word in block.words if word.address == "G" and word.number in language.corner.codes]
 
@@ -357,7 +357,7 @@ def _circumstances(
         LAST: member.is_last,
         ONLY: is_only,
         SMOOTH: member.element.is_smooth,
-        CORNER_ALONE: bool(_shapes_of(language, member.block)),
+        CORNER_ALONE: bool(shapes_of(language, member.block)),
         **_crowding(language, member),
         NO_TANGENT: member.element.is_smooth and is_first,
         ON_PARALLEL_AXES: member.here.plane.axes != _own_axes(language, member.here),

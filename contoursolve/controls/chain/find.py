@@ -11,7 +11,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from contoursolve.controls.chain.claim import claim_of
+from contoursolve.controls.chain.claim import claim_of, shapes_of
 from contoursolve.controls.chain.language import Element, Joining, Language, Member
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Turn, assemble
@@ -230,10 +230,7 @@ class ChainFinder:
 
     def _is_corner(self, block: Block) -> bool:
         """Whether a block makes a corner between those beside it, and nothing else."""
-        own = self.language.corner.codes
-        return bool(own) and any(
-            word.address == "G" and word.number is not None and int(word.number) in own for word in block.words
-        )
+        return bool(shapes_of(self.language, block))
 
     def _apply(self, before: State, block: Block, modes: Modes) -> State:
         """The state with the block's G codes in force; its plane has a parallel axis in place of its own one where a
