@@ -94,6 +94,14 @@ def test_a_file_is_written_by_its_ending(tmp_path: Path):
         contoursolve.export(family, tmp_path / "a.dxf")
     with pytest.raises(ValueError, match="the drawing would be empty"):
         contoursolve.export(contoursolve.solve("G111 X100. B120.", start=START), tmp_path / "b.dxf")
+    with pytest.raises(ValueError, match="only the map of a family or a region is coloured by a result"):
+        contoursolve.export(result, tmp_path / "b.json", result="end Z")
+    tool = contoursolve.solve(BLOCK, start=START, tool="R0.8, tip 3", side="right").tool
+    with pytest.raises(ValueError, match="the file of a Family has no tool"):
+        contoursolve.export(family, tmp_path / "b.csv", tool=tool)
+    with pytest.raises(TypeError, match="a picture of Family has no option 'tool'"):
+        contoursolve.draw(family, tool=tool)
+    assert not [*tmp_path.glob("b.[jcd]*")]
 
 
 def test_a_rule_is_explained_by_its_code_or_its_alarm():
