@@ -322,7 +322,7 @@ def expand(
     """
     check_type("text", text, str)
     # Only this function needs them.
-    from contoursolve.postprocess import (  # noqa: PLC0415  # noqa: PLC0415
+    from contoursolve.postprocess import (  # noqa: PLC0415
         Arcs,
         Expansion,
         ExpansionOptions,
@@ -384,7 +384,7 @@ def convert(
     """
     # Only this function needs them.
     from contoursolve.comparison import compare, follow  # noqa: PLC0415
-    from contoursolve.postprocess import (  # noqa: PLC0415  # noqa: PLC0415
+    from contoursolve.postprocess import (  # noqa: PLC0415
         Conversion,
         ConversionError,
         language_of,
