@@ -18,7 +18,7 @@ from contoursolve.reading import Control
 from contoursolve.sketches import ContourSketch
 
 
-def draw(  # noqa: PLR0913 - the options of all that can be drawn
+def draw(
     record: Any,
     *,
     tool: Any = None,
