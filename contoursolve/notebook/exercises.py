@@ -11,7 +11,7 @@ from msgspec import Struct
 
 from contoursolve.api import solve
 from contoursolve.diagnosis import Answer, Derivation, change, edited, either, misreadings, typed_text, with_value
-from contoursolve.diagnostics import Shown
+from contoursolve.diagnostics import Shown, check_type
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import GrammarError, ResultName, Unit, read_result, vocabulary_of
 from contoursolve.reading import Control
@@ -91,6 +91,7 @@ def exercise(
     >>> made.block, made.question
     ('G111 X85. A180. K-27. B105. P6.', 'Z of V2, in mm?')
     """
+    check_type("ask", ask, str, "a point and an axis, such as 'V2 Z'")
     if most not in range(1, _MOST_WRONG + 1):
         raise ValueError(f"most cannot be {most!r}; an exercise has 1 to {_MOST_WRONG} wrong answers")
     draw, asked = Random(seed), dict[str, Any](start=start, control=control, depth="verdict")
