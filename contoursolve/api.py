@@ -192,9 +192,20 @@ def _parsed(text: str, name: str) -> Program:
     """The blocks of a text that is no name of a file."""
     if not isinstance(text, str):
         raise TypeError(f"the program is a text (str), a Path or a Program, not {type(text).__name__}")
-    if _FILE.fullmatch(text):
-        raise ValueError(f"{text} is the name of a file, not its text: say Path({text!r})")
+    _check_is_no_name(text, f"Path({text!r})")
     return gcode.parse(text, name)
+
+
+def _check_is_no_name(text: str, instead: str) -> None:
+    """Raise ValueError for the name of a file in the place of its text, with what to say instead."""
+    if _FILE.fullmatch(text):
+        raise ValueError(f"{text} is the name of a file, not its text: say {instead}")
+
+
+def _check_text(text: str) -> None:
+    """Raise TypeError or ValueError for what is no text of a program."""
+    check_type("text", text, str, "the text of a program (str)")
+    _check_is_no_name(text, f"Path({text!r}).read_text()")
 
 
 _FILE = re.compile(rf"[^\n]*(?:{'|'.join(map(re.escape, (*gcode.ENDINGS, '.txt')))})", re.IGNORECASE)
@@ -320,9 +331,9 @@ def expand(
     G01 X50. Z-32.887
     G01 X100. Z-47.321
     """
-    check_type("text", text, str)
+    _check_text(text)
     # Only this function needs them.
-    from contoursolve.postprocess import (  # noqa: PLC0415  # noqa: PLC0415
+    from contoursolve.postprocess import (  # noqa: PLC0415
         Arcs,
         Expansion,
         ExpansionOptions,
@@ -382,9 +393,10 @@ def convert(
     G01 X40. Z-30. ,R5.
     G01 X100. ,A120.
     """
+    _check_text(text)
     # Only this function needs them.
     from contoursolve.comparison import compare, follow  # noqa: PLC0415
-    from contoursolve.postprocess import (  # noqa: PLC0415  # noqa: PLC0415
+    from contoursolve.postprocess import (  # noqa: PLC0415
         Conversion,
         ConversionError,
         language_of,

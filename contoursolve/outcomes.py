@@ -18,7 +18,7 @@ from contoursolve.reading import Control
 from contoursolve.sketches import ContourSketch
 
 
-def draw(  # noqa: PLR0913 - the options of all that can be drawn
+def draw(
     record: Any,
     *,
     tool: Any = None,
@@ -30,12 +30,12 @@ def draw(  # noqa: PLR0913 - the options of all that can be drawn
     words: tuple[str, str] | None = None,
     result: str | None = None,
 ) -> Picture:
-    """The picture of a contour, a program, a family, a range, a system or a sketch.
+    """The picture of a contour, a program, two programs, a family, a range, a system or a sketch.
 
     Args:
-        record: an `Answer` or a `Result`; a `Family` over two words, a `FeasibleRange` or a `FeasibleRegion`; an
-            `EquationSystem`, which has a matrix; a `Sketch`, its `Drawings` or one `Drawing`; a `ContourSketch`, or
-            what its `solve()` gives.
+        record: an `Answer`, a `Result` or a `Comparison`; a `Family` over two words, a `FeasibleRange` or a
+            `FeasibleRegion`; an `EquationSystem`, which has a matrix; a `Sketch`, its `Drawings` or one `Drawing`; a
+            `ContourSketch`, or what its `solve()` gives.
         tool: the `ToolReport` of the tool that is drawn with contours; without it that of the result, if it has one.
         theme: `light`, `dark`, or `page` for a page of HTML, light or dark as its reader prefers.
         title: the title, in the place of the picture's own.
@@ -61,6 +61,8 @@ def draw(  # noqa: PLR0913 - the options of all that can be drawn
     named: dict[str, Any] = {"title": title, "like": like, "has_remarks": has_remarks, "is_whole": is_whole}
     named |= {"words": words, "result": result}
     options = {name: value for name, value in named.items() if value is not None}
+    if tool is not None and not isinstance(record, Answer | Result):
+        raise TypeError(f"a picture of {type(record).__name__} has no option 'tool'; contours have it")
     if isinstance(record, ContourSketch):
         record = record.solve()
     if isinstance(record, sketches.SketchAnswer):
@@ -85,8 +87,8 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
       holds at most 800 contours, and 400 kB of them. Needs `contoursolve[report]`.
 
     `tool` is a `ToolReport`; without it that of the result, if it has one. Raises ValueError for a record that has no
-    file of this ending, or nothing to write; MissingExtraError without a package; UserError where the file cannot be
-    written.
+    file of this ending, nothing to write, or no use for `tool` or `result`; MissingExtraError without a package;
+    UserError where the file cannot be written.
     """
     target, ending = Path(path), Path(path).suffix.lower()
     kinds = _FILES.get(ending)
@@ -94,6 +96,12 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
         raise ValueError(f"{target}: a file ends in {', '.join(_FILES)}; a picture has save()")
     if not isinstance(record, kinds):
         raise ValueError(f"{target}: a {type(record).__name__} is not written as {ending}")
+    if result is not None and (ending != ".html" or isinstance(record, Result)):
+        raise ValueError(
+            f"{target}: only the map of a family or a region is coloured by a result; leave out {result!r}"
+        )
+    if tool is not None and not isinstance(record, Result):
+        raise ValueError(f"{target}: the file of a {type(record).__name__} has no tool; leave out tool")
     tool = record.tool if tool is None and isinstance(record, Result) else tool
     if isinstance(record, families.Family) and ending != ".html":
         write = record.to_csv if ending == ".csv" else record.to_parquet

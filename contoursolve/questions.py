@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 # What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
@@ -170,6 +170,7 @@ def ranges(block: str, word: Any, within: Any = None, **options: Unpack[ToolOpti
     if isinstance(word, str) and word.lower() == families.TOOL:
         return tool_radius.find_tools(block, within=within, **options)
     _check_toolless(options, "the word tool")
+    check_type("word", word, str | Sequence, "a word, such as 'P', or two, such as ('A', 'P')")
     if isinstance(word, str):
         return families.feasible(block, word, within=within, **_of_block(options))
     if within is None:

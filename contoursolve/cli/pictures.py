@@ -1,4 +1,4 @@
-"""The commands plot and report: pictures and pages as files."""
+"""The commands draw and report: pictures and pages as files."""
 
 import sys
 from collections.abc import Iterator

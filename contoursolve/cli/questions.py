@@ -74,11 +74,11 @@ def ranges(
 ) -> None:
     """Tell for which values of WORD the contour of a block exists, and what ends each range of them.
 
-    range finds every range: it divides the values until each part is proven to have the contour or to have none. It
+    ranges finds every range: it divides the values until each part is proven to have the contour or to have none. It
     solves the block on both sides of each end. For two words it samples the region: it solves values all over it, more
     where the outcome changes, and says how finely. It names what fails beyond each line; --format json has their
     points. With facts or ? it follows all solutions: the contour exists where exactly one can be made. Where they leave
-    no formula, use sweep, which solves the block value by value.
+    no formula, use family, which solves the block value by value.
 
     With --word tool it tells up to which radius a tool cuts the contour, and what stops a larger one. It takes every
     cutting move of the block, with contour words or without.

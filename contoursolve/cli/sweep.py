@@ -1,4 +1,4 @@
-"""The command sweep: every contour of a family into a file, here or on a Dask cluster."""
+"""The command family: every contour of a family into a file, here or on a Dask cluster."""
 
 import logging
 import sys
@@ -232,10 +232,10 @@ def family(
     The words in --vary stand in the block with any value. FILE gets a row for each set of values: the words, status,
     reason, all points and corners. The words are as written, in the unit of the block. The row also has the room left
     on each element, and by how much the equations are off at most. All else is in mm. X of a lathe is a diameter in
-    both. Where the control refuses the block for any value, sweep prints its findings as solve does, and no rows.
+    both. Where the control refuses the block for any value, family prints its findings as solve does, and no rows.
 
-    Until FILE is whole, sweep keeps finished rows beside it, in a folder .FILE.NUMBER.parts. After Ctrl-C, SIGTERM or a
-    crash the same command goes on where it stopped. sweep names the folders that other sweeps have left.
+    Until FILE is whole, family keeps finished rows beside it, in a folder .FILE.NUMBER.parts. After Ctrl-C, SIGTERM or
+    a crash the same command goes on where it stopped. It names the folders that other families have left.
 
     With tool=VALUES it also tells for each contour which of these tools cut it, in four columns: tool, tool.fits,
     tool.largest and tool.fault. tool.largest is the largest of these tools that fits, in mm. tool.fault is what stops
@@ -364,7 +364,7 @@ def _tell(parts: Checkpoints, target: Path) -> None:
     if parts.rows_done:
         say(f"going on after {parts.rows_done:,} of {parts.ready.ranges.count:,} contours", err=True)
     for folder in others(parts, target):
-        say(f"{folder} is left of another sweep that was not finished; it may be deleted", err=True)
+        say(f"{folder} is left of another family that was not finished; it may be deleted", err=True)
 
 
 def _write(target: Path, parts: Checkpoints, tables: Iterator[dict[str, Any]], *, is_forced: bool) -> None:

@@ -20,7 +20,6 @@ from .follow import (
     ROUGHING as ROUGHING,
     ToolPath as ToolPath,
     along as along,
-    bend_of as bend_of,
     follow as follow,
     in_cycle as in_cycle,
 )

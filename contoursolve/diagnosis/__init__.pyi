@@ -63,7 +63,6 @@ from .explain import (
 )
 from .explain_arcs import explain_arc as explain_arc
 from .fact_words import (
-    condition_text as condition_text,
     fact_text as fact_text,
 )
 from .fill import (
@@ -90,9 +89,6 @@ from .names_in_program import (
 from .odd_points import has_odd_points as has_odd_points
 from .references import (
     compare_reference as compare_reference,
-)
-from .repairs import (
-    find_repairs as find_repairs,
 )
 from .sample_drawing import (
     helping_words as helping_words,

@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace as replace_fields
 
 from contoursolve.diagnosis.wording import shorten
-from contoursolve.diagnostics import Evidence, Source, Span
+from contoursolve.diagnostics import Evidence, Source, Span, check_type
 from contoursolve.gcode import (
     FACT,
     PLAIN,
@@ -275,6 +275,10 @@ def edits_of_words(
 ) -> list[Edit]:
     """The edits that drop, add and change words of blocks by their addresses, or by line and address: `2:,A`. Raises
     ValueError for a word that is not there, or more than once."""
+    for name, words in (("drop", dropped), ("add", added)):
+        if isinstance(words, str):
+            raise TypeError(f"{name} is a list of words, such as [{words!r}], not {words!r}")
+    check_type("change", changed, Mapping, 'the new words by the old ones, such as {"K": "K-31."}')
     edits = [drop(_only_word(blocks, address)) for address in dropped]
     for address, text in changed.items():
         if not isinstance(text, str):
@@ -288,8 +292,13 @@ def _only_word(blocks: Sequence[Block], address: str) -> Word:
     words = [
         word for block in blocks for word in block.words if word.address == own and line in ("", str(word.span.line))
     ]
-    if len(words) != 1:
-        raise ValueError(f"the blocks have {len(words)} words {address}; exactly one can be dropped or changed")
+    if not words:
+        have = dict.fromkeys(word.address for block in blocks for word in block.words)
+        raise ValueError(f"the blocks have no word {address}; they have {', '.join(have)}")
+    if len(words) > 1:
+        lines = list(dict.fromkeys(word.span.line for word in words))
+        told = f"; name one of them with its line, such as {lines[0]}:{own}" if len(lines) > 1 else ""
+        raise ValueError(f"the blocks have {len(words)} words {address}{told}")
     return words[0]
 
 

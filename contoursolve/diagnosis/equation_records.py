@@ -139,7 +139,7 @@ class NullSpace(Struct, frozen=True):
     `motions` are independent ways to move, each in mm for each mm of the first point that moves; `texts` say of each
     point that moves how. `numbers` are the same motions in the order of the unknowns, shape (unknowns, motions), and
     `exact` is that as a Matrix of sympy, where a motion moves one unknown, its leading one, by 1. It is None where more
-    can move in the drawing than for almost all values.
+    can move in the drawing than for almost all values, and where its formulas would be too long or divide by nothing.
     """
 
     values: Mapping["symbolic.Symbol", float]

@@ -13,16 +13,13 @@ from msgspec import Struct
 from contoursolve.geometry import Profile, assemble, both
 from contoursolve.numeric import Array, svd
 from contoursolve.reading import ParsedContour, read, stating
-from contoursolve.solving import Equations, basis_of, null_space
+from contoursolve.solving import RANK, Equations, basis_of, null_space
 
 MOST_UNKNOWNS = 60
 """Unknowns of a contour of which a drawing is looked for: about ten elements, a tenth of a second."""
 
 TRIES = 3
 """Random places from which a drawing is looked for."""
-
-RANK = 1e-6
-"""Share of the largest singular value below which one counts as zero."""
 
 
 class SampleDrawing(Struct, frozen=True, eq=False):

@@ -8,7 +8,6 @@ from .block_template import (
     errors_of as errors_of,
     first_error as first_error,
     spec_of as spec_of,
-    unit_word as unit_word,
 )
 from .case_classes import (
     ORIGIN as ORIGIN,
@@ -73,9 +72,6 @@ from .point_tolerances import (
     Missing as Missing,
     Tolerances as Tolerances,
     tolerances as tolerances,
-)
-from .range_pieces import (
-    LEAST_GAP as LEAST_GAP,
 )
 from .regions import (
     FeasibleRegion as FeasibleRegion,

@@ -27,7 +27,6 @@ from .late_pattern import (
     late_pattern as late_pattern,
 )
 from .lexer import (
-    LONGEST_BLOCK as LONGEST_BLOCK,
     Blocks as Blocks,
     blocks_in as blocks_in,
     in_passages as in_passages,

@@ -1,4 +1,4 @@
-"""Notebooks: how records show themselves, and a contour to move.
+"""Notebooks: how records show themselves, a contour to move, and exercises.
 
 Records come in, what Jupyter displays goes out. Begin with `records`, then `exploration`.
 """

@@ -4,16 +4,20 @@ from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from itertools import islice, zip_longest
 from random import Random
+from string import ascii_uppercase
 from typing import Any
 
 from msgspec import Struct
 
 from contoursolve.api import solve
 from contoursolve.diagnosis import Answer, Derivation, change, edited, either, misreadings, typed_text, with_value
-from contoursolve.diagnostics import Shown
+from contoursolve.diagnostics import Shown, check_type
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import GrammarError, ResultName, Unit, read_result, vocabulary_of
 from contoursolve.reading import Control
+
+_MOST_WRONG = len(ascii_uppercase) - 1
+"""Wrong answers that have a letter beside the right one."""
 
 _TRIES = 30
 """Draws of numbers until the block is a contour."""
@@ -54,7 +58,7 @@ class Exercise(Shown, Struct, frozen=True):
     @property
     def letters(self) -> tuple[tuple[str, OfferedAnswer], ...]:
         """The choices, each with its letter."""
-        return tuple(zip("ABCDEFGH", self.choices, strict=False))
+        return tuple(zip(ascii_uppercase, self.choices, strict=False))
 
     @property
     def right(self) -> str:
@@ -80,13 +84,16 @@ def exercise(
 
     `ask` is a point of the contour and an axis, as in a family, or `end Z`. The wrong answers, `most` at most, are what
     comes out if a word is misread: an angle from the other axis, a sign, a diameter for a radius. The same seed gives
-    the same exercise. Raises ValueError for a point or an axis that is not there. It does so, too, where no numbers
-    near those of the block make a contour with a wrong answer.
+    the same exercise. Raises ValueError for a point or an axis that is not there, and for more answers than letters.
+    It does so, too, where no numbers near those of the block make a contour with a wrong answer.
 
     >>> made = exercise("G111 X100. A180. K-30. B120. P5.", "V2 Z", seed=4, start="X40. Z0.")
     >>> made.block, made.question
     ('G111 X85. A180. K-27. B105. P6.', 'Z of V2, in mm?')
     """
+    check_type("ask", ask, str, "a point and an axis, such as 'V2 Z'")
+    if most not in range(1, _MOST_WRONG + 1):
+        raise ValueError(f"most cannot be {most!r}; an exercise has 1 to {_MOST_WRONG} wrong answers")
     draw, asked = Random(seed), dict[str, Any](start=start, control=control, depth="verdict")
     (first, *others) = solve(block, **asked).answers or (None,)
     if first is None or others:

@@ -34,7 +34,6 @@ from .dxf import (
     to_dxf as to_dxf,
 )
 from .equations import (
-    equation_lines as equation_lines,
     equations_of as equations_of,
     system_lines as system_lines,
 )

@@ -143,11 +143,16 @@ def _here(each: SystemCondition) -> str:
 def motion_table(system: EquationSystem) -> Table:
     """The motions that are left, each by the points, and radii, that move with it."""
     space, axes = system.null_space, system.profile.plane.axes
-    rows = list[tuple[str, str, str, str]]()
-    for number, motion in enumerate(space.motions if space is not None else (), 1):
-        rows += [(str(number), name, f"{a:z.4f}", f"{b:z.4f}") for name, (a, b) in motion.points.items()]
-        rows += [(str(number), name, f"{way:z.4f}", "") for name, way in motion.radii.items()]
-    return Table("What can still move at these values, mm a mm", ("way", "moves", *axes), rows, left=(0, 1))
+    motions = space.motions if space is not None else ()
+    rows = list[tuple[str, ...]]()
+    for number, motion in enumerate(motions, 1):
+        rows += [(str(number), name, f"{a:z.4f}", f"{b:z.4f}", "") for name, (a, b) in motion.points.items()]
+        rows += [(str(number), name, "", "", f"{way:z.4f}") for name, way in motion.radii.items()]
+    header = ("way", "moves", *axes, "radius")
+    # Few drawings have a radius that can change.
+    shown = len(header) if any(motion.radii for motion in motions) else len(header) - 1
+    caption = "What can still move at these values, mm a mm"
+    return Table(caption, header[:shown], [row[:shown] for row in rows], left=(0, 1))
 
 
 def tie_table(system: EquationSystem) -> Table:

@@ -25,14 +25,16 @@ if TYPE_CHECKING:
     from contoursolve.solving import Drawing, Drawings, Sketch
 
 Drawable: TypeAlias = (
-    "Answer | EquationSystem | Result | Family | FeasibleRange | FeasibleRegion | Sketch | Drawings | Drawing"
+    "Answer | EquationSystem | Result | Comparison | Family | FeasibleRange | FeasibleRegion | Sketch | Drawings"
+    " | Drawing"
 )
 """Types that `draw` accepts."""
 
 
 def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, **options: Any) -> Picture:
-    """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, of
-    every way to draw a sketch, or of the matrix of a system. The options are those of the function for such a record.
+    """The picture of a contour, of all contours of a program, of two programs, of where a block has one by one or two
+    of its words, of every way to draw a sketch, or of the matrix of a system. The options are those of the function for
+    such a record.
 
     Raises TypeError for an option that such a record does not have, ValueError for a family that is no grid of two
     words, and for a sketch whose facts make no sense.
@@ -40,7 +42,8 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, **options: Any) -> Pic
     kind = type(record).__name__
     if kind not in _DRAWN:
         raise TypeError(
-            f"{kind} has no picture; one is drawn of a contour, a program, a family, a range, a system, or a sketch"
+            f"{kind} has no picture; one is drawn of a contour, a program, two programs, a family, a range, a system, "
+            "or a sketch"
         )
     make, known = _DRAWN[kind]
     unknown = next((name for name in options if name not in known), None)
@@ -218,7 +221,7 @@ def draw_sweep(
 
     shown = solve_shown(ready)
     if result is not None and isinstance(shown, tuple):
-        raise FamilyError(f"a map of {result} takes two words that vary; this sweep has {shown[0]}")
+        raise FamilyError(f"a map of {result} takes two words that vary; this family has {shown[0]}")
     told = title if title is not None else sweep_title(ready.ranges, count_statuses(ready))
     if isinstance(shown, tuple):
         return draw_family_fan(*shown, theme=theme, title=told)
@@ -232,6 +235,7 @@ def _draw_sketch(sketch: Sketch, **options: Any) -> Picture:
 _DRAWN: Mapping[str, tuple[Callable[..., Picture], tuple[str, ...]]] = {
     "Answer": (draw_answer, ("title", "like", "has_remarks", "beside")),
     "Result": (draw_result, ("title", "is_whole", "beside")),
+    "Comparison": (draw_comparison, ("title",)),
     "Family": (draw_family_map, ("title", "words", "result")),
     "FeasibleRange": (draw_range, ("title",)),
     "FeasibleRegion": (draw_region, ("title", "result")),

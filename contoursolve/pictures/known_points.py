@@ -177,11 +177,7 @@ def in_part(profile: Profile) -> Known:
 def in_chain(profile: Profile, items: Sequence["Alternative"] = (), blamed: Set[Word] = frozenset()) -> Known:
     """The determined part of a chain without a contour; `items` are the solutions that it has. With too few data it is
     the part that they fix. Without a solution it is the part before the words that are `blamed`."""
-    from contoursolve.solving import (  # noqa: PLC0415 - as above
-        before,
-        find_alternatives,
-        restrict,
-    )
+    from contoursolve.solving import before, find_alternatives, restrict  # noqa: PLC0415 - few contours need it
 
     system = assemble(profile)
     fixed = frozenset(system.unknowns).difference(analyse(system).free)

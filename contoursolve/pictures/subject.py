@@ -124,11 +124,7 @@ def fitting(answer: Answer) -> list["Alternative"]:
     """The solutions of a contour that were listed and that its words leave."""
     if answer.alternatives is None:
         return []
-    from contoursolve.solving import (  # noqa: PLC0415 - as above
-        choose,
-        numbers_of,
-        pick,
-    )
+    from contoursolve.solving import choose, numbers_of, pick  # noqa: PLC0415 - few contours need it
 
     paths = [each for each in choose(answer.alternatives, answer.profile.choices) if each.is_path]
     left = pick(paths, answer.profile)[0]

@@ -36,7 +36,7 @@ def solve_shown(ready: CompiledSweep) -> Fan | Family:
     varying = [name for name, values in ranges.values.items() if values.size > 1]
     if ranges.is_paired or not 1 <= len(varying) <= 2:  # noqa: PLR2004 - a line or a plane
         told = "paired words" if ranges.is_paired else f"{len(varying)} words with several values"
-        raise FamilyError(f"a picture takes one word, or every combination of two; this sweep has {told}")
+        raise FamilyError(f"a picture takes one word, or every combination of two; this family has {told}")
     if len(varying) == 1:
         (word,) = varying
         values = [float(value) for value in _chosen(ranges.values[word], MOST_VALUES)]

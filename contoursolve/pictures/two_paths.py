@@ -57,7 +57,14 @@ def _scene(comparison: Comparison, plane: Plane) -> Scene:
     numbered = [(number, each) for number, each in enumerate(comparison.differences, 1) if _is_in(each, plane)]
     sides = tuple({id(step) for each in comparison.differences for step in each.steps[side]} for side in (0, 1))
     both = [each for each in comparison.new.steps if id(each) not in sides[1]]
-    parts = [*_trails(both, axes, plane, Role.INK)]
+    shared = [*_trails(both, axes, plane, Role.INK)]
+    own = [
+        trail
+        for side, role in enumerate((_OLD, _NEW))
+        for _, each in numbered
+        for trail in _trails(each.steps[side], axes, plane, role)
+    ]
+    parts = [*shared[:MOST_MOVES], *own[:MOST_MOVES]]
     places, closeups = list[Part](), list[Closeup]()
     for number, each in numbered[:MOST_DIFFERENCES]:
         ends = _farthest(each, axes, plane)
@@ -67,15 +74,12 @@ def _scene(comparison: Comparison, plane: Plane) -> Scene:
         label = (TextRun(f"{number}", role),)
         places.append(Mark(ends[1], MarkKind.PLACE, label, label, role))
         closeups += [Closeup(f"{number}", (LineSegment("off", *ends),), _READABLE)] if distance(*ends) > LENGTH else []
-    for side, role in enumerate((_OLD, _NEW)):
-        for _, each in numbered:
-            parts += _trails(each.steps[side], axes, plane, role)
     units = {step.unit for path in (comparison.old, comparison.new) for step in path.steps if isinstance(step, Travel)}
     return Scene(
         f"{plane.code}: {' and '.join(plane.axes)}",
         axis_names(plane),
         (*parts, *places),
-        remarks=tuple(_remarks(numbered)),
+        remarks=tuple(_remarks(numbered, len(shared) + len(own) - len(parts))),
         meanings={Role.INK: "both programs", _OLD: "OLD alone", _NEW: "NEW alone"},
         has_turning_axis=plane.diameters[SECOND],
         closeups=tuple(closeups),
@@ -90,14 +94,13 @@ def _is_in(difference: Difference, plane: Plane) -> bool:
 
 
 def _trails(steps: Iterable[Step], axes: tuple[str, ...], plane: Plane, role: Role) -> Iterator[Part]:
-    """Moves as they are seen in a plane; rapids that both programs have, as far as the picture goes."""
-    drawn = 0
+    """Moves as they are seen in a plane."""
     for step in steps:
-        is_seen = isinstance(step, Travel) and step.plane is not None and {*step.plane.axes} == {*plane.axes}
-        segment = flat_segment(step, axes, plane.axes) if is_seen and isinstance(step, Travel) else None
-        if segment is None or not isinstance(step, Travel) or drawn >= MOST_MOVES:
+        if not isinstance(step, Travel) or step.plane is None or {*step.plane.axes} != {*plane.axes}:
             continue
-        drawn += 1
+        segment = flat_segment(step, axes, plane.axes)
+        if segment is None:
+            continue
         is_rapid = step.motion is Motion.RAPID
         yield Trail(
             (segment,),
@@ -124,8 +127,8 @@ def _seen(step: Travel, at: float, axes: tuple[str, ...], plane: Plane) -> Point
     return None if first is None or second is None else (first, second)
 
 
-def _remarks(numbered: Sequence[tuple[int, Difference]]) -> Iterator[tuple[TextRun, ...]]:
-    """Each difference by its number, with its lines, its words and its size."""
+def _remarks(numbered: Sequence[tuple[int, Difference]], undrawn: int) -> Iterator[tuple[TextRun, ...]]:
+    """Each difference by its number, with its lines, its words and its size; and how many moves are not drawn."""
     for number, each in numbered[:MOST_DIFFERENCES]:
         off = f", {each.distance:.4f} mm" if each.distance is not None else ""
         lines = [
@@ -137,3 +140,5 @@ def _remarks(numbered: Sequence[tuple[int, Difference]]) -> Iterator[tuple[TextR
         yield (TextRun(visible(f"{number}{off}, {', '.join(lines)}: {told}"), Role.INK),)
     if len(numbered) > MOST_DIFFERENCES:
         yield (TextRun(f"... and {len(numbered) - MOST_DIFFERENCES} more differences", Role.MUTED),)
+    if undrawn:
+        yield (TextRun(f"... and {undrawn} more moves, which are not drawn", Role.MUTED),)

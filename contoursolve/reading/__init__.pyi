@@ -8,7 +8,6 @@ from .arc_table import (
 from .call_arguments import (
     ARGUMENTS as ARGUMENTS,
     machine_in as machine_in,
-    unit_of_calls as unit_of_calls,
 )
 from .contour_builder import (
     ContourBuilder as ContourBuilder,

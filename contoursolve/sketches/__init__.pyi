@@ -1,7 +1,3 @@
-from .as_program import (
-    SketchProgram as SketchProgram,
-    as_program as as_program,
-)
 from .dxf_chain import (
     DxfChain as DxfChain,
     DxfError as DxfError,

@@ -124,7 +124,6 @@ from .events import (
     RefusalKind as RefusalKind,
     Status as Status,
     Topic as Topic,
-    event_of as event_of,
     events_about as events_about,
     refusals_about as refusals_about,
 )
@@ -158,6 +157,7 @@ from .motions import (
 )
 from .natural_layout import told_by as told_by
 from .newton import (
+    RANK as RANK,
     Equations as Equations,
     null_space as null_space,
 )
@@ -214,7 +214,6 @@ from .solve import (
 )
 from .step_outputs import (
     Need as Need,
-    StepOutputs as StepOutputs,
 )
 from .ties import (
     Ties as Ties,

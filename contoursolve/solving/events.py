@@ -499,13 +499,3 @@ def events_about(*topics: Topic) -> frozenset[RefusalKind | NoteKind]:
 def refusals_about(*topics: Topic) -> frozenset[RefusalKind]:
     """The same of those that leave no contour."""
     return frozenset(kind for kind in RefusalKind if kind.event.topic in topics)
-
-
-_BY_CODE: dict[str, RefusalKind | NoteKind] = {
-    code: kind for kind in (*RefusalKind, *NoteKind) for code in (kind.value, *kind.event.codes)
-}
-
-
-def event_of(code: str) -> RefusalKind | NoteKind:
-    """The kind of event of a code: its own, or another end of the codes of rules about it. Raises KeyError."""
-    return _BY_CODE[code]

@@ -35,7 +35,6 @@ from .offset import (
 from .runs import (
     CuttingRun as CuttingRun,
     ToolRequest as ToolRequest,
-    find_runs as find_runs,
     is_compensated as is_compensated,
 )
 from .stated import (

@@ -16,7 +16,7 @@ from contoursolve.output import alarm_rows
 from contoursolve.pictures import draw_result
 from contoursolve.program import Result
 from contoursolve.reading import THIS_CONTROL, Address, Code, Control, Effect, ReadIssue, Rule, Setting, WithoutPoint
-from contoursolve.try_edits import try_example
+from contoursolve.try_examples import try_example
 
 SHORT = 4
 """Words of a meaning that stands in the title of a section."""

@@ -340,8 +340,18 @@ def test_a_picture_shows_both_paths_and_marks_their_differences(tmp_path):
         assert told in drawn
     # The smaller one is shown enlarged.
     assert "1000 times as large" in drawn
+    assert "not drawn" not in drawn
     status, output = invoke(*names[:2], "--control", "fanuc-lathe", "--plot", names[2])
     assert (status, "--force" in output) == (2, True)
+
+
+def test_a_picture_says_how_many_moves_it_leaves_out(tmp_path, monkeypatch):
+    monkeypatch.setattr("contoursolve.pictures.two_paths.MOST_MOVES", 1)
+    names = [tmp_path / name for name in ("old.nc", "new.nc", "both.svg")]
+    names[0].write_text(program := "G17 G21 G90\nG0 X0 Y0\nG1 X10. F100\nY10.\nX20.\n")
+    names[1].write_text(program.replace("X20.", "X21."))
+    invoke(*names[:2], "--control", "fanuc-mill", "--plot", names[2])
+    assert "... and 2 more moves, which are not drawn" in names[2].read_text(encoding="utf-8")
 
 
 corners = st.lists(

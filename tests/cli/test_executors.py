@@ -194,7 +194,7 @@ def test_another_sweep_does_not_go_on_where_one_was_killed(tmp_path, monkeypatch
     arguments = ["sweep", "--block", BLOCK, "--start", START, "--vary", "A=1,2", "-o", "family.csv"]
     done = CliRunner().invoke(main, arguments)
     assert done.exit_code == 0
-    assert "0123456789abcdef.parts is left of another sweep that was not finished" in done.stderr
+    assert "0123456789abcdef.parts is left of another family that was not finished" in done.stderr
 
 
 def is_written(file: Path) -> bool:

@@ -47,14 +47,19 @@ def test_every_command_on_the_pages_is_run_by_the_next_test() -> None:
         assert sum(map(bool, indented)) == sum(each.values[0] == page for each in SHOWN), page
 
 
-def compare(folder, monkeypatch, page, command, output) -> tuple[list[str], list[str]]:
-    """The lines that a page shows for a command, and those that it prints in a folder, shortened alike."""
+def enter(folder, monkeypatch, page) -> None:
+    """A folder with the programs that a page names, in which nothing that it writes is left for others."""
     for name in ("programs", "conversions"):
         shutil.copytree(ROOT / "notebooks" / name, folder / "notebooks" / name)
     shutil.copytree(ROOT / "docs" / "programs", folder / "docs" / "programs")
     for name, content in re.findall(r"<!-- file: (\S+) -->\n+```\w*\n(.*?)```", PAGES[page], re.DOTALL):
         (folder / name).write_text(content, encoding="utf-8")
     monkeypatch.chdir(folder)
+
+
+def compare(folder, monkeypatch, page, command, output) -> tuple[list[str], list[str]]:
+    """The lines that a page shows for a command, and those that it prints in a folder, shortened alike."""
+    enter(folder, monkeypatch, page)
     done = None
     for part in command.split(" | contoursolve "):
         done = CliRunner().invoke(commands(), shlex.split(part), input=done and done.stdout)
@@ -97,7 +102,8 @@ def test_the_page_about_tools_has_every_alarm_and_every_finding_with_its_grade()
 
 
 @pytest.mark.parametrize("page", CODE)
-def test_the_code_of_the_page_runs(page) -> None:
+def test_the_code_of_the_page_runs(tmp_path, monkeypatch, page) -> None:
+    enter(tmp_path, monkeypatch, page)
     for code in re.findall(r"```python\n(.*?)```", PAGES[page], re.DOTALL):
         exec(compile(code, page, "exec"), {})
 

@@ -273,6 +273,6 @@ def test_the_verifier_uses_nothing_of_the_solver(module):
             named |= {f"{node.module}.{alias.name}" for alias in node.names}
     rooms = {name.split(".")[1] for name in named - PLAIN if name.startswith("contoursolve.")}
     assert not rooms & {
-        *["solving", "analysis", "numeric", "diagnosis", "program", "output", "api", "try_edits", "families"]
+        *["solving", "analysis", "numeric", "diagnosis", "program", "output", "api", "try_examples", "families"]
     }
     assert not {name.split(".")[0] for name in named} & {"casadi", "sympy", "flint", "scipy", "importlib"}

@@ -266,9 +266,12 @@ def test_diagnosis_does_not_depend_on_order_unit_mirror_image_or_shift(change, r
 # Other words and completions ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("address", ["K", "Z"])
-def test_with_words_refuses_to_edit_a_word_that_is_not_there_once(address):
-    with pytest.raises(ValueError, match="exactly one"):
+@pytest.mark.parametrize(
+    ("address", "told"),
+    [("K", "the blocks have no word K; they have G, A, I, Z"), ("Z", "the blocks have 2 words Z$")],
+)
+def test_with_words_refuses_to_edit_a_word_that_is_not_there_once(address, told):
+    with pytest.raises(ValueError, match=told):
         answer_to("G111 A135. I10. Z-40. Z-40.", start=START).with_words(drop=[address])
 
 

@@ -59,3 +59,9 @@ def test_the_answer_is_hidden_until_somebody_asks():
 def test_what_makes_no_exercise_is_told(block, ask, told):
     with pytest.raises(ValueError, match=told):
         contoursolve.exercise(block, ask, start="X40. Z0.")
+
+
+@pytest.mark.parametrize("most", [0, -1, 26])
+def test_no_exercise_has_more_answers_than_letters(most):
+    with pytest.raises(ValueError, match=f"most cannot be {most}; an exercise has 1 to 25 wrong answers"):
+        contoursolve.exercise(TAPER, "V2 Z", seed=4, start="X40. Z0.", most=most)

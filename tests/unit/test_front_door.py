@@ -27,6 +27,16 @@ def test_a_text_a_file_and_a_parsed_program_are_solved_alike(tmp_path: Path):
         contoursolve.check(tmp_path / "none.nc")
 
 
+def test_the_name_of_a_file_is_no_program():
+    for write in (contoursolve.expand, lambda text: contoursolve.convert(text, "fanuc-lathe")):
+        with pytest.raises(
+            ValueError, match=r"shaft\.nc is the name of a file, not its text: say Path\('shaft\.nc'\)\."
+        ):
+            write("shaft.nc")
+        with pytest.raises(TypeError, match="text is the text of a program"):
+            write(Path("shaft.nc"))
+
+
 def test_a_result_has_the_tool_for_which_it_was_solved():
     result = contoursolve.solve(BLOCK, start=START, tool="R0.8, tip 3", side="right")
     assert result.tool.runs[0].path is not None
@@ -94,6 +104,14 @@ def test_a_file_is_written_by_its_ending(tmp_path: Path):
         contoursolve.export(family, tmp_path / "a.dxf")
     with pytest.raises(ValueError, match="the drawing would be empty"):
         contoursolve.export(contoursolve.solve("G111 X100. B120.", start=START), tmp_path / "b.dxf")
+    with pytest.raises(ValueError, match="only the map of a family or a region is coloured by a result"):
+        contoursolve.export(result, tmp_path / "b.json", result="end Z")
+    tool = contoursolve.solve(BLOCK, start=START, tool="R0.8, tip 3", side="right").tool
+    with pytest.raises(ValueError, match="the file of a Family has no tool"):
+        contoursolve.export(family, tmp_path / "b.csv", tool=tool)
+    with pytest.raises(TypeError, match="a picture of Family has no option 'tool'"):
+        contoursolve.draw(family, tool=tool)
+    assert not [*tmp_path.glob("b.[jcd]*")]
 
 
 def test_a_rule_is_explained_by_its_code_or_its_alarm():

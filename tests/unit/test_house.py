@@ -30,7 +30,7 @@ FLOORS = (
     "comparison families",
     "postprocess pictures tool_radius",
     "api output questions sketches",
-    "editing errors notebook outcomes tables try_edits",
+    "editing errors notebook outcomes tables try_examples",
     "__init__",
     "lsp cli workbench",
     "__main__",
@@ -151,7 +151,7 @@ def test_the_house_is_small_enough_to_be_walked_through():
         "questions.py",
         "tables.py",
         "tolerance.py",
-        "try_edits.py",
+        "try_examples.py",
     }
 
 

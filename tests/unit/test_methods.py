@@ -41,8 +41,11 @@ def test_an_answer_with_other_words_is_that_of_the_block_with_these_words():
     assert again.status is other.status
     assert again.contour == other.contour
     assert [each.code for each in again.diagnostics] == [each.code for each in other.diagnostics]
-    with pytest.raises(ValueError, match="0 words Z; exactly one"):
+    with pytest.raises(ValueError, match="the blocks have no word Z; they have"):
         answer.with_words(change={"Z": "Z-1."})
+    # A text is a sequence of letters, each of which would be a word.
+    with pytest.raises(TypeError, match=r"add is a list of words, such as \['P2\.'\]"):
+        answer.with_words(add="P2.")
 
 
 def test_a_contour_of_a_program_stands_alone_in_inches_too():

@@ -6,7 +6,7 @@ from contoursolve.controls import CONTROLS
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import ArcIssue, ReadIssue
 from contoursolve.solving import NoteKind, RefusalKind
-from contoursolve.try_edits import try_example
+from contoursolve.try_examples import try_example
 
 ALARMS = {
     "yasnac-lx3": {"050", "144", "145", "146"},
