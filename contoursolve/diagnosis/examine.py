@@ -361,8 +361,8 @@ class Answer(Shown, Struct, frozen=True):
         """The answer with words of its blocks dropped (by address), added, or changed (address to the new word).
 
         An address that several blocks have is named with its program line: `2:,A`. Words that are added stand in the
-        last block. Raises ValueError if a word is not there, or more than once, and where the blocks are read as
-        another contour then, or as none.
+        last block. Findings are those of the blocks alone, each with its fixes. Raises ValueError if a word is not
+        there, or more than once, and where the blocks are read as another contour then, or as none.
 
         >>> import contoursolve
         >>> answer = contoursolve.solve("G111 A135. I10. K-12. B180. Z-40.", start="X40. Z0.").answer
@@ -377,7 +377,14 @@ class Answer(Shown, Struct, frozen=True):
         claim = self.read_by.read(self.claim, edits)
         if claim is None:
             raise ValueError("with these words the blocks are read as another contour, or as none")
-        return examine(claim, self.read_by.dialect, self.read_by.policy)
+        answer = examine(claim, self.read_by.dialect, self.read_by.policy)
+        if answer.diagnostics:
+            from contoursolve.diagnosis.diagnose import diagnose  # noqa: PLC0415 - most contours have no findings
+            from contoursolve.diagnosis.names_in_program import named_in_program  # noqa: PLC0415 - as for `diagnose`
+
+            answer = diagnose(answer, self.read_by.dialect, self.read_by.policy)
+            answer = replace(answer, diagnostics=named_in_program(answer.diagnostics, claim, answer.profile))
+        return answer
 
     def standing_alone(self, *, is_exact: bool = False) -> str:
         """A program of its own: its blocks after what leads to its start point and puts its modal codes in force.
