@@ -274,22 +274,35 @@ def edits_of_words(
     blocks: Sequence[Block], dropped: Iterable[str], added: Iterable[str], changed: Mapping[str, str]
 ) -> list[Edit]:
     """The edits that drop, add and change words of blocks by their addresses, or by line and address: `2:,A`. Raises
-    ValueError for a word that is not there, or more than once."""
-    edits = [drop(_only_word(blocks, address)) for address in dropped]
+    ValueError for a word that is not there, or more than once, and for a line that is not theirs."""
+    edits = [drop(_only_word(blocks, address)) for address in _each(dropped)]
     for address, text in changed.items():
         if not isinstance(text, str):
             raise TypeError(f"the new word for {address} is a text such as '{address}5.', not {text!r}")
         edits.append(change(_only_word(blocks, address), text))
-    return edits + [Edit(EditKind.ADD, word, text=word, line=blocks[-1].line) for word in added]
+    return edits + [_added(blocks, word) for word in _each(added)]
+
+
+def _each(words: Iterable[str]) -> Iterable[str]:
+    return (words,) if isinstance(words, str) else words
+
+
+def _added(blocks: Sequence[Block], word: str) -> Edit:
+    line, _, text = word.rpartition(":")
+    lines = [str(block.line) for block in blocks]
+    if line and line not in lines:
+        raise ValueError(f"{word}: the blocks of the contour are in program lines {', '.join(lines)}")
+    return Edit(EditKind.ADD, text, text=text, line=int(line or lines[-1]))
 
 
 def _only_word(blocks: Sequence[Block], address: str) -> Word:
     line, _, own = address.upper().rpartition(":")
-    words = [
-        word for block in blocks for word in block.words if word.address == own and line in ("", str(word.span.line))
-    ]
+    present = [word for block in blocks for word in block.words]
+    words = [word for word in present if word.address == own and line in ("", str(word.span.line))]
     if len(words) != 1:
-        raise ValueError(f"the blocks have {len(words)} words {address}; exactly one can be dropped or changed")
+        names = (f"{each.span.line}:{each.address}" if len(blocks) > 1 else each.address for each in words or present)
+        told = f"the blocks have {len(words)} words {address}; exactly one can be dropped or changed"
+        raise ValueError(f"{told}; there are {', '.join(dict.fromkeys(names))}")
     return words[0]
 
 

@@ -361,8 +361,8 @@ class Answer(Shown, Struct, frozen=True):
         """The answer with words of its blocks dropped (by address), added, or changed (address to the new word).
 
         An address that several blocks have is named with its program line: `2:,A`. Words that are added stand in the
-        last block. Raises ValueError if a word is not there, or more than once, and where the blocks are read as
-        another contour then, or as none.
+        last block, or in that of their line: `7:LEN50`. Raises ValueError if a word is not there, or more than once,
+        and where the blocks are read as another contour then, or as none.
 
         >>> import contoursolve
         >>> answer = contoursolve.solve("G111 A135. I10. K-12. B180. Z-40.", start="X40. Z0.").answer

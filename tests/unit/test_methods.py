@@ -41,8 +41,20 @@ def test_an_answer_with_other_words_is_that_of_the_block_with_these_words():
     assert again.status is other.status
     assert again.contour == other.contour
     assert [each.code for each in again.diagnostics] == [each.code for each in other.diagnostics]
-    with pytest.raises(ValueError, match="0 words Z; exactly one"):
+    with pytest.raises(ValueError, match=r"0 words Z; exactly one .* there are G, X, A, K, B, P, Q"):
         answer.with_words(change={"Z": "Z-1."})
+
+
+def test_a_word_is_added_to_the_last_block_or_to_that_of_its_line():
+    answer = contoursolve.solve(
+        "FL AN+80 LEN50\nFCT DR- R15\nFLT X+90 Y+40", start="X+0 Y+0", control="heidenhain"
+    ).answer
+    shorter = answer.with_words(drop="LEN")
+    assert shorter.status is contoursolve.Status.UNDERDETERMINED
+    for added in ("1:LEN50", ["1:LEN50"]):
+        assert shorter.with_words(add=added).contour == answer.contour
+    with pytest.raises(ValueError, match="9:LEN50: the blocks of the contour are in program lines 1, 2, 3"):
+        shorter.with_words(add="9:LEN50")
 
 
 def test_a_contour_of_a_program_stands_alone_in_inches_too():
