@@ -93,7 +93,9 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
     if kinds is None:
         raise ValueError(f"{target}: a file ends in {', '.join(_FILES)}; a picture has save()")
     if not isinstance(record, kinds):
-        raise ValueError(f"{target}: a {type(record).__name__} is not written as {ending}")
+        own = [each for each, kinds in _FILES.items() if isinstance(record, kinds)]
+        told = f", but as {', '.join(own)}" if own else f"; that is for {', '.join(kind.__name__ for kind in kinds)}"
+        raise ValueError(f"{target}: {type(record).__name__} is not written as {ending}{told}")
     tool = record.tool if tool is None and isinstance(record, Result) else tool
     if isinstance(record, families.Family) and ending != ".html":
         write = record.to_csv if ending == ".csv" else record.to_parquet
@@ -102,11 +104,11 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
     write_whole(target, (_bytes_of(record, ending, tool, result),), keeps_backup=False)
 
 
-_FILES: dict[str, Any] = {
-    ".dxf": Result,
-    ".json": Result,
-    ".csv": families.Family,
-    ".parquet": families.Family,
+_FILES: dict[str, tuple[type, ...]] = {
+    ".dxf": (Result,),
+    ".json": (Result,),
+    ".csv": (families.Family,),
+    ".parquet": (families.Family,),
     ".html": (Result, families.Family, families.FeasibleRegion),
 }
 """The records that are written as a file, by its ending."""

@@ -441,6 +441,8 @@ class EquationSystem(Shown):
         before stays, too, although the control may then read it otherwise. Raises ValueError where there is no contour
         to follow.
         """
+        if not isinstance(name, str):
+            raise TypeError(f"a function takes all words, and no names but its own: function()(B=120), not {name!r}")
         chosen = self._chosen
         if chosen is None:
             raise ValueError("there is no contour at the values of the words that a function could follow")

@@ -69,7 +69,7 @@ def test_a_picture_says_which_options_its_record_has():
     assert contoursolve.draw(answer, title="mine", theme="dark").title == "mine"
     with pytest.raises(TypeError, match="a picture of Answer has no option 'result'; it has theme, title, like"):
         contoursolve.draw(answer, result="end.Z")
-    with pytest.raises(TypeError, match="Contour has no picture; one is drawn of a contour"):
+    with pytest.raises(TypeError, match="Contour has no picture by itself; one is drawn of Answer, Result"):
         contoursolve.draw(answer.contour)
     with pytest.raises(ValueError, match="theme cannot be 'blue'; choose from light, dark, page"):
         contoursolve.draw(answer, theme="blue")
@@ -90,8 +90,12 @@ def test_a_file_is_written_by_its_ending(tmp_path: Path):
     assert contoursolve.report(result) == (tmp_path / "a.html").read_text(encoding="utf-8")
     with pytest.raises(ValueError, match=r"a file ends in \.dxf, \.json"):
         contoursolve.export(result, tmp_path / "a.txt")
-    with pytest.raises(ValueError, match=r"a Family is not written as \.dxf"):
-        contoursolve.export(family, tmp_path / "a.dxf")
+    for record, name, told in (
+        (family, "a.dxf", r"Family is not written as \.dxf, but as \.csv, \.parquet, \.html"),
+        (result.answer, "a.json", r"Answer is not written as \.json; that is for Result"),
+    ):
+        with pytest.raises(ValueError, match=told):
+            contoursolve.export(record, tmp_path / name)
     with pytest.raises(ValueError, match="the drawing would be empty"):
         contoursolve.export(contoursolve.solve("G111 X100. B120.", start=START), tmp_path / "b.dxf")
 
