@@ -274,8 +274,8 @@ class Answer(Shown, Struct, frozen=True):
 
     @property
     def missing(self) -> tuple[tuple[str, ...], ...]:
-        """The smallest sets of addresses that complete its blocks, each refused by no rule; nothing where they are
-        complete.
+        """The smallest sets of addresses that complete its blocks, at most 12, each refused by no rule; nothing where
+        they are complete. `completions` and `addable` tell to which of several blocks a word belongs.
 
         >>> import contoursolve
         >>> contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answer.missing

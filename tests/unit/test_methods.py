@@ -57,6 +57,14 @@ def test_a_word_is_added_to_the_last_block_or_to_that_of_its_line():
         shorter.with_words(add="9:LEN50")
 
 
+def test_a_chain_that_a_move_cuts_off_lacks_the_same_words():
+    chain = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL AN+80\n3 FL X+90 Y+40\n{}4 END PGM A MM"
+    ended, cut = (contoursolve.solve(chain.format(more)).answer for more in ("", "L X+100 Y+0\n"))
+    assert [each.code for each in cut.diagnostics] == ["words-missing", "heidenhain-block-illegal"]
+    assert cut.missing == ended.missing
+    assert ("AN",) in cut.missing
+
+
 def test_a_contour_of_a_program_stands_alone_in_inches_too():
     result = contoursolve.solve("G20\nG00 X2. Z0.\nG111 X4. A180. K-1. B120. P.1\nG111 A180. W-1.")
     text = result.answers[0].standing_alone()
