@@ -332,6 +332,8 @@ def test_a_family_is_a_mapping_that_knows_where_it_comes_from_and_has_each_conto
         found.contour(A=180, P=60)
     frame = pandas.DataFrame.from_arrow(found)
     assert (list(frame), frame["A"].tolist()) == (list(found), [170, 180, 190])
+    with pytest.raises(TypeError, match=r"its table is pandas\.DataFrame\.from_arrow\(family\)"):
+        pandas.DataFrame(found)
     told = {"block": BLOCK, "start": START, "control": "yasnac-lx3"}
     assert told.items() <= found.origin.items()
     assert found.to_xarray().attrs == found.origin

@@ -100,6 +100,17 @@ def test_a_file_is_written_by_its_ending(tmp_path: Path):
         contoursolve.export(contoursolve.solve("G111 X100. B120.", start=START), tmp_path / "b.dxf")
 
 
+def test_a_misspelt_name_tells_what_was_meant():
+    with pytest.raises(AttributeError, match="no attribute 'slove'; did you mean solve"):
+        _ = contoursolve.slove
+    with pytest.raises(UserError, match="unknown control 'siemens'; did you mean siemens-840d or siemens-808d"):
+        contoursolve.solve("G01", control="siemens")
+    with pytest.raises(UserError, match="give the record itself"):
+        contoursolve.solve("G01", control="lathe:MY_LATHE")
+    with pytest.raises(TypeError, match="a function takes all words"):
+        contoursolve.system(BLOCK, start=START).function(["A"])
+
+
 def test_a_rule_is_explained_by_its_code_or_its_alarm():
     page = contoursolve.explain("g111-line-1", "yasnac-lx3")
     assert page.startswith("# g111-line-1")
