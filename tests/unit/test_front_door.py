@@ -107,8 +107,14 @@ def test_a_misspelt_name_tells_what_was_meant():
         contoursolve.solve("G01", control="siemens")
     with pytest.raises(UserError, match="give the record itself"):
         contoursolve.solve("G01", control="lathe:MY_LATHE")
+    system = contoursolve.system(BLOCK, start=START)
     with pytest.raises(TypeError, match="a function takes all words"):
-        contoursolve.system(BLOCK, start=START).function(["A"])
+        system.function(["A"])
+    with pytest.raises(ValueError, match=r"could follow; nothing determines Z_V1, X_V1 and Z_V2"):
+        contoursolve.system(BLOCK.replace("K-30.", ""), start=START).function()
+    assert system.of_word("B120.") == system.of_word("B")
+    with pytest.raises(TypeError, match=r"several words are allowed=\{'A': 0.1\}"):
+        contoursolve.tolerances(BLOCK, {"A": 0.1}, start=START)  # type: ignore[call-overload]
 
 
 def test_a_rule_is_explained_by_its_code_or_its_alarm():
