@@ -286,8 +286,8 @@ class Answer(Shown, Struct, frozen=True):
 
     @property
     def completions(self) -> tuple[Completion, ...]:
-        """Every single word that would complete its blocks, with its value where the geometry fixes it already; a word
-        whose number is still to be chosen ends with `?`.
+        """The single words that would complete its blocks, at most 12, each with its value where the geometry fixes it
+        already; a word whose number is still to be chosen ends with `?`. `addable` has all words.
 
         >>> import contoursolve
         >>> answer = contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answer
