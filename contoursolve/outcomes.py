@@ -11,7 +11,7 @@ from contoursolve import families, output, pictures, sketches
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import UserError, check_type, choice_of, did_you_mean, importing
-from contoursolve.gcode import write_whole
+from contoursolve.gcode import CannotWriteError, write_whole
 from contoursolve.pictures import Picture, Theme
 from contoursolve.program import Result, find_dialect
 from contoursolve.reading import Control
@@ -99,7 +99,10 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
     tool = record.tool if tool is None and isinstance(record, Result) else tool
     if isinstance(record, families.Family) and ending != ".html":
         write = record.to_csv if ending == ".csv" else record.to_parquet
-        write(target)
+        try:
+            write(target)
+        except OSError as error:
+            raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}") from error
         return
     write_whole(target, (_bytes_of(record, ending, tool, result),), keeps_backup=False)
 

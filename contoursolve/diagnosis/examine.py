@@ -286,8 +286,8 @@ class Answer(Shown, Struct, frozen=True):
 
     @property
     def completions(self) -> tuple[Completion, ...]:
-        """The single words that would complete its blocks, at most 12, each with its value where the geometry fixes it
-        already; a word whose number is still to be chosen ends with `?`. `addable` has all words.
+        """The single words that would complete its blocks, each with its value where the geometry fixes it already; a
+        word whose number is still to be chosen ends with `?`. Of many words in several blocks, the likeliest 12 or so.
 
         >>> import contoursolve
         >>> answer = contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answer

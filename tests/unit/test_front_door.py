@@ -96,6 +96,9 @@ def test_a_file_is_written_by_its_ending(tmp_path: Path):
     ):
         with pytest.raises(ValueError, match=told):
             contoursolve.export(record, tmp_path / name)
+    for name in ("a.csv", "a.parquet", "a.html"):
+        with pytest.raises(UserError, match="cannot be written"):
+            contoursolve.export(family, tmp_path / "no folder" / name)
     with pytest.raises(ValueError, match="the drawing would be empty"):
         contoursolve.export(contoursolve.solve("G111 X100. B120.", start=START), tmp_path / "b.dxf")
 
@@ -113,6 +116,10 @@ def test_a_misspelt_name_tells_what_was_meant():
     with pytest.raises(ValueError, match=r"could follow; nothing determines Z_V1, X_V1 and Z_V2"):
         contoursolve.system(BLOCK.replace("K-30.", ""), start=START).function()
     assert system.of_word("B120.") == system.of_word("B")
+    with pytest.raises(TypeError, match=r"tool is a text such as .*, not 0\.8"):
+        contoursolve.solve(BLOCK, start=START, tool=0.8)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="side cannot be 'rigth'; choose from left, right"):
+        contoursolve.solve(BLOCK, start=START, tool="R0.8, tip 3", side="rigth")
     with pytest.raises(TypeError, match=r"several words are allowed=\{'A': 0.1\}"):
         contoursolve.tolerances(BLOCK, {"A": 0.1}, start=START)  # type: ignore[call-overload]
 
