@@ -17,11 +17,18 @@ from typing import Any
 
 from lazy_loader import attach_stub
 
-from contoursolve.diagnostics import register_functions
+from contoursolve.diagnostics import did_you_mean, register_functions
 
 __version__ = "0.1.0"
 
-__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
+_found, __dir__, __all__ = attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> Any:
+    if name in __all__:
+        return _found(name)
+    hint = did_you_mean(name, __all__).strip()
+    raise AttributeError(f"module 'contoursolve' has no attribute {name!r}{hint and f'; {hint}'}")
 
 
 _ROOMS = {
@@ -39,6 +46,7 @@ _ROOMS = {
     "text_of": "notebook",
     "tool_text": "output",
     "ways_to_complete": "diagnosis",
+    "with_words": "diagnosis",
     "words_to_add": "diagnosis",
     "write_sketch": "sketches",
 }

@@ -11,7 +11,7 @@ from contoursolve import families, output, pictures, sketches
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import UserError, check_type, choice_of, did_you_mean, importing
-from contoursolve.gcode import write_whole
+from contoursolve.gcode import CannotWriteError, write_whole
 from contoursolve.pictures import Picture, Theme
 from contoursolve.program import Result, find_dialect
 from contoursolve.reading import Control
@@ -87,15 +87,17 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
       holds at most 800 contours, and 400 kB of them. Needs `contoursolve[report]`.
 
     `tool` is a `ToolReport`; without it that of the result, if it has one. Raises ValueError for a record that has no
-    file of this ending, nothing to write, or no use for `tool` or `result`; MissingExtraError without a package;
-    UserError where the file cannot be written.
+    file of this ending, or nothing to write. It does so for a `tool` or a `result` that the file has no use for. Raises
+    MissingExtraError without a package, and UserError where the file cannot be written.
     """
     target, ending = Path(path), Path(path).suffix.lower()
     kinds = _FILES.get(ending)
     if kinds is None:
         raise ValueError(f"{target}: a file ends in {', '.join(_FILES)}; a picture has save()")
     if not isinstance(record, kinds):
-        raise ValueError(f"{target}: a {type(record).__name__} is not written as {ending}")
+        own = [each for each, kinds in _FILES.items() if isinstance(record, kinds)]
+        told = f", but as {', '.join(own)}" if own else f"; that is for {', '.join(kind.__name__ for kind in kinds)}"
+        raise ValueError(f"{target}: {type(record).__name__} is not written as {ending}{told}")
     if result is not None and (ending != ".html" or isinstance(record, Result)):
         raise ValueError(
             f"{target}: only the map of a family or a region is coloured by a result; leave out {result!r}"
@@ -105,16 +107,19 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
     tool = record.tool if tool is None and isinstance(record, Result) else tool
     if isinstance(record, families.Family) and ending != ".html":
         write = record.to_csv if ending == ".csv" else record.to_parquet
-        write(target)
+        try:
+            write(target)
+        except OSError as error:
+            raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}") from error
         return
     write_whole(target, (_bytes_of(record, ending, tool, result),), keeps_backup=False)
 
 
-_FILES: dict[str, Any] = {
-    ".dxf": Result,
-    ".json": Result,
-    ".csv": families.Family,
-    ".parquet": families.Family,
+_FILES: dict[str, tuple[type, ...]] = {
+    ".dxf": (Result,),
+    ".json": (Result,),
+    ".csv": (families.Family,),
+    ".parquet": (families.Family,),
     ".html": (Result, families.Family, families.FeasibleRegion),
 }
 """The records that are written as a file, by its ending."""

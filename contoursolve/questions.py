@@ -232,6 +232,8 @@ def tolerances(
     >>> found.high.reason.text
     'end Z moves by 0.01 mm'
     """
+    if isinstance(word, Mapping):
+        raise TypeError(f"tolerances of several words are allowed={word!r}; by itself stands the name of one word")
     if word is None:
         if keep is not None or within is not None:
             raise FamilyError("keep and within are about one word: tolerances(block, 'B', keep='end Z', within=0.01)")

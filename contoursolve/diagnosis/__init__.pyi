@@ -17,6 +17,7 @@ from .chosen_solution import chosen_solution as chosen_solution
 from .diagnose import (
     diagnose as diagnose,
     mend_points as mend_points,
+    with_words as with_words,
 )
 from .edits import (
     Edit as Edit,

@@ -89,7 +89,7 @@ def _completing(claim: ParsedContour, dialect: Control) -> Iterator[tuple[str, .
 
 def _is_complete(claim: ParsedContour, dialect: Control, names: tuple[str, ...]) -> bool:
     """Whether the words of a contour and some more are legal and determine it."""
-    if _refusals(claim, dialect, names):
+    if _refusals(claim, dialect, names, claim.passing):
         return False
     return analyse(assemble(read(stating(claim, names), frozenset()))).is_determined
 
@@ -108,7 +108,9 @@ def _possible(claim: ParsedContour, dialect: Control) -> Iterator[str]:
                 yield name
 
 
-def _refusals(claim: ParsedContour, dialect: Control, names: tuple[str, ...]) -> set[str]:
-    """The rules that refuse the words of a contour and some more, or ignore one of them."""
-    stated = {**claim.stated(), **dict.fromkeys(names)}
+def _refusals(
+    claim: ParsedContour, dialect: Control, names: tuple[str, ...], without: frozenset[str] = frozenset()
+) -> set[str]:
+    """The rules that refuse the words of a contour and some more, or ignore one of them, without some circumstances."""
+    stated = {name: value for name, value in claim.stated().items() if name not in without} | dict.fromkeys(names)
     return {offence.rule.code for offence in check(dialect.rules, claim.form.roles, stated)}

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair, Repairs
 from contoursolve.diagnosis.certain_slips import MendedText, about, certain_slips
-from contoursolve.diagnosis.edits import Edit, EditKind, edited
+from contoursolve.diagnosis.edits import Edit, EditKind, edited, edits_of_words
 from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Depth, Policy, examine, problems, rank
 from contoursolve.diagnosis.explain import (
     AGAINST,
@@ -21,6 +21,7 @@ from contoursolve.diagnosis.explain import (
     spans_of,
 )
 from contoursolve.diagnosis.fix_text import fixes_of, with_fixes
+from contoursolve.diagnosis.names_in_program import named_in_program
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.slips_around import touches
@@ -532,3 +533,16 @@ _ABOUT_VALUES = (
 
 def _layer(name: str, has_found: bool, remark: str) -> Layer:
     return Layer(name, Verdict.FOUND if has_found else Verdict.PASSED, remark)
+
+
+def with_words(answer: Answer, *, drop: Iterable[str], add: Iterable[str], change: Mapping[str, str]) -> Answer:
+    """The answer with other words in its blocks; see `Answer.with_words`."""
+    dialect, policy = answer.read_by.dialect, answer.read_by.policy
+    claim = answer.read_by.read(answer.claim, edits_of_words(answer.claim.blocks, drop, add, change))
+    if claim is None:
+        raise ValueError("with these words the blocks are read as another contour, or as none")
+    found = examine(claim, dialect, policy)
+    if found.diagnostics:
+        found = diagnose(found, dialect, policy)
+        found = replace(found, diagnostics=named_in_program(found.diagnostics, claim, found.profile))
+    return found

@@ -274,17 +274,26 @@ def edits_of_words(
     blocks: Sequence[Block], dropped: Iterable[str], added: Iterable[str], changed: Mapping[str, str]
 ) -> list[Edit]:
     """The edits that drop, add and change words of blocks by their addresses, or by line and address: `2:,A`. Raises
-    ValueError for a word that is not there, or more than once."""
-    for name, words in (("drop", dropped), ("add", added)):
-        if isinstance(words, str):
-            raise TypeError(f"{name} is a list of words, such as [{words!r}], not {words!r}")
+    ValueError for a word that is not there, or more than once, and for a line that is not theirs."""
     check_type("change", changed, Mapping, 'the new words by the old ones, such as {"K": "K-31."}')
-    edits = [drop(_only_word(blocks, address)) for address in dropped]
+    edits = [drop(_only_word(blocks, address)) for address in _each(dropped)]
     for address, text in changed.items():
         if not isinstance(text, str):
             raise TypeError(f"the new word for {address} is a text such as '{address}5.', not {text!r}")
         edits.append(change(_only_word(blocks, address), text))
-    return edits + [Edit(EditKind.ADD, word, text=word, line=blocks[-1].line) for word in added]
+    return edits + [_added(blocks, word) for word in _each(added)]
+
+
+def _each(words: Iterable[str]) -> Iterable[str]:
+    return (words,) if isinstance(words, str) else words
+
+
+def _added(blocks: Sequence[Block], word: str) -> Edit:
+    line, _, text = word.rpartition(":")
+    lines = [str(block.line) for block in blocks]
+    if line and line not in lines:
+        raise ValueError(f"{word}: the blocks of the contour are in program lines {', '.join(lines)}")
+    return Edit(EditKind.ADD, text, text=text, line=int(line or lines[-1]))
 
 
 def _only_word(blocks: Sequence[Block], address: str) -> Word:

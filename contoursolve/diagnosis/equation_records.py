@@ -148,6 +148,15 @@ class NullSpace(Struct, frozen=True):
     numbers: Array
     exact: "symbolic.Matrix | None"
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, NullSpace) and self._made_of() == other._made_of()
+
+    def __hash__(self) -> int:
+        return hash(self.texts)
+
+    def _made_of(self) -> tuple[Any, ...]:
+        return self.values, self.motions, self.texts, self.numbers.tolist(), self.exact
+
     @property
     def dimension(self) -> int:
         """In how many ways it can still move."""

@@ -441,9 +441,12 @@ class EquationSystem(Shown):
         before stays, too, although the control may then read it otherwise. Raises ValueError where there is no contour
         to follow.
         """
+        if not isinstance(name, str):
+            raise TypeError(f"a function takes all words, and no names but its own: function()(B=120), not {name!r}")
         chosen = self._chosen
         if chosen is None:
-            raise ValueError("there is no contour at the values of the words that a function could follow")
+            why = f"{join(list(map(str, self.free)))} is still open" if self.free else "subs(B=150) writes others"
+            raise ValueError(f"there is no contour at the values of the words that a function could follow; {why}")
         inputs, typed = self._inputs()
         known = self.inputs, chosen.scalars
         found: named_function.Function = build_function(self.profile, name, inputs, typed, self._conditions_of, known)
@@ -678,9 +681,13 @@ class EquationSystem(Shown):
         }
 
     def _named(self, key: str) -> list[Given]:
-        """The values that a word states, by its key or its symbol. Raises ValueError."""
+        """The values that a word states, by its key, its symbol or its text, as `TiedWords` has it. Raises
+        ValueError."""
         keys = word_keys(self.claim.words.values())
-        called = {word.span for word in words_called(key, self.claim.words.values())}
+        words = self.claim.words.values()
+        called = {
+            word.span for word in words_called(key, words) or [each for each in words if each.text.strip() == key]
+        }
         spans = called if len(called) == 1 else set()
         stated = [(given, given.word) for given in self.profile.givens.values() if given.word is not None]
         found = [given for given, word in stated if word.span in spans or self._names.get(given.name) == key]

@@ -274,8 +274,8 @@ class Answer(Shown, Struct, frozen=True):
 
     @property
     def missing(self) -> tuple[tuple[str, ...], ...]:
-        """The smallest sets of addresses that complete its blocks, each refused by no rule; nothing where they are
-        complete.
+        """The smallest sets of addresses that complete its blocks, at most 12, each refused by no rule; nothing where
+        they are complete. `completions` and `addable` tell to which of several blocks a word belongs.
 
         >>> import contoursolve
         >>> contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answer.missing
@@ -286,8 +286,8 @@ class Answer(Shown, Struct, frozen=True):
 
     @property
     def completions(self) -> tuple[Completion, ...]:
-        """Every single word that would complete its blocks, with its value where the geometry fixes it already; a word
-        whose number is still to be chosen ends with `?`.
+        """The single words that would complete its blocks, each with its value where the geometry fixes it already; a
+        word whose number is still to be chosen ends with `?`. Of many words in several blocks, the likeliest 12 or so.
 
         >>> import contoursolve
         >>> answer = contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answer
@@ -361,8 +361,9 @@ class Answer(Shown, Struct, frozen=True):
         """The answer with words of its blocks dropped (by address), added, or changed (address to the new word).
 
         An address that several blocks have is named with its program line: `2:,A`. Words that are added stand in the
-        last block. Findings are those of the blocks alone, each with its fixes. Raises ValueError if a word is not
-        there, or more than once, and where the blocks are read as another contour then, or as none.
+        last block, or in that of their line: `7:LEN50`. Findings are those of the blocks alone, each with its fixes.
+        Raises ValueError if a word is not there, or more than once, and where the blocks are read as another contour
+        then, or as none.
 
         >>> import contoursolve
         >>> answer = contoursolve.solve("G111 A135. I10. K-12. B180. Z-40.", start="X40. Z0.").answer
@@ -371,20 +372,8 @@ class Answer(Shown, Struct, frozen=True):
         >>> answer.with_words(change={"K": "K-10."}, add=["P2."]).end_text
         'Z-40.0000 X60.0000'
         """
-        from contoursolve.diagnosis.edits import edits_of_words  # noqa: PLC0415 - few contours are read again
-
-        edits = edits_of_words(self.claim.blocks, drop, add, change or {})
-        claim = self.read_by.read(self.claim, edits)
-        if claim is None:
-            raise ValueError("with these words the blocks are read as another contour, or as none")
-        answer = examine(claim, self.read_by.dialect, self.read_by.policy)
-        if answer.diagnostics:
-            from contoursolve.diagnosis.diagnose import diagnose  # noqa: PLC0415 - most contours have no findings
-            from contoursolve.diagnosis.names_in_program import named_in_program  # noqa: PLC0415 - as for `diagnose`
-
-            answer = diagnose(answer, self.read_by.dialect, self.read_by.policy)
-            answer = replace(answer, diagnostics=named_in_program(answer.diagnostics, claim, answer.profile))
-        return answer
+        found: Answer = from_above("with_words", self, drop=drop, add=add, change=change or {})
+        return found
 
     def standing_alone(self, *, is_exact: bool = False) -> str:
         """A program of its own: its blocks after what leads to its start point and puts its modal codes in force.

@@ -10,7 +10,7 @@ from functools import cache, partial
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import number_text
-from contoursolve.diagnostics import Diagnostic, checked
+from contoursolve.diagnostics import Diagnostic, Span, checked
 from contoursolve.gcode import FACT, Block, late_pattern
 from contoursolve.geometry import FIRST, SECOND, Arc, CornerShape, Line, Profile, Unit
 from contoursolve.reading import ParsedContour
@@ -27,7 +27,7 @@ def named_in_program(findings: Iterable[Diagnostic], claim: ParsedContour, profi
     blocks = block_numbers(claim.blocks)
     givens = (given.word for given in profile.givens.values())
     facts = [word for word in (*claim.words.values(), *givens) if word is not None and word.address == FACT]
-    places = {*(word.span for word in facts), *(each.span for each in claim.directives)}
+    places = [*(word.span for word in facts), *(each.span for each in claim.directives)]
     texts = {*(word.text for word in facts), *(each.text for each in claim.directives)}
     pattern = _pattern((*texts, *(block.text.strip() for block in claim.blocks)), profile)
     names = cache(lambda: names_of(profile, claim.blocks, blocks) | names_of_points(profile, blocks))
@@ -69,7 +69,14 @@ def named_in_program(findings: Iterable[Diagnostic], claim: ParsedContour, profi
         )
 
     # A finding about a fact speaks as facts do.
-    return tuple(each if each.span in places or each.span.line <= 0 else renamed(each) for each in findings)
+    return tuple(each if each.span.line <= 0 or _is_within(each.span, places) else renamed(each) for each in findings)
+
+
+def _is_within(span: Span, places: Iterable[Span]) -> bool:
+    """Whether a span is one of some places, or a part of one."""
+    return any(
+        each.line == span.line and each.column <= span.column and span.end_column <= each.end_column for each in places
+    )
 
 
 @checked

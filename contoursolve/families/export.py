@@ -5,7 +5,7 @@ needed only here.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, NoReturn
 
 import numpy
 from msgspec import Struct
@@ -274,6 +274,13 @@ class Family(Shown):
         """The same as a stream of Arrow, by which other packages take it: `polars.DataFrame(family)`,
         `pandas.DataFrame.from_arrow(family)`."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    def __array__(self, *_: Any, **__: Any) -> NoReturn:
+        """No array by itself: `pandas.DataFrame(family)` would take its names for values."""
+        raise TypeError(
+            "a family is no array, but has one for each name, such as family['status']; "
+            "its table is pandas.DataFrame.from_arrow(family), and its axes are those of family.to_xarray()"
+        )
 
     def to_parquet(self, path: str | Path) -> None:
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""

@@ -65,14 +65,14 @@ class Sensitivity(Shown, Struct, frozen=True):
     __hash__ = hash_of
 
     def spread(self, tolerances: Mapping[str, float]) -> dict[str, Spread]:
-        """The move of each result when the words are off by up to these tolerances, as written. Raises FamilyError
-        for a word that is not there, and a tolerance below 0."""
+        """The move of each result, by all the names that `slopes` takes, when the words are off by up to these
+        tolerances, as written. Raises FamilyError for a word that is not there, and a tolerance below 0."""
         tolerances = read_tolerances(tolerances, self.spelled)
         found: dict[str, Spread] = {}
         for result, slopes in self.slopes.items():
             parts = [abs(slopes[word] * tolerance) for word, tolerance in tolerances.items()]
             found[result] = Spread(sum(parts), hypot(*parts))
-        return found
+        return NamedResults(self.slopes.names, found) if isinstance(self.slopes, NamedResults) else found
 
 
 def read_tolerances(allowed: Mapping[str, float], spelled: Mapping[str, str]) -> dict[str, float]:

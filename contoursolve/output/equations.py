@@ -156,13 +156,19 @@ def motion_table(system: EquationSystem) -> Table:
 
 
 def tie_table(system: EquationSystem) -> Table:
-    """The sets of words that say the same, with the formula that ties them."""
+    """The sets of words that say the same, with the formula that ties them, and whether it fails here."""
     rows = [(printable(" ".join(each.words)), _formula(each)) for each in system.ties]
     return Table("What says the same", ("words", "formula"), rows, left=(0, 1))
 
 
 def _formula(each: TiedWords) -> str:
-    return "" if each.identity is None else symbolic.text(each.identity)
+    formula = "" if each.identity is None else symbolic.text(each.identity)
+    return ", ".join(filter(None, (formula, tie_fails(each))))
+
+
+def tie_fails(each: TiedWords) -> str:
+    """Statement that words which say the same disagree; empty where they agree."""
+    return "but their values disagree" if each.is_conflict else ""
 
 
 def corner_tables(system: EquationSystem) -> list[Table]:

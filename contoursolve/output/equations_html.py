@@ -15,6 +15,7 @@ from contoursolve.output.equations import (
     open_line,
     size_text,
     stated_pair,
+    tie_fails,
     unknown_table,
     value_table,
 )
@@ -40,7 +41,13 @@ def system_element(system: EquationSystem) -> Iterator[h.Node]:
         yield table("Conditions", ("must not be 0", "what must hold", "value here"), rows, numbers=(2,))
     yield from (h.p[f"{line.capitalize()}."] for line in large_lines(system))
     if system.ties:
-        ties = [(" ".join(each.words), "" if each.identity is None else maths(each.identity)) for each in system.ties]
+        ties = [
+            (
+                ", ".join(filter(None, (" ".join(each.words), tie_fails(each)))),
+                "" if each.identity is None else maths(each.identity),
+            )
+            for each in system.ties
+        ]
         yield table("What says the same", ("words", "formula"), ties)
     yield h.details[h.summary["Unknowns and values"], table_of(unknown_table(system)), table_of(value_table(system))]
     called = called_in_program(system.profile)

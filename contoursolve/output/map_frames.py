@@ -132,6 +132,10 @@ class LiveMap:
         for word, value, axis in zip(self.plane.words, values, self.plane.axes, strict=True):
             if not axis.min() <= value <= axis.max():
                 raise ValueError(f"{word} {value:g} is not on the map, which has {axis.min():g} to {axis.max():g}")
+        return self._frame(values)
+
+    def _frame(self, values: Sequence[float]) -> MapFrame:
+        """The frame at values of both words, on the map or beyond it: those of the block may lie there."""
         (frame,) = self.frames([values])
         if frame.contour is None:
             told = first_error(self.answer(values))
@@ -157,7 +161,7 @@ class LiveMap:
 
     def data(self) -> Data:
         """All that a page needs: the map, the values, and frames on a grid that is as fine as its bounds allow."""
-        one = self.look(self.stated)
+        one = self._frame(self.stated)
         size = len(one.text) + (30 * len(one.contour.elements) if one.contour is not None else 0)
         most = min(MOST_FRAMES if self._is_quick() else MOST_SLOW_FRAMES, MOST_BYTES // size)
         while True:
@@ -179,7 +183,7 @@ class LiveMap:
         columns, rows = (_spread(axis.size, count) for axis, count in zip(self.axes, (across, up), strict=True))
         places = [(float(self.axes[0][i]), float(self.axes[1][j])) for i in columns for j in rows]
         frames = list(self.frames(places))
-        stated = self.look(self.stated)
+        stated = self._frame(self.stated)
         view = _view_of([each.contour for each in frames if each.contour is not None], stated.contour)
         texts = list(dict.fromkeys(each.text for each in frames if each.contour is None))
         plane = self.answer(places[0]).plane

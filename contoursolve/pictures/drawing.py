@@ -41,10 +41,7 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, **options: Any) -> Pic
     """
     kind = type(record).__name__
     if kind not in _DRAWN:
-        raise TypeError(
-            f"{kind} has no picture; one is drawn of a contour, a program, two programs, a family, a range, a system, "
-            "or a sketch"
-        )
+        raise TypeError(f"{kind} has no picture by itself; one is drawn of {', '.join(_DRAWN)}")
     make, known = _DRAWN[kind]
     unknown = next((name for name in options if name not in known), None)
     if unknown is not None:

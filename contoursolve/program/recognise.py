@@ -8,7 +8,7 @@ from itertools import islice
 
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import either, join
-from contoursolve.diagnostics import ProgramError
+from contoursolve.diagnostics import ProgramError, did_you_mean
 from contoursolve.gcode import (
     ISO,
     Block,
@@ -147,7 +147,10 @@ def named_control(control: str | Control | None, settings: Mapping[str, str] | N
 def find_dialect(control: str) -> Control:
     """The control of this name. Raises UnknownControlError, which lists the choices."""
     if control not in CONTROLS:
-        raise UnknownControlError(f"unknown control {control!r}; choose from {', '.join(CONTROLS)}")
+        hint = did_you_mean(control, CONTROLS)
+        if ":" in control:
+            hint = "in Python, give the record itself, such as control=MY_LATHE, or "
+        raise UnknownControlError(f"unknown control {control!r}; {hint}choose from {', '.join(CONTROLS)}")
     return CONTROLS[control]
 
 

@@ -134,6 +134,8 @@ class ParsedContour:
     """The words that shape its path, or the block behind it, in a way that contoursolve does not read."""
     repeated: tuple[Word, ...] = ()
     circumstances: frozenset[str] = frozenset()
+    passing: frozenset[str] = frozenset()
+    """Those of its circumstances that end where words determine it."""
     choices: tuple[Choice, ...] = ()
     selectors: tuple[Selector, ...] = ()
     """The words that would choose, whether they are stated or not."""

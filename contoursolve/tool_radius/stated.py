@@ -8,7 +8,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import rank
-from contoursolve.diagnostics import did_you_mean
+from contoursolve.diagnostics import check_type, choice_of, did_you_mean
 from contoursolve.program import Result, find_tool_table
 from contoursolve.reading import ReadIssue
 from contoursolve.tool_radius.findings import ToolReport
@@ -30,6 +30,10 @@ def wanted_tool(
     program: str, tool: str | None = None, tip: int | None = None, side: str | None = None, outside: str | None = None
 ) -> ToolRequest:
     """The tool as it is asked for. Raises ToolError, SettingError."""
+    if tool is not None:
+        check_type("tool", tool, str, 'a text such as "R0.8, tip 3"')
+    if tip is not None:
+        check_type("tip", tip, int, "a number such as 3")
     folder = Path() if program.startswith("<") else Path(program).parent
     is_own = tool is None or tool.strip().lower() == FROM_PROGRAM
     make_tool(Decimal(0), tip)
@@ -42,8 +46,8 @@ def wanted_tool(
     return ToolRequest(
         None if is_own or tool is None else read_tool(tool, tip),
         tip,
-        ToolSide(side) if side else None,
-        OutsideCorner(outside) if outside else None,
+        choice_of(ToolSide, side, "side") if side else None,
+        choice_of(OutsideCorner, outside, "outside") if outside else None,
         table,
     )
 

@@ -332,6 +332,8 @@ def test_a_family_is_a_mapping_that_knows_where_it_comes_from_and_has_each_conto
         found.contour(A=180, P=60)
     frame = pandas.DataFrame.from_arrow(found)
     assert (list(frame), frame["A"].tolist()) == (list(found), [170, 180, 190])
+    with pytest.raises(TypeError, match=r"its table is pandas\.DataFrame\.from_arrow\(family\)"):
+        pandas.DataFrame(found)
     told = {"block": BLOCK, "start": START, "control": "yasnac-lx3"}
     assert told.items() <= found.origin.items()
     assert found.to_xarray().attrs == found.origin
@@ -526,8 +528,10 @@ def test_a_sweep_that_makes_no_sense_is_one_line_and_status_2(arguments, message
 
 def test_tolerances_add_up_at_worst_and_in_squares():
     found = sensitivity(BLOCK, start=START)
-    spread = found.spread({"K": 0.03, "X": 0.04 / abs(found.slopes["V2 Z"]["X"])})["V2 Z"]
+    spreads = found.spread({"K": 0.03, "X": 0.04 / abs(found.slopes["V2 Z"]["X"])})
+    spread = spreads["V2 Z"]
     assert (spread.worst, spread.typical) == pytest.approx((0.07, 0.05))
+    assert spreads["Z of V2"] == spread  # a name that the slopes take, too
     with pytest.raises(FamilyError, match="no word R; there are X, A, K, B, P, Q"):
         found.spread({"R": 1})
 

@@ -79,7 +79,7 @@ def test_a_picture_says_which_options_its_record_has():
     assert contoursolve.draw(answer, title="mine", theme="dark").title == "mine"
     with pytest.raises(TypeError, match="a picture of Answer has no option 'result'; it has theme, title, like"):
         contoursolve.draw(answer, result="end.Z")
-    with pytest.raises(TypeError, match="Contour has no picture; one is drawn of a contour"):
+    with pytest.raises(TypeError, match="Contour has no picture by itself; one is drawn of Answer, Result"):
         contoursolve.draw(answer.contour)
     with pytest.raises(ValueError, match="theme cannot be 'blue'; choose from light, dark, page"):
         contoursolve.draw(answer, theme="blue")
@@ -100,8 +100,15 @@ def test_a_file_is_written_by_its_ending(tmp_path: Path):
     assert contoursolve.report(result) == (tmp_path / "a.html").read_text(encoding="utf-8")
     with pytest.raises(ValueError, match=r"a file ends in \.dxf, \.json"):
         contoursolve.export(result, tmp_path / "a.txt")
-    with pytest.raises(ValueError, match=r"a Family is not written as \.dxf"):
-        contoursolve.export(family, tmp_path / "a.dxf")
+    for record, name, told in (
+        (family, "a.dxf", r"Family is not written as \.dxf, but as \.csv, \.parquet, \.html"),
+        (result.answer, "a.json", r"Answer is not written as \.json; that is for Result"),
+    ):
+        with pytest.raises(ValueError, match=told):
+            contoursolve.export(record, tmp_path / name)
+    for name in ("a.csv", "a.parquet", "a.html"):
+        with pytest.raises(UserError, match="cannot be written"):
+            contoursolve.export(family, tmp_path / "no folder" / name)
     with pytest.raises(ValueError, match="the drawing would be empty"):
         contoursolve.export(contoursolve.solve("G111 X100. B120.", start=START), tmp_path / "b.dxf")
     with pytest.raises(ValueError, match="only the map of a family or a region is coloured by a result"):
@@ -112,6 +119,27 @@ def test_a_file_is_written_by_its_ending(tmp_path: Path):
     with pytest.raises(TypeError, match="a picture of Family has no option 'tool'"):
         contoursolve.draw(family, tool=tool)
     assert not [*tmp_path.glob("b.[jcd]*")]
+
+
+def test_a_misspelt_name_tells_what_was_meant():
+    with pytest.raises(AttributeError, match="no attribute 'slove'; did you mean solve"):
+        _ = contoursolve.slove
+    with pytest.raises(UserError, match="unknown control 'siemens'; did you mean siemens-840d or siemens-808d"):
+        contoursolve.solve("G01", control="siemens")
+    with pytest.raises(UserError, match="give the record itself"):
+        contoursolve.solve("G01", control="lathe:MY_LATHE")
+    system = contoursolve.system(BLOCK, start=START)
+    with pytest.raises(TypeError, match="a function takes all words"):
+        system.function(["A"])
+    with pytest.raises(ValueError, match=r"could follow; nothing determines Z_V1, X_V1 and Z_V2"):
+        contoursolve.system(BLOCK.replace("K-30.", ""), start=START).function()
+    assert system.of_word("B120.") == system.of_word("B")
+    with pytest.raises(TypeError, match=r"tool is a text such as .*, not 0\.8"):
+        contoursolve.solve(BLOCK, start=START, tool=0.8)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="side cannot be 'rigth'; choose from left, right"):
+        contoursolve.solve(BLOCK, start=START, tool="R0.8, tip 3", side="rigth")
+    with pytest.raises(TypeError, match=r"several words are allowed=\{'A': 0.1\}"):
+        contoursolve.tolerances(BLOCK, {"A": 0.1}, start=START)  # type: ignore[call-overload]
 
 
 def test_a_rule_is_explained_by_its_code_or_its_alarm():

@@ -403,6 +403,20 @@ def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
             assert re.findall("[LA]", path) == ["A" if hasattr(each, "radius") else "L" for each in contour.elements]
 
 
+def test_a_map_beside_the_values_of_the_block_still_shows_the_block():
+    vary = {"A": [150, 160, 170], "P": [1, 2, 3]}
+    for record in (
+        contoursolve.family(BLOCK, start=START, vary=vary),
+        contoursolve.ranges(BLOCK, ("A", "P"), ((150, 170), (1, 3)), start=START),
+    ):
+        data = data_of(map_page(record))
+        assert (data["stated"], bool(data["ghost"])) == ([180.0, 5.0], True)
+        shown = contoursolve.explore(record)
+        assert shown.values == {**shown.values, "A": 180.0, "P": 5.0}
+        shown.place = {"values": [180, 5], "number": 1}
+        assert "A 180 is not on the map, which has 150 to 170" in shown.seen["text"]
+
+
 def test_a_page_asks_no_other_host_and_lets_nothing_out_of_its_texts():
     block = "G111 X100. A180. K-30. B120. P5. (</script><script>stolen=1</script><img src=x onerror=y>)"
     vary = {"A": [170, 180, 190], "P": [2, 5]}

@@ -43,9 +43,26 @@ def test_an_answer_with_other_words_is_that_of_the_block_with_these_words():
     assert [each.code for each in again.diagnostics] == [each.code for each in other.diagnostics]
     with pytest.raises(ValueError, match="the blocks have no word Z; they have"):
         answer.with_words(change={"Z": "Z-1."})
-    # A text is a sequence of letters, each of which would be a word.
-    with pytest.raises(TypeError, match=r"add is a list of words, such as \['P2\.'\]"):
-        answer.with_words(add="P2.")
+
+
+def test_a_word_is_added_to_the_last_block_or_to_that_of_its_line():
+    answer = contoursolve.solve(
+        "FL AN+80 LEN50\nFCT DR- R15\nFLT X+90 Y+40", start="X+0 Y+0", control="heidenhain"
+    ).answer
+    shorter = answer.with_words(drop="LEN")
+    assert shorter.status is contoursolve.Status.UNDERDETERMINED
+    for added in ("1:LEN50", ["1:LEN50"]):
+        assert shorter.with_words(add=added).contour == answer.contour
+    with pytest.raises(ValueError, match="9:LEN50: the blocks of the contour are in program lines 1, 2, 3"):
+        shorter.with_words(add="9:LEN50")
+
+
+def test_a_chain_that_a_move_cuts_off_lacks_the_same_words():
+    chain = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL AN+80\n3 FL X+90 Y+40\n{}4 END PGM A MM"
+    ended, cut = (contoursolve.solve(chain.format(more)).answer for more in ("", "L X+100 Y+0\n"))
+    assert [each.code for each in cut.diagnostics] == ["words-missing", "heidenhain-block-illegal"]
+    assert cut.missing == ended.missing
+    assert ("AN",) in cut.missing
 
 
 def test_a_contour_of_a_program_stands_alone_in_inches_too():

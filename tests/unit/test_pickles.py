@@ -68,7 +68,7 @@ def of_a_block() -> Iterator[object]:
     yield contoursolve.tolerances(WHOLE, allowed={"P": 0.05}, **start)
     yield contoursolve.tolerances(WHOLE, "A", keep="end Z", within=0.1, **start)
     lacking = contoursolve.solve(SHORT, **start).answer
-    yield from (*lacking.completions, *lacking.addable, *NCT_99M.examples[:5])
+    yield from (lacking.system.null_space, *lacking.completions, *lacking.addable, *NCT_99M.examples[:5])
     program = Document("p.nc", f"G00 {START}\n{WHOLE}".encode())
     yield verify(program, Document("p.json", to_json(contoursolve.solve(program.data.decode())).encode()))
     yield contoursolve.exercise(WHOLE, "V2 Z", seed=1, **start)

@@ -132,7 +132,8 @@ def claim_of(chain: ChainBlocks, before: State, modes: Modes) -> ParsedContour:
         # From a place that is known, CC may have one.
         claim = replace_fields(claim, needs_place=True)
     if chain.is_cut and _has_free(members) and _is_open(read(claim, frozenset())):
-        return replace_fields(claim, circumstances=claim.circumstances | {f"{len(members)}:{CUT}"})
+        cut = frozenset({f"{len(members)}:{CUT}"})
+        return replace_fields(claim, circumstances=claim.circumstances | cut, passing=cut)
     return claim
 
 
