@@ -445,7 +445,7 @@ class EquationSystem(Shown):
             raise TypeError(f"a function takes all words, and no names but its own: function()(B=120), not {name!r}")
         chosen = self._chosen
         if chosen is None:
-            why = f"{join(list(map(str, self.free)))} is still open" if self.free else "subs(B=150) writes others"
+            why = f"still open: {join(list(map(str, self.free)))}" if self.free else "subs(B=150) writes others"
             raise ValueError(f"there is no contour at the values of the words that a function could follow; {why}")
         inputs, typed = self._inputs()
         known = self.inputs, chosen.scalars

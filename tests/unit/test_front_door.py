@@ -131,7 +131,7 @@ def test_a_misspelt_name_tells_what_was_meant():
     system = contoursolve.system(BLOCK, start=START)
     with pytest.raises(TypeError, match="a function takes all words"):
         system.function(["A"])
-    with pytest.raises(ValueError, match=r"could follow; nothing determines Z_V1, X_V1 and Z_V2"):
+    with pytest.raises(ValueError, match=r"could follow; still open: Z_V1, X_V1 and Z_V2"):
         contoursolve.system(BLOCK.replace("K-30.", ""), start=START).function()
     assert system.of_word("B120.") == system.of_word("B")
     with pytest.raises(TypeError, match=r"tool is a text such as .*, not 0\.8"):
