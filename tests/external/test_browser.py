@@ -237,7 +237,7 @@ def test_a_map_answers_to_the_pointer_and_to_keys_without_a_kernel(browser, tmp_
             stage.press("ArrowDown")
         first, second = check_told(page)
         assert second == 1
-        assert re.fullmatch(r"line 1.room [\d.]+ mm", told(page)[1][1])
+        assert re.fullmatch(r"straight part of line 1 [\d.]+ mm", told(page)[1][1])
         stage.press("ArrowLeft")
         assert check_told(page)[0] < first
         held = re.search(

@@ -248,8 +248,8 @@ def test_ranges_with_facts_and_start_points_are_those_of_a_fine_family(block, op
     ],
 )
 def test_a_cut_through_a_region_with_facts_is_what_a_fine_family_shows(name, words):
-    block, options, ranges = FACTS[name]
-    within = [ranges.get(word, (0, 60)) for word in words]
+    block, options, bounds = FACTS[name]
+    within = [bounds.get(word, (0, 60)) for word in words]
     found = ranges(block, words, within, **options)
     (low, high), span = within
     axis = np.linspace(*span, 161)
