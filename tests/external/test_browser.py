@@ -270,7 +270,7 @@ def test_the_page_of_a_map_is_accessible(axe, browser, tmp_path, scheme):
 @pytest.mark.slow
 def test_in_jupyterlab_a_map_is_solved_where_the_pointer_is_and_opens_the_explorer(browser, tmp_path, artefacts):
     kind = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None, "id": "map"}
-    cell = {**kind, "source": f"import contoursolve\n{REGION}\ncontoursolve.explore(region, 'end Z')"}
+    cell = {**kind, "source": f"import contoursolve\n{REGION}\ncontoursolve.explore(region, result='end Z')"}
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     document = {"cells": [cell], "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
     (tmp_path / "map.ipynb").write_text(json.dumps(document), encoding="utf-8")
