@@ -42,7 +42,8 @@ LINE = re.compile(r"(?<!program )\bline \d+\b|(?<!program )\blines \d+\b")
 POINT = re.compile(
     r"^ *(?:(?:error|warning|info)\[.*|= .*)(?<![\w.=+-])([PV]\d+) (?:is|are|can|does|do) ", re.MULTILINE
 )
-QUOTED = re.compile(r"^ *(?:--fact )?\d* [|].*$", re.MULTILINE)
+QUOTED = re.compile(r"^ *(?:--fact )?\d* [|].*$|^error\[fact-unreadable\].*$", re.MULTILINE)
+"""Lines of the program, and what is said about a fact, which has the names that facts have."""
 
 
 def test_a_line_is_a_line_of_the_program_and_findings_name_points_by_where_they_lie() -> None:
