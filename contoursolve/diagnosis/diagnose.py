@@ -429,12 +429,12 @@ def _reasons(
 
 def _freedoms(profile: Profile, affine: AffineFacts | None) -> Iterator[Freedom]:
     """The points that can still move: of lines alone, whatever these say; else in a drawing, where one is found."""
-    from contoursolve.solving import drawings  # noqa: PLC0415 - few blocks lack words
+    from contoursolve.solving import first_drawing  # noqa: PLC0415 - few blocks lack words
 
     if affine is not None:
         yield from affine.freedoms()
-    elif profile.start.is_known and not analyse(assemble(profile)).is_determined:
-        drawing = next(drawings(profile), None)
+    elif not analyse(assemble(profile)).is_determined:
+        drawing = first_drawing(profile)
         yield from drawing.freedoms() if drawing is not None else ()
 
 

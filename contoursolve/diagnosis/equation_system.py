@@ -60,10 +60,10 @@ from contoursolve.solving import (
     circuits_of,
     conditions_of,
     corner_equations,
-    drawings,
     ends_somewhere,
     find_alternatives,
     find_ties,
+    first_drawing,
     givens_of_facts,
     is_known,
     is_searched,
@@ -252,7 +252,7 @@ class EquationSystem(Shown):
     @cached_property
     def null_space(self) -> NullSpace | None:
         """The motions that are left at a drawing that has all that is stated; None where none is found."""
-        drawing = next(drawings(self.profile), None) if self.profile.start.is_known else None
+        drawing = first_drawing(self.profile)
         if drawing is None:
             return None
         names, verdict, exact = self._system.unknowns, self._verdict, None

@@ -1,14 +1,11 @@
 """Opens the explorer of a contour or a map, where its packages are installed."""
 
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Unpack, overload
 
-from contoursolve.controls import ControlName
 from contoursolve.diagnostics import LateModule, importing
-from contoursolve.families import Family, FeasibleRegion, with_numbers
+from contoursolve.families import BlockOptions, Family, FeasibleRegion, with_numbers
 from contoursolve.notebook.exploration import begin, rewrite_block
-from contoursolve.program import Rules, Units
-from contoursolve.reading import Control
+from contoursolve.program import takes
 from contoursolve.tool_radius import SideName
 
 if TYPE_CHECKING:
@@ -29,32 +26,21 @@ def explore(
     block: str,
     *,
     line: int | None = None,
-    start: str | None = None,
-    control: ControlName | Control | None = None,
-    units: Units = "mm",
-    rules: Rules = "enforce",
-    facts: Iterable[str] = (),
-    settings: Mapping[str, str] | None = None,
-    variables: Mapping[str, float] | None = None,
     tool: str | None = None,
     side: SideName | None = None,
+    **options: Unpack[BlockOptions],
 ) -> "explorer.Explorer": ...
 
 
-def explore(  # noqa: PLR0913 - what `solve` takes
+@takes(BlockOptions)
+def explore(
     block: str | Family | FeasibleRegion,
     *,
     line: int | None = None,
-    start: str | None = None,
-    control: ControlName | Control | None = None,
-    units: Units = "mm",
-    rules: Rules = "enforce",
-    facts: Iterable[str] = (),
-    settings: Mapping[str, str] | None = None,
-    variables: Mapping[str, float] | None = None,
     tool: str | None = None,
     side: SideName | None = None,
     result: str | None = None,
+    **options: Unpack[BlockOptions],
 ) -> "explorer.Explorer | map_explorer.MapExplorer":
     """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
 
@@ -80,11 +66,12 @@ def explore(  # noqa: PLR0913 - what `solve` takes
         return MapExplorer(block, result)
     with importing("notebook", "exploring a contour"):
         from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
-    options: dict[str, Any] = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
+    asked: dict[str, Any] = {**options}
+    facts, variables = asked.pop("facts", ()), asked.pop("variables", None)
     if variables and line is not None:
-        now = begin(block, line=line, variables=variables, **options)
-        own = with_numbers(now.block, now.options["control"], settings, variables)
-        return Explorer(begin(rewrite_block(now, own).text, facts, line, tool, side, variables=variables, **options))
+        now = begin(block, line=line, variables=variables, **asked)
+        own = with_numbers(now.block, now.options["control"], asked.get("settings"), variables)
+        return Explorer(begin(rewrite_block(now, own).text, facts, line, tool, side, variables=variables, **asked))
     if variables:
-        block = with_numbers(block, control, settings, variables)
-    return Explorer(begin(block, facts, line, tool, side, **options))
+        block = with_numbers(block, asked.get("control"), asked.get("settings"), variables)
+    return Explorer(begin(block, facts, line, tool, side, **asked))

@@ -153,6 +153,7 @@ from .motions import (
     NaturalDrawing as NaturalDrawing,
     NullMotion as NullMotion,
     drawings as drawings,
+    first_drawing as first_drawing,
     open_at_values as open_at_values,
 )
 from .natural_layout import told_by as told_by

@@ -143,9 +143,10 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: ExactS
     residuals = [fact.residual(at) for fact in system.facts]
     refusals, remarks = _compare(profile, system, residuals, at, scalars)
     if not refusals:
-        refusals += judge_range(path.measured)
+        measured = path.measured()
+        refusals += judge_range(measured)
         if not refusals:
-            refusals += judge_path(path.measured)
+            refusals += judge_path(measured)
             remarks += vanishing_lines(system.figure, path.measures)
     sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
@@ -190,7 +191,6 @@ class _Path(Struct, frozen=True):
         out = machine.function(values)
         return cls(profile, system, numbers, sizes, values, out, machine.path.read(out.__getitem__))
 
-    @property
     def measured(self) -> MeasuredPath:
         """The same, to be judged."""
         machine, profile = compile_path(self.system), self.profile
@@ -222,7 +222,8 @@ class _Path(Struct, frozen=True):
 def drawn_at(profile: Profile, scalars: Mapping[str, float]) -> SystemSolution:
     """The path at a place of all unknowns (mm) at which facts hold, with its corners, or what speaks against it."""
     path = _Path.at(profile, assemble(profile), {name: ball.exact(value) for name, value in scalars.items()})
-    return path.solution(scalars, judge_range(path.measured) or judge_path(path.measured), [])
+    measured = path.measured()
+    return path.solution(scalars, judge_range(measured) or judge_path(measured), [])
 
 
 def _doubtful(found: ExactSolution, places: Sequence[tuple[Number, float]], gap: float | None) -> Certificate:

@@ -334,10 +334,15 @@ def drawings(
     yield from (drawing for _, drawing in sorted(further, key=lambda each: each[0]))
 
 
+def first_drawing(profile: Profile) -> NaturalDrawing | None:
+    """The first of the drawings of a contour; None where none is found, or its start is not known."""
+    return next(drawings(profile), None) if profile.start.is_known else None
+
+
 def open_at_values(profile: Profile, verdict: Determinacy) -> tuple[str, ...]:
     """The unknowns that can still move at the values of a profile, of those that nothing determines in general; all of
     these where no drawing tells."""
-    drawing = next(drawings(profile), None) if profile.start.is_known else None
+    drawing = first_drawing(profile)
     if drawing is None or drawing.dimension != len(assemble(profile).unknowns) - verdict.rank:
         return verdict.free
     return tuple(name for name in verdict.free if name not in drawing.fixed)
