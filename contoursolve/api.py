@@ -27,7 +27,7 @@ from contoursolve.program import (
     SolveOptions,
     choose_alike,
     configure,
-    find_dialect,
+    find_control,
     find_settings,
     for_kind,
     restate_control,
@@ -269,13 +269,13 @@ def follow_program(
 def follow_options(program: Program, options: SolveOptions) -> Run:
     """The same, with its options in a record."""
     asked = options.request(program.name)
-    dialect = choose_alike(options.control, program, asked, options.settings)
-    asked = asked if dialect is None else asked.of(dialect, lambda: (block.text for block in program.blocks))
+    control = choose_alike(options.control, program, asked, options.settings)
+    asked = asked if control is None else asked.of(control, lambda: (block.text for block in program.blocks))
     together = None
-    if asked.dialect is not None and len(program.blocks) >= _MANY:
+    if asked.control is not None and len(program.blocks) >= _MANY:
         from contoursolve.program import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
 
-        together = Batch(asked.dialect, asked.policy, is_proven=asked.depth.is_proven)
+        together = Batch(asked.control, asked.policy, is_proven=asked.depth.is_proven)
     return Run(program, asked, together)
 
 
@@ -405,30 +405,30 @@ def convert(
     )
 
     told = SolveOptions(**options)
-    target = to if isinstance(to, Control) else configure(find_dialect(to), told.settings)
+    target = to if isinstance(to, Control) else configure(find_control(to), told.settings)
     if language_of(target) is None:
         raise ConversionError(
             f"contours cannot be written in the words of {target.title} ({target.name}): its blocks are of another kind"
         )
-    dialect = choose_alike(told.control, gcode.parse(text, name), told.request(name), told.settings)
-    if dialect is not None:
-        target = for_kind(target, told.settings or {}, machine_of(dialect).value)
-    if dialect is not None and machine_of(dialect) is not machine_of(target):
-        one, other = (f"{each.title} ({each.name}, a {machine_of(each).value})" for each in (dialect, target))
-        switches = (each.name for each in (dialect, target) if any(one.name == "machine" for one in each.settings))
+    control = choose_alike(told.control, gcode.parse(text, name), told.request(name), told.settings)
+    if control is not None:
+        target = for_kind(target, told.settings or {}, machine_of(control).value)
+    if control is not None and machine_of(control) is not machine_of(target):
+        one, other = (f"{each.title} ({each.name}, a {machine_of(each).value})" for each in (control, target))
+        switches = (each.name for each in (control, target) if any(one.name == "machine" for one in each.settings))
         advice = "".join(f"; for a lathe, set {name}.machine=lathe" for name in switches)
         raise ConversionError(f"a program is converted for the same kind of machine, not from {one} to {other}{advice}")
     post = post_of(target)
     kept: dict[str, Any] = {"units": told.units, "rules": told.rules}
-    found = expand(text, post=post, comments=comments, control=dialect, name=name, **kept)
+    found = expand(text, post=post, comments=comments, control=control, name=name, **kept)
     found = replace(found, text=found.text and restate_control(found.text, target.name, target.modes.settings))
-    if found.text is None or dialect is None:
+    if found.text is None or control is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)
     asked = replace(told, strict=True).request(name)
-    axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
+    axes = tuple(sorted({*control.modes.axes, *target.modes.axes}))
     old, new = (
-        follow(run(gcode.parse(program, name), replace(asked, dialect=each)), each, asked.unit, axes)
-        for program, each in ((text, dialect), (found.text, target))
+        follow(run(gcode.parse(program, name), replace(asked, control=each)), each, asked.unit, axes)
+        for program, each in ((text, control), (found.text, target))
     )
     comparison = compare(old, new, _CONVERTED_WITHIN)
     is_same = comparison.is_equal

@@ -13,7 +13,7 @@ from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import UserError, check_type, choice_of, did_you_mean, importing
 from contoursolve.gcode import CannotWriteError, write_whole
 from contoursolve.pictures import Picture, Theme
-from contoursolve.program import Result, find_dialect
+from contoursolve.program import Result, find_control
 from contoursolve.reading import Control
 from contoursolve.sketches import ContourSketch
 
@@ -169,7 +169,7 @@ def explain(code: str, control: str | Control | None = None) -> str:
     '# g111-line-1'
     """
     check_type("code", code, str)
-    chosen = [control if isinstance(control, Control) else find_dialect(control)] if control else [*CONTROLS.values()]
+    chosen = [control if isinstance(control, Control) else find_control(control)] if control else [*CONTROLS.values()]
     wanted = str(code).strip().lower()
     behind = {row.rule.code for row in output.alarm_rows(chosen) if row.is_called(wanted)}
     known = {rule.code for each in chosen for rule in each.catalogue}

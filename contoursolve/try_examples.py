@@ -13,9 +13,9 @@ from contoursolve.reading import THIS_CONTROL, Control, Rule
 _KEYWORDS = {"--start": "start", "--rules": "rules", "--units": "units"}
 
 
-def try_example(dialect: Control, rule: Rule, program: str, depth: str = "full") -> Result:
+def try_example(control: Control, rule: Rule, program: str, depth: str = "full") -> Result:
     """The result of an example of a rule of a control, with the findings about every line; `depth` as for `solve`."""
-    words = shlex.split(rule.options.replace(THIS_CONTROL, dialect.name))
+    words = shlex.split(rule.options.replace(THIS_CONTROL, control.name))
     options: dict[str, Any] = {"depth": depth} | {
         _KEYWORDS[name]: words[at + 1] for at, name in enumerate(words) if name in _KEYWORDS
     }
@@ -26,5 +26,5 @@ def try_example(dialect: Control, rule: Rule, program: str, depth: str = "full")
         if name:
             (Path(folder) / name).write_text(text, encoding="utf-8")
         # A name: what is concluded of a program on a control is concluded then.
-        control = next((each for each in CONTROLS if each == dialect.name and CONTROLS[each] is dialect), dialect)
-        return follow_program(parse(program), control=control, strict=True, folders=[folder], **options).collect()
+        given = next((each for each in CONTROLS if each == control.name and CONTROLS[each] is control), control)
+        return follow_program(parse(program), control=given, strict=True, folders=[folder], **options).collect()

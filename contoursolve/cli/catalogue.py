@@ -38,7 +38,7 @@ def _chosen(control: str | Control | None) -> list[Control]:
     """The control that is asked for, or all that are built in."""
     if isinstance(control, Control):
         return [control]
-    return [dialect for name, dialect in CONTROLS.items() if control in (None, name)]
+    return [each for name, each in CONTROLS.items() if control in (None, name)]
 
 
 @click.command(short_help="List the further facts that can be stated about a contour.")
@@ -66,11 +66,11 @@ def explain(code: str, control: str | Control | None) -> None:
 
     wanted, chosen = code.strip().lower(), _chosen(control)
     found = {kind.code: (kind.rule, ["every control, with --tool"]) for kind in ToolFaultKind if kind.code == wanted}
-    named = [(rule, dialect.name) for dialect in chosen for rule in dialect.rules if rule.code == wanted]
+    named = [(rule, each.name) for each in chosen for rule in each.rules if rule.code == wanted]
     behind = [(row.rule, row.control) for row in alarm_rows(chosen) if row.is_called(wanted)]
     if not named:  # some controls have a row of their own about the same
         about = {rule.about for each in CONTROLS.values() for rule in each.rules if rule.code == wanted} - {None}
-        named = [(rule, dialect.name) for dialect in chosen for rule in dialect.rules if rule.about in about]
+        named = [(rule, each.name) for each in chosen for rule in each.rules if rule.about in about]
     met = [(rule, name) for rule, name in named if not rule.absent]
     for rule, name in (met or named) + behind:
         found.setdefault(rule.code, (rule, []))[1].append(name)

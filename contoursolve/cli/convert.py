@@ -22,7 +22,7 @@ from contoursolve.postprocess import Conversion, Post, post_of
 from contoursolve.program import Rules, Units
 from contoursolve.reading import Control
 
-_TARGETS = tuple(name for name, dialect in CONTROLS.items() if isinstance(dialect.find, ChainFinder))
+_TARGETS = tuple(name for name, control in CONTROLS.items() if isinstance(control.find, ChainFinder))
 
 
 @click.command(short_help="Write a program's contours in another control's own words.")

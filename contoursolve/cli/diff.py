@@ -132,22 +132,22 @@ def diff(
         program = read_program(path)
         before = sides[0][1] if sides else None
         is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
-        dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments, folders)
+        chosen = _control_of(program, own or (before if is_kept else None), before, assignments, folders)
         told = SolveOptions(units=unit, rules=rules, variables=variables, folders=folders, strict=True)
-        asked = told.request(program.name, dialect)
-        sides.append((run(program, asked), dialect, asked))
+        asked = told.request(program.name, chosen)
+        sides.append((run(program, asked), chosen, asked))
     results = [result for result, _, _ in sides]
     if any(map(_has_no_path, results)):
         if format_ == "json":
             click.echo(differences.refusal_to_json(results))
         else:
-            for (result, dialect, asked), path in zip(sides, (old, new), strict=True):
-                print_findings(result, path, control=dialect, units=asked.unit.value)
+            for (result, chosen, asked), path in zip(sides, (old, new), strict=True):
+                print_findings(result, path, control=chosen, units=asked.unit.value)
             say("not compared: a program that has errors has no path")
         context.exit(FOUND_ERRORS)
-    axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))
+    axes = tuple(sorted({axis for _, chosen, _ in sides for axis in chosen.modes.axes}))
     finishes = tool is not None
-    one, other = (follow(result, dialect, asked.unit, axes, finishes=finishes) for result, dialect, asked in sides)
+    one, other = (follow(result, chosen, asked.unit, axes, finishes=finishes) for result, chosen, asked in sides)
     if tool is not None:
         one, other = _beside_tool(sides, (one, other), tool, stated)
     comparison = compare(one, other, tolerance)
@@ -200,7 +200,7 @@ def _reads_what_shows_others(control: Control, program: Program) -> bool:
     return all(word.number in codes if word.address == "G" else word.address in addresses for word in shown)
 
 
-def _dialect_of(
+def _control_of(
     program: Program,
     control: str | Control | None,
     otherwise: Control | None,
@@ -217,9 +217,9 @@ def _dialect_of(
             if named
             else choose_alike(None, program, SolveOptions(folders=folders).request(program.name), settings)
         )
-        dialect = named or shown or otherwise
-        if dialect is not None:
-            return shown or configure(dialect, settings)
+        chosen = named or shown or otherwise
+        if chosen is not None:
+            return shown or configure(chosen, settings)
     choices = "|".join(_ANY_CONTROL)
     raise CouldNotRunError(f"{program.name}: no block shows the control; say which with --control {choices}")
 

@@ -9,7 +9,7 @@ import click
 
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.gcode import decode, read_bytes, write_whole
-from contoursolve.program import find_dialect
+from contoursolve.program import find_control
 from contoursolve.reading import Control
 from contoursolve.sketches import ContourSketch, read_dxf, read_sketch, write_sketch
 
@@ -76,7 +76,7 @@ def read_drawn(file: str, control: str | Control | None, drawing: Mapping[str, A
             raise click.UsageError(
                 "a DXF drawing does not say how its part is made: add --part turned or --part milled"
             )
-        target = find_dialect(control) if isinstance(control, str) else control
+        target = find_control(control) if isinstance(control, str) else control
         given["part"] = "turned" if any(target.plane.diameters) else "milled"
     if kept and Path(kept).exists():
         raise click.UsageError(f"{kept} exists; name another file for the sketch")

@@ -21,7 +21,7 @@ COMMANDS = {
     "draw": "pictures:draw",
     "report": "pictures:report",
     "system": "solve:system",
-    "family": "sweep:family",
+    "family": "family:family",
     "ranges": "questions:ranges",
     "find": "questions:find",
     "sensitivity": "questions:sensitivity",

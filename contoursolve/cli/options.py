@@ -52,12 +52,12 @@ class ControlType(click.ParamType):  # type: ignore[type-arg]  # generic in newe
             return value if isinstance(value, Control) else self.names.convert(value, param, ctx)
         module, _, name = value.partition(":")
         try:
-            dialect = _load(module, name)
+            control = _load(module, name)
         except (ImportError, TypeError) as error:
             self.fail(f"{value}: {error}", param, ctx)
         if ctx is not None:
-            ctx.meta[dialect.name] = value
-        return dialect
+            ctx.meta[control.name] = value
+        return control
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         return self.names.shell_complete(ctx, param, incomplete)

@@ -91,21 +91,21 @@ def _with_place(step: Step) -> Step:
 
 
 def follow(
-    result: Result, dialect: Control, unit: Length, axes: tuple[str, ...], *, finishes: bool = False
+    result: Result, control: Control, unit: Length, axes: tuple[str, ...], *, finishes: bool = False
 ) -> ToolPath:
     """The path of a program that has been solved for this control; `unit` is that before any G20 or G21. With
     `finishes`, G70 runs the profile that it names."""
-    follower = _Follower(dialect, unit, axes)
-    machine = machine_for(result.program, dialect, result.around, unit)
+    follower = _Follower(control, unit, axes)
+    machine = machine_for(result.program, control, result.around, unit)
     if machine is None:
         for block in result.start.blocks if result.start else ():
-            follower.state = advance(follower.state, block, dialect.modes)
+            follower.state = advance(follower.state, block, control.modes)
         steps = follower.walk(result.program, result.answers)
     else:
-        asked, machine.finishes = Request(dialect, unit, result.policy, Depth.VERDICT, result.start), finishes
+        asked, machine.finishes = Request(control, unit, result.policy, Depth.VERDICT, result.start), finishes
         steps = follower.run(walk((), asked, machine=machine, is_whole=True), finishes=finishes)
     program, ran = result.program, tuple(steps)  # which fills `follower.ran`
-    return ToolPath(program.name, dialect.name, axes, ran, tuple(follower.ran), program, dialect.modes)
+    return ToolPath(program.name, control.name, axes, ran, tuple(follower.ran), program, control.modes)
 
 
 def in_cycle(block: Block, cycles: Sequence[str]) -> bool:
@@ -121,16 +121,16 @@ def _finishes(block: Block) -> bool:
 class _Follower:
     """The state as it goes, and how words are read."""
 
-    def __init__(self, dialect: Control, unit: Length, axes: tuple[str, ...]) -> None:
-        self.modes = dialect.modes
-        self.switches = CENTERS.get(dialect.name, {})
+    def __init__(self, control: Control, unit: Length, axes: tuple[str, ...]) -> None:
+        self.modes = control.modes
+        self.switches = CENTERS.get(control.name, {})
         self.centers = Centers.START
-        self.state = dialect.initial_state(unit)
+        self.state = control.initial_state(unit)
         self.axes = axes
         self.bases = dict[str, object]()
         """What made each axis unknown on which steps are followed since."""
         self.ran: list[Block] = []
-        self.plain = dialect.writing.plain() if dialect.writing is not None else None
+        self.plain = control.writing.plain() if control.writing is not None else None
 
     def walk(self, program: Program, answers: Sequence[Answer]) -> Iterator[Step]:
         """Every element of the path in order."""

@@ -110,13 +110,13 @@ class Case(Struct, frozen=True, dict=True):
 def prepare(
     claim: ParsedContour,
     claimed: ClaimedContour,
-    dialect: Control,
+    control: Control,
     rules: str,
     next_end: tuple[Decimal, Decimal] | None,
 ) -> Case:
     """Read the words and facts of a contour into a case."""
     is_faulty, refusals = any(block.faults for block in claim.blocks), list[str]()
-    offences = () if rules == "off" or is_faulty else offences_of(claim, dialect.rules)
+    offences = () if rules == "off" or is_faulty else offences_of(claim, control.rules)
     plain = read(claim, frozenset(each.ignored for each in offences if each.ignored))
     profile, faults = apply_statements(plain, claim.directives, lambda: next_end)
     profile = plain if faults else profile if claim.needs_place else profile.with_free_start()

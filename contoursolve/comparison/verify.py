@@ -65,29 +65,29 @@ def verify(
     """
     blocks, claims, unit = program.program(), read_result(result), Length(units)
     beginning = gcode.parse(start, program.name, first_line=0) if start is not None else None
-    dialect, contours = _dialect(blocks, claims, control), list[ContourReceipt]()
+    chosen, contours = _control(blocks, claims, control), list[ContourReceipt]()
     is_refused = not claims.contours and any(each.get("code") == "no-contour" for each in claims.diagnostics)
-    if dialect and not is_refused:
-        syntax, around = dialect.modes.syntax, surroundings_of(blocks.name, variables, folders)
+    if chosen and not is_refused:
+        syntax, around = chosen.modes.syntax, surroundings_of(blocks.name, variables, folders)
         blocks, beginning = gcode.spelled(blocks, syntax), beginning and gcode.spelled(beginning, syntax)
         if facts:
-            found = [each.blocks for each, *_ in follow(blocks, dialect, unit, (), beginning)]
+            found = [each.blocks for each, *_ in follow(blocks, chosen, unit, (), beginning)]
             if len(found) > 1:
                 told = f"has {len(found)} (program lines {', '.join(str(each[0].line) for each in found)})"
                 raise CannotVerifyError(f"a fact is about the only contour, and the program {told}")
             directives = [gcode.read_directive(text, -number) for number, text in enumerate(facts, 1)]
             blocks = state_facts(blocks, found[0] if found else (), directives)
-        for claim, claimed, next_end in follow(blocks, dialect, unit, claims.contours, beginning, around):
+        for claim, claimed, next_end in follow(blocks, chosen, unit, claims.contours, beginning, around):
             ledger, name = Ledger(kind="count"), "the result mentions this contour"
             if ledger.require(name, (), claimed is not None, "it has none on this line") and claimed:
-                check_contour(prepare(claim, claimed, dialect, claims.rules, next_end), ledger)
+                check_contour(prepare(claim, claimed, chosen, claims.rules, next_end), ledger)
             lines = tuple(block.line for block in claim.blocks)
             contours.append(_receipt(lines, claim.form.name, claimed, ledger))
     contours += _surplus(claims, {each.line for each in contours})
     return Receipt(
         program,
         result,
-        dialect.name if dialect else None,
+        chosen.name if chosen else None,
         unit,
         tuple(sorted(contours, key=lambda each: each.line)),
         (*((_FINDINGS,) if claims.diagnostics else ()), *((_NO_CONTOUR,) if is_refused else ())),
@@ -98,22 +98,22 @@ def verify(
     )
 
 
-def _dialect(program: Program, claims: ClaimedResult, control: str | Control | None) -> Control | None:
+def _control(program: Program, claims: ClaimedResult, control: str | Control | None) -> Control | None:
     """The control that is asked for, the one that the result names, or the only one that the program shows, with the
     settings under which the result says that it was made."""
     wanted = control or claims.control
     shown = (each for each in CONTROLS.values() if any(map(each.signs, program.blocks)))
-    dialect = wanted if isinstance(wanted, Control) else CONTROLS.get(wanted) if wanted else next(shown, None)
-    if wanted and dialect is None:
+    chosen = wanted if isinstance(wanted, Control) else CONTROLS.get(wanted) if wanted else next(shown, None)
+    if wanted and chosen is None:
         choices = f"choose from {', '.join(CONTROLS)}, or name the tables of your own with --control MODULE:NAME"
         raise CannotVerifyError(f"unknown control {wanted!a}; {choices}")
-    if dialect is None or not claims.settings:
-        return dialect
+    if chosen is None or not claims.settings:
+        return chosen
     for name in claims.settings:
-        if name.partition(".")[0] != dialect.name:
-            raise CannotVerifyError(f"the result has the setting {name!a}, which is none of {dialect.name}")
+        if name.partition(".")[0] != chosen.name:
+            raise CannotVerifyError(f"the result has the setting {name!a}, which is none of {chosen.name}")
     try:
-        return dialect.configure({name.partition(".")[2]: value for name, value in claims.settings.items()})
+        return chosen.configure({name.partition(".")[2]: value for name, value in claims.settings.items()})
     except ValueError as error:
         raise CannotVerifyError(f"the result has a setting that is none: {ascii(str(error))[1:-1]}") from None
 
@@ -145,7 +145,7 @@ Followed = tuple[ParsedContour, ClaimedContour | None, tuple[Decimal, Decimal] |
 
 def follow(
     program: Program,
-    dialect: Control,
+    control: Control,
     unit: Length,
     claims: Sequence[ClaimedContour],
     start: Program | None = None,
@@ -153,7 +153,7 @@ def follow(
 ) -> Iterator[Followed]:
     """Every contour of a program, in the order in which they run first, for each claim about it; behind it, the tool is
     where the claim ends. `start` are blocks that state the start point apart from the program."""
-    first, modes, taken = dialect.initial_state(unit), dialect.modes, dict[object, ClaimedContour]()
+    first, modes, taken = control.initial_state(unit), control.modes, dict[object, ClaimedContour]()
     for block in start.blocks if start else ():
         first = advance(first, block, modes)
     by_line = dict[int, list[ClaimedContour]]()
@@ -184,7 +184,7 @@ def follow(
 
     machine = machine_in(program, modes, around, unit, Limit(modes.most_blocks))
     visits = dict[int, list[Followed]]()
-    for found, next_end in contours_as_run(program.blocks, machine, dialect.find, modes, first, end_of):
+    for found, next_end in contours_as_run(program.blocks, machine, control.find, modes, first, end_of):
         visits.setdefault(found.blocks[0].line, []).append((found, claimed_of(found), next_end))
     for line, several in visits.items():
         if line not in by_line:

@@ -33,15 +33,15 @@ class ArcFacts(Struct, frozen=True):
     settings: tuple[Setting, ...]
 
 
-def reading_arcs(dialect: Control, **own: Any) -> Control:
+def reading_arcs(control: Control, **own: Any) -> Control:
     """A control that reads arcs outside contours as its facts say, and as fields of its table do."""
-    facts = ARC_FACTS[dialect.name]
-    remember = dialect.modes.remember or (remember_polar if facts.table.others else None)
+    facts = ARC_FACTS[control.name]
+    remember = control.modes.remember or (remember_polar if facts.table.others else None)
     return replace(
-        dialect,
-        modes=replace(dialect.modes, arcs=replace(facts.table, **own), remember=remember),
-        rules=(*dialect.rules, *facts.rows.rules()),
-        settings=(*dialect.settings, *facts.settings),
+        control,
+        modes=replace(control.modes, arcs=replace(facts.table, **own), remember=remember),
+        rules=(*control.rules, *facts.rows.rules()),
+        settings=(*control.settings, *facts.settings),
     )
 
 
@@ -191,9 +191,9 @@ def _isg_in_force(table: ArcTable, state: State) -> ArcTable:
     return replace(table, beyond=Beyond.REFUSES, issue=ArcIssue.RADII_UNCORRECTED, difference=0.005, share=0.0001)
 
 
-def _uncorrected(dialect: Control) -> Control:
+def _uncorrected(control: Control) -> Control:
     arcs = replace(ISG_FACTS.table, beyond=Beyond.REFUSES)
-    return replace(dialect, modes=replace(dialect.modes, arcs=arcs))
+    return replace(control, modes=replace(control.modes, arcs=arcs))
 
 
 _MOVED = Book("ISG kernel, channel parameters").printed("P-CHAN-00059 and P-CHAN-00060")

@@ -181,9 +181,9 @@ def with_arcs(**fields: Any) -> Callable[[Control], Control]:
     return partial(_with_fields, fields=fields)
 
 
-def _with_fields(dialect: Control, *, fields: Mapping[str, Any]) -> Control:
-    arcs = replace(dialect.modes.arcs or ArcTable(), **fields)
-    return replace(dialect, modes=replace(dialect.modes, arcs=arcs))
+def _with_fields(control: Control, *, fields: Mapping[str, Any]) -> Control:
+    arcs = replace(control.modes.arcs or ArcTable(), **fields)
+    return replace(control, modes=replace(control.modes, arcs=arcs))
 
 
 ARC_SETTINGS = {

@@ -38,10 +38,10 @@ def number_setting(values: Mapping[str, str], source: Source) -> Setting:
 def _reading(meant: WithoutPoint) -> Callable[[Control], Control]:
     """From a control to the one for which a number without a point means this."""
 
-    def change(dialect: Control) -> Control:
-        lexicon = dialect.modes.lexicon
+    def change(control: Control) -> Control:
+        lexicon = control.modes.lexicon
         words = replace(lexicon, numbers=replace(lexicon.numbers, without_point=meant))
-        return replace(dialect, modes=replace(dialect.modes, lexicon=words))
+        return replace(control, modes=replace(control.modes, lexicon=words))
 
     return change
 
@@ -66,7 +66,7 @@ def first_motion_setting(source: Source) -> Setting:
         "which motion is in force before the program states one",
         {"G1": "lines by G1", "none": "none: the program must state it"},
         source,
-        changes={"none": lambda dialect: replace(dialect, motion=None)},
+        changes={"none": lambda control: replace(control, motion=None)},
     )
 
 

@@ -23,8 +23,8 @@ def systems() -> dict[str, System]:
     """The equations of every combination of words of every form, by their key."""
     layouts = (
         lay_out(form, stated, frozenset())
-        for dialect in CONTROLS.values()
-        for form in dialect.forms
+        for control in CONTROLS.values()
+        for form in control.forms
         for stated in stated_sets(form)
     )
     found = (build_system(layout.figure, layout.facts) for layout in layouts)
@@ -49,8 +49,8 @@ def _verdict(system: System) -> Determinacy:
 def identity_table() -> str:
     """For every smallest set of words that say the same: the formula that ties them, by sympy, as JSON."""
     rows = {}
-    for dialect in CONTROLS.values():
-        for form in dialect.forms:
+    for control in CONTROLS.values():
+        for form in control.forms:
             for facts, formula in _identities(form):
                 key = f"{form.name}: {' '.join(sorted(fact.given for fact in facts if fact.given))}"
                 rows[key] = json.dumps(formula)

@@ -26,12 +26,12 @@ MOST_WAYS = 12
 def words_to_add(answer: Answer) -> tuple[Addition, ...]:
     """Every word that the blocks of a contour may still take: no rule refuses it beside the others, and they do not say
     already what it says."""
-    claim, dialect = answer.claim, answer.read_by.dialect
+    claim, control = answer.claim, answer.read_by.control
     completing: dict[tuple[str, int], tuple[str, Contour | None]] = {}
     if answer.contour is None:
         for edit, repair in _completing_alone(answer):
             completing[edit.address, edit.line] = edit.text, repair.contour
-    found, possible = [], {*_possible(claim, dialect)}
+    found, possible = [], {*_possible(claim, control)}
     for name, (address, index) in claim.vocabulary.items():
         line, row = claim.blocks[index].line, claim.lexicon.addresses.get(address)
         # What follows from the others for most values does not where their lines are parallel.
@@ -53,7 +53,7 @@ def completions(answer: Answer) -> tuple[Completion, ...]:
 
 def _completing_alone(answer: Answer) -> Iterator[tuple[Edit, Repair]]:
     """The words of which one alone completes the blocks of a contour."""
-    for repair in find_repairs(answer, answer.read_by.dialect).repairs:
+    for repair in find_repairs(answer, answer.read_by.control).repairs:
         edit, *others = repair.edits
         if not others and edit.kind is EditKind.ADD:
             yield edit, repair
@@ -64,44 +64,44 @@ def ways_to_complete(answer: Answer) -> tuple[tuple[str, ...], ...]:
     that is complete."""
     return tuple(
         tuple(answer.claim.vocabulary[name][0] for name in names)
-        for names in islice(_completing(answer.claim, answer.read_by.dialect), MOST_WAYS)
+        for names in islice(_completing(answer.claim, answer.read_by.control), MOST_WAYS)
     )
 
 
 @checked
-def legal_blocks(dialect: Control) -> tuple[LegalBlock, ...]:
+def legal_blocks(control: Control) -> tuple[LegalBlock, ...]:
     """Examples of all forms of a control; the smallest sets of words of each."""
     return tuple(
         LegalBlock(form.name, form.title, row.addresses, text)
-        for form in dialect.forms
+        for form in control.forms
         if form.table.sample is not None and form.is_contour
-        for row, text in islice(legal_samples(form, dialect), MOST_WAYS)
+        for row, text in islice(legal_samples(form, control), MOST_WAYS)
     )
 
 
-def _completing(claim: ParsedContour, dialect: Control) -> Iterator[tuple[str, ...]]:
+def _completing(claim: ParsedContour, control: Control) -> Iterator[tuple[str, ...]]:
     """The smallest sets of names that complete a contour."""
-    if _is_complete(claim, dialect, ()):
+    if _is_complete(claim, control, ()):
         return
-    possible = [*_possible(claim, dialect)]
-    yield from smallest_sets(possible, MOST_ADDED, lambda names: _is_complete(claim, dialect, names))
+    possible = [*_possible(claim, control)]
+    yield from smallest_sets(possible, MOST_ADDED, lambda names: _is_complete(claim, control, names))
 
 
-def _is_complete(claim: ParsedContour, dialect: Control, names: tuple[str, ...]) -> bool:
+def _is_complete(claim: ParsedContour, control: Control, names: tuple[str, ...]) -> bool:
     """Whether the words of a contour and some more are legal and determine it."""
-    if _refusals(claim, dialect, names, claim.passing):
+    if _refusals(claim, control, names, claim.passing):
         return False
     return analyse(assemble(read(stating(claim, names), frozenset()))).is_determined
 
 
-def _possible(claim: ParsedContour, dialect: Control) -> Iterator[str]:
+def _possible(claim: ParsedContour, control: Control) -> Iterator[str]:
     """The names that may be stated besides."""
-    refused = _refusals(claim, dialect, ())
+    refused = _refusals(claim, control, ())
     for name, (address, index) in claim.vocabulary.items():
         block = claim.blocks[index]
         if name in claim.words or address not in claim.lexicon.addresses or block.find(address) is not None:
             continue
-        if _refusals(claim, dialect, (name,)) <= refused:
+        if _refusals(claim, control, (name,)) <= refused:
             system = assemble(read(stating(claim, (name,)), frozenset()))
             tied = {system.facts[fact].given for fact in analyse(system).tied}
             if name not in tied:
@@ -109,8 +109,8 @@ def _possible(claim: ParsedContour, dialect: Control) -> Iterator[str]:
 
 
 def _refusals(
-    claim: ParsedContour, dialect: Control, names: tuple[str, ...], without: frozenset[str] = frozenset()
+    claim: ParsedContour, control: Control, names: tuple[str, ...], without: frozenset[str] = frozenset()
 ) -> set[str]:
     """The rules that refuse the words of a contour and some more, or ignore one of them, without some circumstances."""
     stated = {name: value for name, value in claim.stated().items() if name not in without} | dict.fromkeys(names)
-    return {offence.rule.code for offence in check(dialect.rules, claim.form.roles, stated)}
+    return {offence.rule.code for offence in check(control.rules, claim.form.roles, stated)}

@@ -132,7 +132,7 @@ class Trial(Struct, frozen=True, dict=True):
     """
 
     answer: Answer
-    dialect: Control
+    control: Control
     window: Window
     about: tuple[frozenset[Span], str] | None = None
     is_frequent: bool = False
@@ -155,7 +155,7 @@ class Trial(Struct, frozen=True, dict=True):
     @cached_property
     def own(self) -> Window:
         """Its blocks alone: a number that is still to be chosen says nothing of those behind."""
-        return alone(self.answer, self.dialect)
+        return alone(self.answer, self.control)
 
     @cached_property
     def codes(self) -> frozenset[str]:
@@ -174,7 +174,7 @@ class Trial(Struct, frozen=True, dict=True):
         is_refused = answer.contour is None and answer.start.is_known and not answer.profile.is_extended
         if not is_refused or torn_codes(answer.claim) or count_choices(answer.profile) > MOST_CHOICES:
             return answer.contour
-        return examine(answer.claim, self.dialect, Policy.OFF).contour
+        return examine(answer.claim, self.control, Policy.OFF).contour
 
     @cached_property
     def next_place(self) -> tuple[Decimal, Decimal] | None:
@@ -203,7 +203,7 @@ class Trial(Struct, frozen=True, dict=True):
             return None
         is_plain = self.answer.start.is_known and not self.answer.profile.is_extended
         conflicts = [each.facts for each in self.geometry.conflicts] if is_plain else ()
-        return Prospects.of(self.answer, self.dialect.rules, conflicts, self.reach, self.window.blocks)
+        return Prospects.of(self.answer, self.control.rules, conflicts, self.reach, self.window.blocks)
 
     def is_about(self, kinds: Container[Enum | None]) -> bool:
         """Whether a problem is about one of some events."""
@@ -282,7 +282,7 @@ class Trial(Struct, frozen=True, dict=True):
         words = {name: word for name, word in claim.words.items() if word.span not in spans}
         givens = {name: each for name, each in claim.givens.items() if name in words or name not in claim.words}
         changed = dataclasses.replace(claim, words=words, givens=givens)
-        answer = examine(changed, self.dialect, Policy.ENFORCE)
+        answer = examine(changed, self.control, Policy.ENFORCE)
         return answer.contour if answer.status is Status.SOLVED and not problems(answer) else None
 
     def _is_whole(self, seen: Seen) -> bool:
@@ -306,11 +306,11 @@ class Trial(Struct, frozen=True, dict=True):
         own = list[Block]()
         if self.is_about(_OF_CIRCLES):
             # Any word of its block may place a circle wrongly.
-            sizes = (*"IJK", self.dialect.modes.radius)
+            sizes = (*"IJK", self.control.modes.radius)
             arcs = [block for block in self.claim.blocks if any(map(block.find, sizes))]
             own += [block for block in arcs if block.line in lines] or arcs
         if self.is_missed:
-            own += [block for block in self.claim.blocks if block.find(self.dialect.modes.radius)]
+            own += [block for block in self.claim.blocks if block.find(self.control.modes.radius)]
         own += self.claim.blocks if self.is_about(OPEN) and len(self.claim.blocks) <= SHORT else ()
         spans = {word.span for block in own for word in block.words}
         events = frozenset(each.about for each in self.answer.diagnostics if each.about and not self.about)
@@ -373,7 +373,7 @@ class Trial(Struct, frozen=True, dict=True):
         found = self.find(edits)
         if found is None or self._largest_step(found) > LARGEST_STEP:
             return None
-        return examine(found, self.dialect, Policy.ENFORCE, lambda: self.next_place, Depth.TRIAL)
+        return examine(found, self.control, Policy.ENFORCE, lambda: self.next_place, Depth.TRIAL)
 
     def extra(self, edits: tuple[Edit, ...]) -> int:
         """The number of further drafts that trying these edits counts for."""
@@ -400,7 +400,7 @@ class Trial(Struct, frozen=True, dict=True):
         return lru_cache(maxsize=16)(self._find)
 
     def _find(self, edits: tuple[Edit, ...]) -> ParsedContour | None:
-        claim, dialect = self.claim, self.dialect
+        claim, control = self.claim, self.control
         texts = apply_edits(claim.blocks, edits)
         read = [
             again
@@ -413,11 +413,11 @@ class Trial(Struct, frozen=True, dict=True):
             return None
         state = claim.before
         for block in ahead:
-            state = advance(state, block, dialect.modes)
+            state = advance(state, block, control.modes)
         apart = edit_facts([each for each in claim.directives if each.span.line < 0], edits)
         blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
-        found = dialect.find(blocks, 0, state, dialect.modes)
-        others = (dialect.find([*ahead, *behind], index, state, dialect.modes) for index in range(len(ahead + behind)))
+        found = control.find(blocks, 0, state, control.modes)
+        others = (control.find([*ahead, *behind], index, state, control.modes) for index in range(len(ahead + behind)))
         if not isinstance(found, ParsedContour) or any(isinstance(each, ParsedContour) for each in others):
             return None
         return found if len(found.blocks) == len(blocks) else None
@@ -428,7 +428,7 @@ class Trial(Struct, frozen=True, dict=True):
         return [block for each in self.claim.blocks for block in self._read(each, each.text)]
 
     def _read(self, block: Block, text: str) -> list[Block]:
-        return read_edited(block, text, self.dialect.modes.syntax)
+        return read_edited(block, text, self.control.modes.syntax)
 
     def _example(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
         """The edits with a number for every placeholder that makes a contour; as they are where further facts determine

@@ -11,10 +11,10 @@ from contoursolve.geometry import FIRST, SECOND
 from contoursolve.reading import Behind, Control
 
 
-def report_behind(found: Behind, dialect: Control, blocks: tuple[Block, ...]) -> Diagnostic:
+def report_behind(found: Behind, control: Control, blocks: tuple[Block, ...]) -> Diagnostic:
     """One finding about what follows these blocks of a contour, with the block that is meant where that has a path."""
     unit = found.state.unit
-    context = Context(dialect.rules, unit, place=found.block.span)
+    context = Context(control.rules, unit, place=found.block.span)
     numbers = {
         **{name: length_text(value, unit) for name, value in found.lengths.items()},
         **{name: angle_text(value) for name, value in found.angles.items()},
@@ -26,7 +26,7 @@ def report_behind(found: Behind, dialect: Control, blocks: tuple[Block, ...]) ->
         return finding
     advice = found.advice
     if found.contour is not None:
-        answer = examine(found.contour, dialect, Policy.ENFORCE)
+        answer = examine(found.contour, control, Policy.ENFORCE)
         if answer.contour is None or any(each.is_error for each in answer.diagnostics):
             return finding
         end = {"end.0": answer.contour.end[FIRST], "end.1": answer.contour.end[SECOND]}

@@ -68,7 +68,7 @@ from contoursolve.solving import (
 
 def diagnose(
     answer: Answer,
-    dialect: Control,
+    control: Control,
     policy: Policy,
     following: Iterable[Block] = (),
     window: Window | None = None,
@@ -76,12 +76,12 @@ def diagnose(
     """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. Slips that are
     certain are mended in thought, so that what else is wrong is told as well. `following` are the next blocks."""
     following = tuple(following)
-    known = _Diagnosed.of(answer, dialect, policy, window)
+    known = _Diagnosed.of(answer, control, policy, window)
     edits = certain_slips(answer, window) if window is not None else ()
     if not edits or window is None:
         return known.answer
-    joined = dialect.find(
-        [*MendedText(answer.claim.blocks, edits).read(), *following], 0, answer.claim.before, dialect.modes
+    joined = control.find(
+        [*MendedText(answer.claim.blocks, edits).read(), *following], 0, answer.claim.before, control.modes
     )
     count = len(answer.claim.blocks)
     more = len(joined.blocks) - count if isinstance(joined, ParsedContour) else -1
@@ -89,7 +89,7 @@ def diagnose(
         return known.answer
     # With its comma, a corner joins the blocks behind.
     text = MendedText((*answer.claim.blocks, *following[:more]), edits, count)
-    mended = examine(joined, dialect, policy, depth=Depth.FINDINGS)
+    mended = examine(joined, control, policy, depth=Depth.FINDINGS)
     if not problems(mended) or any(each.about in _GRAMMAR for each in mended.diagnostics):
         # Where something still cannot be read, nothing more is known.
         if any(known.repairs.values()):
@@ -97,7 +97,7 @@ def diagnose(
         told, others = _certain(known.answer, text)
         return replace(known.answer, diagnostics=tuple(sorted((*told, *others), key=rank)))
     around = replace(window, own=joined.blocks, behind=window.behind[more:])
-    beside = _Diagnosed.of(mended, dialect, policy, around)
+    beside = _Diagnosed.of(mended, control, policy, around)
     if known.cost < float("inf") and known.cost <= beside.cost + _CERTAIN * len(edits):
         return known.answer
     return _with_both(known.answer, text, beside)
@@ -148,7 +148,7 @@ class _Diagnosed(Struct, frozen=True):
     def of(
         cls,
         answer: Answer,
-        dialect: Control,
+        control: Control,
         policy: Policy,
         window: Window | None,
     ) -> "_Diagnosed":
@@ -161,13 +161,13 @@ class _Diagnosed(Struct, frozen=True):
             is_told = any(each.is_error or each.about in SAID_AGAIN | _ABOUT_RADII for each in answer.diagnostics)
             found = find_ties(profile, is_told=is_told)
         sets = smallest_sets(answer.claim, found, profile) if found is not None else NO_SETS
-        answer = replace(answer, diagnostics=tuple(_compared_alone(answer, sets, dialect)))
+        answer = replace(answer, diagnostics=tuple(_compared_alone(answer, sets, control)))
         freedoms = tuple(_freedoms(profile, affine)) if is_readable else ()
         # What a contour needs and nobody reads here is no slip.
         repairs = Repairs((), is_complete=False)
-        is_slip = all(_is_like_own(word, dialect) for word in answer.claim.unread)
+        is_slip = all(_is_like_own(word, control) for word in answer.claim.unread)
         if is_slip and all(each.about is not ReadIssue.NOT_READ for each in answer.diagnostics):
-            repairs = find_repairs(answer, dialect, window)
+            repairs = find_repairs(answer, control, window)
         diagnosis = Diagnosis(
             layers=list_layers(answer, policy),
             freedoms=freedoms,
@@ -186,7 +186,7 @@ class _Diagnosed(Struct, frozen=True):
             findings = [
                 replace(each, help=first) if each.about is ReadIssue.UNKNOWN_ADDRESS else each for each in findings
             ]
-        findings = _with_able(findings, answer, dialect, repairs)
+        findings = _with_able(findings, answer, control, repairs)
         # The rules of a control whose words are facts of all kinds are meant as they are.
         main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
         if main is None and repairs.repairs:
@@ -213,12 +213,12 @@ def _writes(edit: Edit, span: Span) -> bool:
     return edit.kind is EditKind.CHANGE and touches(edit, span)
 
 
-def _is_like_own(word: Word, dialect: Control) -> bool:
+def _is_like_own(word: Word, control: Control) -> bool:
     """Whether a word that nobody reads here is almost the name of one that the control has."""
-    return any(names_like(word.text.strip(), dialect.modes.lexicon, dialect.modes.syntax.codes))
+    return any(names_like(word.text.strip(), control.modes.lexicon, control.modes.syntax.codes))
 
 
-def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Control, repairs: Repairs) -> list[Diagnostic]:
+def _with_able(findings: list[Diagnostic], answer: Answer, control: Control, repairs: Repairs) -> list[Diagnostic]:
     """The findings; those that ask for words without the ones that no repair adds, where some add any and all have been
     tried. What is added in place of other words counts only where nothing is added alone."""
     claim, edits = answer.claim, [repair.edits for repair in repairs.repairs]
@@ -229,7 +229,7 @@ def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Control, rep
         return findings
     places = ((name, address, claim.blocks[index].line) for name, (address, index) in claim.vocabulary.items())
     unable = {name for name, address, line in places if (address, line) in repairs.tried - added}
-    context, rules = context_of(claim, dialect.rules), {rule.code: rule for rule in dialect.rules}
+    context, rules = context_of(claim, control.rules), {rule.code: rule for rule in control.rules}
     found = []
     for finding in findings:
         if finding.about is ReadIssue.UNDERDETERMINED:
@@ -254,10 +254,10 @@ def _both(findings: list[Diagnostic]) -> list[int]:
 _MISSING = {ReadIssue.UNDERDETERMINED, ReadIssue.CORNER_NOWHERE, *LEAVING_FREE}
 
 
-def mend_points(answer: Answer, dialect: Control) -> Answer:
+def mend_points(answer: Answer, control: Control) -> Answer:
     """The answer; its findings that a number lacks its point with what they were meant to be, each about its words."""
-    repairs = find_repairs(answer, dialect).repairs
-    findings, is_telling = [], dialect.modes.settings.get(SUSPICIONS) != "off"
+    repairs = find_repairs(answer, control).repairs
+    findings, is_telling = [], control.modes.settings.get(SUSPICIONS) != "off"
     for finding in answer.diagnostics:
         spans = spans_of([finding], ReadIssue.POINT_MISSING)
         own = [repair for repair in repairs if any(edit.span in spans for edit in repair.edits)]
@@ -328,14 +328,14 @@ def _tie(answer: Answer, ties: Ties | None, words: TiedSet) -> Tie:
     )
 
 
-def _compared_alone(answer: Answer, sets: SmallestSets, dialect: Control) -> list[Diagnostic]:
+def _compared_alone(answer: Answer, sets: SmallestSets, control: Control) -> list[Diagnostic]:
     """The findings of an answer; those that compare a word with others compare it with the others of a smallest set,
     if one of these tells of it. What is wrong with these others is told by itself: of a word that agrees with all that
     is not blamed nothing is told."""
     compared = [number for number, each in enumerate(answer.diagnostics) if each.about in SAID_AGAIN | _ABOUT_RADII]
     if not compared or not sets.found:
         return [*answer.diagnostics]
-    context, blamed, used = context_of(answer.claim, dialect.rules), set[Span](), list[TiedSet]()
+    context, blamed, used = context_of(answer.claim, control.rules), set[Span](), list[TiedSet]()
     found: dict[int, Diagnostic | None] = dict(enumerate(answer.diagnostics))
     stated = [answer.profile.givens[name].word for name in stating_givens(answer.profile)]
     places = {word.span: place for place, word in enumerate(stated) if word is not None}
@@ -537,12 +537,12 @@ def _layer(name: str, has_found: bool, remark: str) -> Layer:
 
 def with_words(answer: Answer, *, drop: Iterable[str], add: Iterable[str], change: Mapping[str, str]) -> Answer:
     """The answer with other words in its blocks; see `Answer.with_words`."""
-    dialect, policy = answer.read_by.dialect, answer.read_by.policy
+    control, policy = answer.read_by.control, answer.read_by.policy
     claim = answer.read_by.read(answer.claim, edits_of_words(answer.claim.blocks, drop, add, change))
     if claim is None:
         raise ValueError("with these words the blocks are read as another contour, or as none")
-    found = examine(claim, dialect, policy)
+    found = examine(claim, control, policy)
     if found.diagnostics:
-        found = diagnose(found, dialect, policy)
+        found = diagnose(found, control, policy)
         found = replace(found, diagnostics=named_in_program(found.diagnostics, claim, found.profile))
     return found

@@ -260,7 +260,7 @@ def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
 def lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """A word that the rules ask for in a line that they refuse, or one that they refuse taken out."""
     claim = answer.claim
-    offences = check(trial.dialect.rules, claim.form.roles, claim.stated())
+    offences = check(trial.control.rules, claim.form.roles, claim.stated())
     lines = {claim.blocks[claim.vocabulary[name][1]].line for name in claim.vocabulary for each in offences
              if name.startswith(each.role.prefixes)}  # fmt: skip
     for name, (address, index) in claim.vocabulary.items():
@@ -278,4 +278,4 @@ def lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
 def _is_lawful(edits: tuple[Edit, ...], trial: Trial) -> bool:
     """Whether no rule refuses the edited blocks."""
     found = trial.find(sampled(edits, trial.claim.lexicon))
-    return found is not None and not found.unknown and not check(trial.dialect.rules, found.form.roles, found.stated())
+    return found is not None and not found.unknown and not check(trial.control.rules, found.form.roles, found.stated())

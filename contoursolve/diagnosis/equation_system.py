@@ -127,7 +127,7 @@ class Rereading(Protocol):
     """The control of a contour, which reads its blocks again."""
 
     @property
-    def dialect(self) -> Control:
+    def control(self) -> Control:
         """Its tables."""
         ...
 
@@ -166,9 +166,9 @@ class EquationSystem(Shown):
         return EquationSystem, self._made_of()
 
     @property
-    def dialect(self) -> Control:
+    def control(self) -> Control:
         """The control that reads it, as tables."""
-        return self._read_by.dialect
+        return self._read_by.control
 
     # What it consists of -----------------------------------------------------------------------------------------
 
@@ -407,7 +407,7 @@ class EquationSystem(Shown):
 
         Raises ValueError for what is no word with a number in the block, and where the block is no contour then."""
         edits = dict[Span, Edit]()
-        spelling = self._read_by.dialect.modes.syntax.words
+        spelling = self._read_by.control.modes.syntax.words
         for key, typed in {**(values or {}), **words}.items():
             for given in self._named(key):
                 assert given.word is not None

@@ -121,11 +121,11 @@ class Policy(Enum):
 class ReadBy:
     """The control that reads a contour, and what its rules do; with it the contour can be read again."""
 
-    dialect: Control
+    control: Control
     policy: Policy
 
     def __repr__(self) -> str:
-        return f"ReadBy({self.dialect.name!r}, {self.policy})"
+        return f"ReadBy({self.control.name!r}, {self.policy})"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ReadBy) and repr(self) == repr(other)
@@ -137,8 +137,8 @@ class ReadBy:
         """A contour with edits of its blocks; None where these are another one then, or none."""
         from contoursolve.diagnosis.edits import read_edits  # noqa: PLC0415 - few contours are read again
 
-        blocks = read_edits(claim.blocks, edits, self.dialect.modes.syntax)
-        found = self.dialect.find(blocks, 0, claim.before, self.dialect.modes)
+        blocks = read_edits(claim.blocks, edits, self.control.modes.syntax)
+        found = self.control.find(blocks, 0, claim.before, self.control.modes)
         if not isinstance(found, ParsedContour) or len(found.blocks) != len(claim.blocks):
             return None
         return found
@@ -147,7 +147,7 @@ class ReadBy:
         """The profile of a contour without what some words state, by the names of these. Raises ValueError for a fact
         that cannot be used."""
         if not without:
-            return examine(claim, self.dialect, self.policy, depth=Depth.VERDICT).profile
+            return examine(claim, self.control, self.policy, depth=Depth.VERDICT).profile
         from contoursolve.geometry import apply_statements  # noqa: PLC0415 - few contours are read so
 
         profile, faults = apply_statements(read(claim, without), claim.directives, lambda: None)
@@ -449,7 +449,7 @@ class _Notebook:
 
 def examine(
     claim: ParsedContour,
-    dialect: Control,
+    control: Control,
     policy: Policy,
     next_place: Callable[[], tuple[Decimal, Decimal] | None] = lambda: None,
     depth: Depth = Depth.FULL,
@@ -458,7 +458,7 @@ def examine(
 
     `next_place` tells where the line of the next block ends, if that is known; some facts are about it.
     """
-    rules = dialect.rules
+    rules = control.rules
     context, notebook = context_of(claim, rules), _Notebook()
     _examine_words(context, claim, notebook)
     is_readable = not notebook.statuses
@@ -532,7 +532,7 @@ def examine(
         sides=sides if contour else {},
         error_bound=solution.error_bound,
         diagnostics=tuple(sorted(tell_points(context, claim, notebook.findings), key=rank)),
-        read_by=ReadBy(dialect, policy),
+        read_by=ReadBy(control, policy),
         certificate=solution.certificate if contour else None,
         asked=tuple(answer_question(question, profile, solution) for question in profile.questions),
         alternatives=alternatives,

@@ -45,15 +45,15 @@ class _Mended(Struct, frozen=True):
     rounding: str = ""
 
 
-def explain_arc(context: Context, dialect: Control, arc: PlainArc, before: State) -> Iterator[Diagnostic]:
+def explain_arc(context: Context, control: Control, arc: PlainArc, before: State) -> Iterator[Diagnostic]:
     """Findings about the arc that a block states by itself, if something is wrong with it."""
     for fault in faults_of(arc):
-        fixes = tuple(_fixes(arc, fault, before, dialect.modes))[:MOST_FIXES]
+        fixes = tuple(_fixes(arc, fault, before, control.modes))[:MOST_FIXES]
         told = replace(_told(context, arc, fault), fixes=fixes)
-        is_open = any(each.name == CENTRES for each in dialect.settings)
+        is_open = any(each.name == CENTRES for each in control.settings)
         if is_open and fault.issue in _COMPARED and any(each.is_slip for each in _from_origin(arc)):
             words = join([each.word.text.strip() for each in arc.centers if each is not None])
-            setting = f"--setting {dialect.name}.{CENTRES}=origin"
+            setting = f"--setting {control.name}.{CENTRES}=origin"
             note = f"{words} fit as coordinates of the centre; if the control reads them so, state {setting}"
             told = replace(told, notes=(*told.notes, note))
         yield told

@@ -15,7 +15,7 @@ FARTHEST = 0.01
 """mm. A block with rounded values whose contour is farther from the exact one is not offered."""
 
 
-def fill_in(answer: Answer, before: State, dialect: Control) -> Filled | None:
+def fill_in(answer: Answer, before: State, control: Control) -> Filled | None:
     """The blocks of an answer with the values that they ask for; None if they do not stand alone then.
 
     `before` is the state at the first block. The further facts are left out: the control does not read them.
@@ -29,13 +29,13 @@ def fill_in(answer: Answer, before: State, dialect: Control) -> Filled | None:
         edits.append(change(word, write_word(word.address, value, answer.claim.lexicon, answer.unit)))
     texts = {block.line: text for block, text in zip(own, apply_edits(own, edits), strict=True)}
     blocks = tuple(
-        replace(parse_block(texts.get(line, ""), line, dialect.modes.syntax), directives=())
+        replace(parse_block(texts.get(line, ""), line, control.modes.syntax), directives=())
         for line in range(own[0].line, own[-1].line + 1)
     )
-    claim = dialect.find(blocks, 0, before, dialect.modes)
+    claim = control.find(blocks, 0, before, control.modes)
     if not isinstance(claim, ParsedContour) or not edits:
         return None
-    again = examine(claim, dialect, Policy.ENFORCE)
+    again = examine(claim, control, Policy.ENFORCE)
     if again.contour is None or answer.contour is None:
         return None
     deviation = _deviation(again.contour, answer.contour)

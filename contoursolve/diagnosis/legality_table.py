@@ -46,20 +46,20 @@ class Row(Struct, frozen=True):
         return f"{words} | {legality} | {determinacy}"
 
 
-def tabulate(form: ContourForm, dialect: Control) -> Iterator[Row]:
+def tabulate(form: ContourForm, control: Control) -> Iterator[Row]:
     """One row for every set of the optional words of a form's sample, smallest sets first."""
     sample = _sample(form)
     texts = [word for block in sample.blocks for word in _OPTIONAL.findall(block)]
     for size in range(len(texts) + 1):
         for chosen in combinations(texts, size):
-            yield _row(form, dialect, frozenset(chosen))
+            yield _row(form, control, frozenset(chosen))
 
 
 MOST_TRIED = 1_000
 """Sets of words of a form among which the smallest legal ones are looked for."""
 
 
-def legal_samples(form: ContourForm, dialect: Control) -> Iterator[tuple[Row, str]]:
+def legal_samples(form: ContourForm, control: Control) -> Iterator[tuple[Row, str]]:
     """The smallest sets of words of a form's sample that are legal and make a contour: the row of each, and its
     blocks."""
     sample, found = _sample(form), list[frozenset[str]]()
@@ -68,7 +68,7 @@ def legal_samples(form: ContourForm, dialect: Control) -> Iterator[tuple[Row, st
     for chosen in islice(sets, MOST_TRIED):
         if any(each <= chosen for each in found):
             continue
-        row = _row(form, dialect, chosen)
+        row = _row(form, control, chosen)
         if not (row.refusals or row.warnings or row.ignored or row.faults or row.other):
             found.append(chosen)
             yield row, "\n".join(" ".join(line.split()) for line in _lines(sample, chosen))
@@ -79,20 +79,20 @@ def _lines(sample: Sample, chosen: frozenset[str]) -> list[str]:
     return [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in sample.blocks]
 
 
-def _row(form: ContourForm, dialect: Control, chosen: frozenset[str]) -> Row:
+def _row(form: ContourForm, control: Control, chosen: frozenset[str]) -> Row:
     sample = _sample(form)
     lines = _lines(sample, chosen)
     state = advance(
-        dialect.initial_state(Length.MM), parse_block(sample.before, 1, dialect.modes.syntax), dialect.modes
+        control.initial_state(Length.MM), parse_block(sample.before, 1, control.modes.syntax), control.modes
     )
-    blocks = parse("\n".join(lines), syntax=dialect.modes.syntax).blocks
-    claim = dialect.find(blocks, 0, state, dialect.modes)
+    blocks = parse("\n".join(lines), syntax=control.modes.syntax).blocks
+    claim = control.find(blocks, 0, state, control.modes)
     words = [(number, word) for number, block in enumerate(blocks, 1) for word in block.words if word.address != "G"]
     addresses = tuple(f"{number}:" * (len(blocks) > 1) + word.address for number, word in words)
     if not isinstance(claim, ParsedContour) or claim.form is not form:
         other = claim.form.name if isinstance(claim, ParsedContour) else "nothing"
         return Row(addresses, (), (), (), (), "", other)
-    offences = check(dialect.rules, form.roles, claim.stated())
+    offences = check(control.rules, form.roles, claim.stated())
     ignored = tuple(offence.ignored for offence in offences if offence.ignored)
     profile = read(claim, frozenset(ignored))
     verdict = analyse(assemble(profile))

@@ -31,8 +31,8 @@ def mend_line(context: Context, findings: Sequence[Diagnostic], window: Window) 
         yield _mended(context, each, findings, window) if each is open_ else each
     if findings:
         return
-    is_quiet = window.dialect.modes.settings.get(SUSPICIONS) == "off"
-    for word, reason in doubtful_words(block, window.dialect.modes):
+    is_quiet = window.control.modes.settings.get(SUSPICIONS) == "off"
+    for word, reason in doubtful_words(block, window.control.modes):
         if reason and is_quiet:
             continue
         marked = Marked(frozenset({word.span}), frozenset({block.line}))

@@ -162,7 +162,7 @@ def _slips_around(
         most = MOST_AROUND if kinds is FEW else MOST_OF_DIGITS
         if kinds is OF_DIGITS and is_likely:
             # The sizes of circles that are missed, which few other slips explain.
-            sizes = {*"IJK", window.dialect.modes.radius} if trial.is_missed else None
+            sizes = {*"IJK", window.control.modes.radius} if trial.is_missed else None
             most = MOST_AROUND if sizes else most
             drafts = [
                 each

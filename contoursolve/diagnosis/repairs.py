@@ -52,7 +52,7 @@ from contoursolve.solving import (
 
 def find_repairs(
     answer: Answer,
-    dialect: Control,
+    control: Control,
     window: Window | None = None,
 ) -> Repairs:
     """The repairs of a contour that was refused, or in which a word is ignored.
@@ -60,11 +60,11 @@ def find_repairs(
     A repair leaves no error and no warning. None of them contains another one. `window` are the blocks around. Where
     nothing is wrong but that the start is not known, G90 and G91 stay as they are, and a repair tells where it is.
     """
-    found, start = _find_repairs(answer, dialect, window), answer.start
+    found, start = _find_repairs(answer, control, window), answer.start
     if start.is_known and not start.is_relative:
         return found
     is_lost = all(each.about is ReadIssue.POSITION_UNKNOWN for each in problems(answer))
-    rows = dialect.modes.codes.values()
+    rows = control.modes.codes.values()
     codes = {code.text for code in rows if code.effect in (Effect.ABSOLUTE, Effect.INCREMENTAL)}
     kept = tuple(
         each
@@ -77,17 +77,17 @@ def find_repairs(
 
 def _find_repairs(
     answer: Answer,
-    dialect: Control,
+    control: Control,
     window: Window | None,
 ) -> Repairs:
-    answer = _alone(answer, dialect)
+    answer = _alone(answer, control)
     # No change of words closes a comment, and what leaves a warning is no repair.
     is_open = any(each.kind is FaultKind.COMMENT_NOT_CLOSED for block in answer.claim.blocks for each in block.faults)
     if is_open or (not answer.start.is_known and _waits(answer)):
         return Repairs((), is_complete=False)
     if window is None or not window.begins_at(answer.claim.before.start()):
-        window = alone(answer, dialect)
-    trial = Trial(answer, dialect, window)
+        window = alone(answer, control)
+    trial = Trial(answer, control, window)
     if answer.start.is_known and not problems(answer):
         return choose_repairs(trial, [point_slips(answer)])
     drop_sets = DropSets((), is_complete=False)
@@ -100,7 +100,7 @@ def _find_repairs(
 
         stages = further_drafts(answer, trial)
     elif is_meant and answer.start.is_known:
-        drop_sets = find_drop_sets(answer, dialect)
+        drop_sets = find_drop_sets(answer, control)
         stages = _of_words(answer, trial, drop_sets)
     repairs = choose_repairs(trial, stages if answer.start.is_known else ())
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(answer.claim)
@@ -113,13 +113,13 @@ def _of_words(answer: Answer, trial: Trial, drop_sets: DropSets) -> Iterator[Ite
     blamed = blamed_spans(answer)
     alone = [each for each in drop_sets.found if len(each) == 1 and {claim.words[name].span for name in each} <= blamed]
     # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
-    first = chain.from_iterable(_legal_sets(answer, trial.dialect, whole, forced) for forced in unreadable(claim))
+    first = chain.from_iterable(_legal_sets(answer, trial.control, whole, forced) for forced in unreadable(claim))
     then = _dropping(answer, alone)
     if answer.status in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED) and not whole.conflicts:
         yield _of_circles(answer, trial)
     yield from (commas(answer), marked(answer), fitting(answer))
     yield _lost_ends(answer)
-    yield forgotten_codes(answer, trial.dialect.modes)
+    yield forgotten_codes(answer, trial.control.modes)
     changes = (
         _values(answer, whole),
         *((first, then) if answer.status is Status.REJECTED else (then, first)),
@@ -129,16 +129,16 @@ def _of_words(answer: Answer, trial: Trial, drop_sets: DropSets) -> Iterator[Ite
     yield _lawful_alone(answer, trial)
 
 
-def _alone(answer: Answer, dialect: Control) -> Answer:
+def _alone(answer: Answer, control: Control) -> Answer:
     """The answer; of a contour that lacks words, and that is refused for what follows, that to its own blocks alone:
     what it lacks is to be mended."""
     claim = answer.claim
     if answer.status is not Status.REJECTED or all(each.about not in OPEN for each in answer.diagnostics):
         return answer
-    found = dialect.find(claim.blocks, 0, claim.before, dialect.modes)
+    found = control.find(claim.blocks, 0, claim.before, control.modes)
     if not isinstance(found, ParsedContour) or not found.circumstances < claim.circumstances:
         return answer
-    return examine(found, dialect, Policy.ENFORCE)
+    return examine(found, control, Policy.ENFORCE)
 
 
 def _waits(answer: Answer) -> bool:
@@ -184,7 +184,7 @@ def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[
 
 
 def _legal_sets(
-    answer: Answer, dialect: Control, whole: Geometry, forced: tuple[Edit, ...]
+    answer: Answer, control: Control, whole: Geometry, forced: tuple[Edit, ...]
 ) -> Iterator[tuple[Edit, ...]]:
     """Words to drop and to add besides what is done in any case: every smallest set that makes the combination legal,
     and for a legal one what may be dropped or exchanged."""
@@ -196,9 +196,9 @@ def _legal_sets(
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
     extra = frozenset({row.fact.given for row in claim.form.outline.facts} | set(claim.form.choices))
     if not whole.is_singular:
-        extra -= present ^ extra if is_clean(claim.form, dialect.rules, present, claim.circumstances) else set()
-    changes = smallest_changes(claim.form, dialect.rules, present, names & extra, claim.circumstances, blocks)
-    corrections = tuple(_corrections(claim, dialect))
+        extra -= present ^ extra if is_clean(claim.form, control.rules, present, claim.circumstances) else set()
+    changes = smallest_changes(claim.form, control.rules, present, names & extra, claim.circumstances, blocks)
+    corrections = tuple(_corrections(claim, control))
     bases: list[tuple[Edit, ...]] = []
     for swap in changes:
         drops = tuple(drop(claim.words[name]) for name in sorted(swap & present))
@@ -219,7 +219,7 @@ def _legal_sets(
         yield from ((*forced, *edits) for edits in _other_corners(claim, at_fault))
     if whole.conflicts and all(swap and not swap & present for swap in changes):
         # Too few words, of which some contradict each other: one of these is replaced, too.
-        yield from ((*forced, *edits) for edits in _replacing(claim, dialect, whole.conflicts, names & extra, blocks))
+        yield from ((*forced, *edits) for edits in _replacing(claim, control, whole.conflicts, names & extra, blocks))
 
 
 def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
@@ -238,7 +238,7 @@ def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[
 
 
 def _replacing(
-    claim: ParsedContour, dialect: Control, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
+    claim: ParsedContour, control: Control, conflicts: Iterable[Circuit], extra: frozenset[str], blocks: frozenset[str]
 ) -> Iterator[tuple[Edit, ...]]:
     """Each word of a contradiction dropped, and the rest completed with other words."""
     present = frozenset(claim.words)
@@ -246,15 +246,15 @@ def _replacing(
     for name in sorted(each for each in tied if each):
         rest = present - {name}
         kept = Geometry.of(claim, rest)
-        for swap in smallest_changes(claim.form, dialect.rules, rest, extra - {name}, claim.circumstances, blocks):
+        for swap in smallest_changes(claim.form, control.rules, rest, extra - {name}, claim.circumstances, blocks):
             if not swap & present:
                 added = [_additions(claim, other, (kept,)) for other in sorted(swap)]
                 yield from ((drop(claim.words[name]), *edits) for edits in product(*added))
 
 
-def _corrections(claim: ParsedContour, dialect: Control) -> Iterator[tuple[str, list[Edit]]]:
+def _corrections(claim: ParsedContour, control: Control) -> Iterator[tuple[str, list[Edit]]]:
     """Words whose value a rule refuses, with the values that mean the same or were meant."""
-    for offence in check(dialect.rules, claim.form.roles, claim.stated()):
+    for offence in check(control.rules, claim.form.roles, claim.stated()):
         if offence.rule.when is None or not offence.rule.when.reads_values:
             continue
         for name in offence.names:

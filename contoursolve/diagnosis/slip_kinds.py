@@ -72,9 +72,9 @@ class Speech(Struct, frozen=True):
         return cls(claim.lexicon, claim.form.allowed, shapes, claim, turned_axis(claim.before.plane))
 
     @classmethod
-    def of_control(cls, dialect: Control, turned: str) -> "Speech":
+    def of_control(cls, control: Control, turned: str) -> "Speech":
         """Those of a control, outside its contours."""
-        lexicon = dialect.modes.lexicon
+        lexicon = control.modes.lexicon
         return cls(lexicon, frozenset(lexicon.addresses), turned=turned)
 
 

@@ -183,7 +183,7 @@ def _of_several(near: Near, marked: Marked) -> Iterator[tuple[Edits, Slips, floa
 
 def _is_asked(address: str, near: Near, marked: Marked) -> bool:
     """Whether a message names a word because it is missing, or chooses nothing where it is."""
-    row = near.window.dialect.modes.lexicon.addresses.get(address)
+    row = near.window.control.modes.lexicon.addresses.get(address)
     is_missing = not marked.events.isdisjoint(_ASKING) or (row is not None and row.unit is Unit.SIGN)
     return is_missing and address in marked.named
 
@@ -223,7 +223,7 @@ class Prices(Struct, frozen=True, dict=True):
     def of(cls, window: Window, marked: Marked, claim: ParsedContour | None) -> "Prices":
         """The prices around a contour, or around other blocks."""
         turned = turned_axis(window.state.plane) or (turned_axis(claim.before.plane) if claim is not None else "")
-        outside = Speech.of_control(window.dialect, turned)
+        outside = Speech.of_control(window.control, turned)
         if claim is None:
             return cls(window, marked, outside, outside)
         lines, read = (block.line for block in claim.blocks), (word.span for word in claim.words.values())
@@ -299,7 +299,7 @@ def _is_pointless(word: Word) -> bool:
 def _is_beside_plane(edit: Edit, window: Window) -> bool:
     """Whether a word moves an axis outside the plane, or would, as another block around does: a tool is lowered and
     lifted in blocks of its own."""
-    rows, axes = window.dialect.modes.lexicon.addresses, window.state.plane.axes
+    rows, axes = window.control.modes.lexicon.addresses, window.state.plane.axes
     for address in (edit.address, edit.text[:1].upper()):
         row = rows.get(address)
         if row is not None and row.axis and row.axis not in axes:

@@ -64,12 +64,12 @@ class Near(Struct, frozen=True, dict=True):
     @cached_property
     def centres(self) -> set[str]:
         """The addresses by which a block is an arc."""
-        return {"I", "J", "K", self.window.dialect.modes.radius}
+        return {"I", "J", "K", self.window.control.modes.radius}
 
     @cached_property
     def drawing(self) -> set[str]:
         """The codes that draw something, or say how."""
-        modes = self.window.dialect.modes
+        modes = self.window.control.modes
         codes = (code for code in modes.codes.values() if code.effect in _OF_PATHS or code.number in modes.separate)
         return {plain_code(code.text) for code in codes}
 
@@ -87,7 +87,7 @@ class Near(Struct, frozen=True, dict=True):
         """Every block of the window with the states before and behind it."""
         state = self.window.ahead[0][1] if self.window.ahead else self.window.state
         for block in self.window.blocks:
-            before, state = state, advance(state, block, self.window.dialect.modes)
+            before, state = state, advance(state, block, self.window.control.modes)
             yield block, before, state
 
 
@@ -120,7 +120,7 @@ def _both_signs(near: Near) -> Iterator[Edits]:
 
 
 def _all_points(near: Near) -> Iterator[Edits]:
-    lexicon = near.window.dialect.modes.lexicon
+    lexicon = near.window.control.modes.lexicon
     for block in near.blocks if lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS else ():
         rows = ((word, lexicon.addresses.get(word.address)) for word in block.words if word.number)
         words = [word for word, row in rows if not word.has_point and row and row.unit in (Unit.MM, Unit.DEGREE)]
@@ -317,9 +317,9 @@ def _other_block(near: Near) -> Iterator[Edits]:
 def _is_apart(word: Word, window: Window) -> bool:
     """Whether a word is one of a corner or an angle, by its spelling, or chooses. Without its offset, a contour lies
     elsewhere."""
-    row = window.dialect.modes.lexicon.addresses.get(word.address)
+    row = window.control.modes.lexicon.addresses.get(word.address)
     is_long = word.address.startswith((",", "#")) or len(word.address) > 1 or bool(row and row.unit is Unit.SIGN)
-    return is_long and word.address not in window.dialect.modes.zero.names
+    return is_long and word.address not in window.control.modes.zero.names
 
 
 def _dropped(near: Near) -> Iterator[Edits]:
@@ -340,7 +340,7 @@ def _respelled(near: Near) -> Iterator[Edits]:
 
 def rewritten(window: Window, blocks: Iterable[Block]) -> Iterator[Edit]:
     """Text that is almost a word, as the word: with a comma, a point or an equals sign more or less."""
-    lexicon = window.dialect.modes.lexicon
+    lexicon = window.control.modes.lexicon
     equal = {address for address in lexicon.addresses if "=" in lexicon.spell(address, "1")}
     has_marks = any(address.startswith("#") for address in lexicon.addresses)
     for block in blocks:
@@ -356,7 +356,7 @@ def rewritten(window: Window, blocks: Iterable[Block]) -> Iterator[Edit]:
 
 def _misspelt(near: Near) -> Iterator[Edits]:
     """The name of what is no word or code of the control, as one that it has."""
-    modes = near.window.dialect.modes
+    modes = near.window.control.modes
     known = {*modes.lexicon.plain_names(), *modes.syntax.codes}
     for block in near.blocks:
         strange = [
@@ -375,7 +375,7 @@ def _misspelt(near: Near) -> Iterator[Edits]:
 def _references(near: Near) -> Iterator[Edits]:
     """The block of a parallel line, from which a distance counts: the numbers of the lines before it."""
     numbers = list[str]()
-    for block in near.window.own if "PAR" in near.window.dialect.modes.lexicon.addresses else ():
+    for block in near.window.own if "PAR" in near.window.control.modes.lexicon.addresses else ():
         if block.line in near.lines and block.find("DP") and not block.find("PAR"):
             yield from ((Edit(EditKind.ADD, "PAR", text=f"PAR {each}", line=block.line),) for each in numbers)
         number = block.find("N")

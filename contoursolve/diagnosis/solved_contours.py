@@ -48,5 +48,5 @@ def _repairs(
     answer: Answer, window: Window, marked: frozenset[Span], told: str, *, is_frequent: bool = False
 ) -> tuple[Repair, ...]:
     """The slips that explain a finding about a contour that is solved, the most plausible first."""
-    trial = Trial(answer, window.dialect, window, about=(marked, told), is_frequent=is_frequent)
+    trial = Trial(answer, window.control, window, about=(marked, told), is_frequent=is_frequent)
     return choose_repairs(trial, ()).repairs

@@ -166,12 +166,12 @@ class DropSets(NamedTuple):
     is_complete: bool
 
 
-def find_drop_sets(answer: Answer, dialect: Control) -> DropSets:
+def find_drop_sets(answer: Answer, control: Control) -> DropSets:
     """The sets of words near what is wrong that may be left out, whatever the path is then.
 
     Of a contour of many blocks, each word alone, those that a finding is about first.
     """
-    claim, rules, blamed = answer.claim, dialect.rules, blamed_spans(answer)
+    claim, rules, blamed = answer.claim, control.rules, blamed_spans(answer)
     stating = answerable(claim)
     names = [name for name, word in claim.words.items() if name in stating or word.span in blamed]
     near = blocks_at_fault(answer)
@@ -182,8 +182,8 @@ def find_drop_sets(answer: Answer, dialect: Control) -> DropSets:
     # An arc that stands alone is told from a full circle by its values, and some forms read words by others' values.
     is_by_values = claim.limits or not claim.form.is_contour
     values = (*(block.text for block in claim.blocks), claim.before.start().values) if is_by_values else ()
-    key = (dialect.find, rules, claim.form, frozenset(claim.words), claim.circumstances, values)
-    sets = _drop_sets(_Combination(key, claim, dialect), droppable)
+    key = (control.find, rules, claim.form, frozenset(claim.words), claim.circumstances, values)
+    sets = _drop_sets(_Combination(key, claim, control), droppable)
     stated, roles = claim.stated(), claim.form.roles
     plain = (
         names
@@ -200,7 +200,7 @@ class _Combination:
 
     key: Hashable
     claim: ParsedContour = field(compare=False)
-    dialect: Control = field(compare=False)
+    control: Control = field(compare=False)
 
 
 class _Sets(NamedTuple):
@@ -213,7 +213,7 @@ class _Sets(NamedTuple):
 
 @lru_cache(maxsize=1024)
 def _drop_sets(words: _Combination, droppable: frozenset[str]) -> _Sets:
-    claim, rules, form = words.claim, words.dialect.rules, words.claim.form
+    claim, rules, form = words.claim, words.control.rules, words.claim.form
     shaping = {name for name in droppable if not _is_alike(_read_without(words, frozenset({name})), claim)}
     same, other = [], []
     most_read = MOST_READ // len(claim.blocks) ** 2
@@ -263,10 +263,10 @@ def _is_alike(found: ParsedContour | None, claim: ParsedContour) -> bool:
 
 def _read_without(words: _Combination, names: frozenset[str]) -> ParsedContour | None:
     """The same blocks without some words; None if they are not one contour any more."""
-    claim, dialect = words.claim, words.dialect
+    claim, control = words.claim, words.control
     dropped = {word.span for name in names for word in words_of(claim, name)}
     blocks = [
         replace(block, words=tuple(word for word in block.words if word.span not in dropped)) for block in claim.blocks
     ]
-    found = dialect.find(blocks, 0, claim.before, dialect.modes)
+    found = control.find(blocks, 0, claim.before, control.modes)
     return found if isinstance(found, ParsedContour) and len(found.blocks) == len(blocks) else None

@@ -49,7 +49,7 @@ _ODD = (Feature.TURNS_BACK, Feature.BEHIND_START, Feature.ACROSS)
 
 def suspect(answer: Answer, window: Window) -> Answer:
     """The answer; with a warning where a legal contour is hardly meant, and a slip explains why."""
-    settings = window.dialect.modes.settings
+    settings = window.control.modes.settings
     if answer.contour is None or answer.profile.is_extended:
         return answer
     if wrong := problems(answer):
@@ -203,7 +203,7 @@ def _tried(
     answer: Answer, window: Window, drafts: Iterable[Candidate], is_better: Callable[[Seen], bool]
 ) -> Iterator[Repair]:
     """The repairs of drafts with which all is right and better than before."""
-    trial = Trial(answer, window.dialect, window)
+    trial = Trial(answer, window.control, window)
     for draft in drafts:
         repair = repair_of(draft, trial, is_better)
         if repair is not None:
@@ -218,7 +218,7 @@ def _told(
     answer: Answer, window: Window, found: list[Repair], reason: str, words: Sequence[Word] = (), meant: str = ""
 ) -> Diagnostic:
     """The warning, about the word of the most plausible slip if it is not told about which."""
-    context, edit = context_of(answer.claim, window.dialect.rules), found[0].edits[0]
+    context, edit = context_of(answer.claim, window.control.rules), found[0].edits[0]
     same = [each.edits[0].text for each in found if each.edits[0].span == edit.span]
     words = words or [word for block in answer.claim.blocks for word in block.words if word.span == edit.span]
     finding = report(context, ReadIssue.SUSPECTED, Basis.NUMERICAL, words, meant=meant or either(same), reason=reason)

@@ -48,7 +48,7 @@ _OF_A_LINE = (
 
 def explain_commas(
     context: Context,
-    dialect: Control,
+    control: Control,
     blocks: Sequence[Block],
     states: tuple[State, State],
     previous: tuple[Sequence[Block], State] | None = None,
@@ -57,8 +57,8 @@ def explain_commas(
     comma as its fix, if that makes a contour that is solved. `states` are those before and after the block; `previous`
     are the blocks before it, which may be part of the contour then, and the state before them."""
     block, (before, after) = blocks[0], states
-    addresses = dialect.modes.lexicon.addresses
-    codes = codes_of(block, dialect.modes)
+    addresses = control.modes.lexicon.addresses
+    codes = codes_of(block, control.modes)
     is_line = after.motion in _LINES and not block.macro
     if not is_line or any(isinstance(code, Word) or code.effect not in _OF_A_LINE for code in codes):
         return
@@ -68,29 +68,29 @@ def explain_commas(
             continue
         finding = report(context, ReadIssue.COMMA_MISSING, Basis.RULE, [word], meant=text)
         edit = change(word, text)
-        found, replacement = _read(dialect, blocks, [edit], before)
-        fixes = tuple(_tried(dialect, blocks[0], found, [edit], replacement))
+        found, replacement = _read(control, blocks, [edit], before)
+        fixes = tuple(_tried(control, blocks[0], found, [edit], replacement))
         if previous and not fixes:
             edited = parse_block(replacement, block.line, block.syntax)
-            other = dialect.find([*previous[0], edited, *blocks[1:]], 0, previous[1], dialect.modes)
+            other = control.find([*previous[0], edited, *blocks[1:]], 0, previous[1], control.modes)
             other = other if other and edited in other.blocks else None
-            fixes = tuple(_tried(dialect, block, other, [edit], replacement))
+            fixes = tuple(_tried(control, block, other, [edit], replacement))
         if fixes or any(map(block.find, after.plane.axes)):
             yield replace(finding, fixes=fixes)
 
 
 def explain_letters(
-    context: Context, dialect: Control, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
+    context: Context, control: Control, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
 ) -> Iterator[Diagnostic]:
     """The findings about a block, the first of some, that is a contour if letters of its G code are the digits that
     they look like: with these digits as the fix, if it is solved then. `before` is the state before it."""
     meant = meant_in(blocks[0], [fault.span for fault in blocks[0].faults])
     edits = [mend(each) for each in meant]
-    found, replacement = _read(dialect, blocks, edits, before)
+    found, replacement = _read(control, blocks, edits, before)
     if found is None or not any(each.is_code for each in meant):
         yield from findings
         return
-    fixes = tuple(_tried(dialect, blocks[0], found, edits, replacement))
+    fixes = tuple(_tried(control, blocks[0], found, edits, replacement))
     # A letter for a digit is no word.
     findings = [each for each in findings if each.about not in _OF_WORDS or not lookalike_at(meant, each.span)]
     blamed = [each for each in findings if lookalike_at(meant, each.span)]
@@ -106,18 +106,18 @@ _OF_WORDS = (ReadIssue.WORD_UNKNOWN, ReadIssue.WORD_MISTYPED)
 
 
 def _read(
-    dialect: Control, blocks: Sequence[Block], edits: Sequence[Edit], before: State
+    control: Control, blocks: Sequence[Block], edits: Sequence[Edit], before: State
 ) -> tuple[ParsedContour | None, str]:
     """The contour that begins with the first of some blocks when it is edited, if one does; and its text then."""
     (text,) = apply_edits(blocks[:1], edits)
-    found = dialect.find([parse_block(text, blocks[0].line, blocks[0].syntax), *blocks[1:]], 0, before, dialect.modes)
+    found = control.find([parse_block(text, blocks[0].line, blocks[0].syntax), *blocks[1:]], 0, before, control.modes)
     return (found if isinstance(found, ParsedContour) and found.form.is_contour else None), text
 
 
 def _tried(
-    dialect: Control, block: Block, found: ParsedContour | None, edits: Sequence[Edit], replacement: str
+    control: Control, block: Block, found: ParsedContour | None, edits: Sequence[Edit], replacement: str
 ) -> Iterator[Fix]:
     """The edits of a block as a fix, if they make a contour that is solved."""
-    if found is not None and examine(found, dialect, Policy.ENFORCE, depth=Depth.VERDICT).contour:
+    if found is not None and examine(found, control, Policy.ENFORCE, depth=Depth.VERDICT).contour:
         told = "; ".join(map(str, edits))
         yield Fix(told, replacement, Applicability.CHANGES_CONTOUR, replaced=block.text)

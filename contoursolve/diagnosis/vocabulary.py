@@ -355,14 +355,14 @@ def _unknown_code(context: Context, word: Word, modes: Modes) -> Iterator[Diagno
     yield report(context, row, Basis.RULE, [word], name=name, advice=advice)
 
 
-def explain_call(context: Context, name: str, dialect: Control) -> Iterator[Diagnostic]:
+def explain_call(context: Context, name: str, control: Control) -> Iterator[Diagnostic]:
     """A subprogram that is nowhere, and has almost the name of a command."""
-    near = sorted((distance, each) for each in dialect.modes.syntax.codes if (distance := _apart(name, each)) == 1)
+    near = sorted((distance, each) for each in control.modes.syntax.codes if (distance := _apart(name, each)) == 1)
     if near:
         named = either([each for _, each in near[:_MOST]])
         advice = (
             f"write {named} if that is meant; else name the folder of the subprogram with --path. A command of the "
-            f"machine builder that moves nothing is stated with --setting {dialect.name}.words={name}"
+            f"machine builder that moves nothing is stated with --setting {control.name}.words={name}"
         )
         yield report(context, ReadIssue.CODE_UNKNOWN, Basis.RULE, [], name=name, advice=advice)
 

@@ -85,7 +85,7 @@ class Window(Struct, frozen=True, dict=True):
     own: tuple[Block, ...]
     behind: tuple[Block, ...]
     state: State
-    dialect: Control
+    control: Control
     examine: Callable[[Sequence[Block], State, tuple[tuple[Sequence[Block], State], ...]], Iterable[WindowPart]]
 
     @cached_property
@@ -106,7 +106,7 @@ class Window(Struct, frozen=True, dict=True):
     @cached_property
     def codes(self) -> Mapping[str, Effect]:
         """The codes of the control, without zeros that lead, and what each does."""
-        return {plain_code(code.text): code.effect for code in self.dialect.modes.codes.values()}
+        return {plain_code(code.text): code.effect for code in self.control.modes.codes.values()}
 
     @cached_property
     def before(self) -> Seen:
@@ -153,7 +153,7 @@ class Window(Struct, frozen=True, dict=True):
         # What rests on nothing that is changed stays.
         kept = next(at for at, part in enumerate(parts) if places[at] + part.reach > changed[0])
         begin, seen = places[kept], parts[:kept]
-        blocks = read_edits(self.blocks[begin:], edits, self.dialect.modes.syntax)
+        blocks = read_edits(self.blocks[begin:], edits, self.control.modes.syntax)
         own, left = {*self.lines}, len(blocks)
         ahead = tuple((part.blocks, part.before) for part in seen if any(block.words for block in part.blocks))[-1:]
         for part in self.examine(blocks, parts[kept].before, ahead):
@@ -182,7 +182,7 @@ class Window(Struct, frozen=True, dict=True):
         """Whether a contour has a path; of plain blocks, whether nothing is wrong with their arcs."""
         if part.answer is not None:
             return part.answer.contour is not None
-        arcs = (arc_of(block, part.before, self.dialect.modes) for block in part.blocks)
+        arcs = (arc_of(block, part.before, self.control.modes) for block in part.blocks)
         return not any(arc is not None and any(faults_of(arc)) for arc in arcs)
 
     def begins_at(self, start: Start) -> bool:
@@ -267,23 +267,23 @@ def path_of(seen: Seen, lines: Collection[int]) -> Contour | None:
     return Contour(elements[0].start, elements[-1].end, {}, tuple(elements), plane)
 
 
-def alone(answer: Answer, dialect: Control) -> Window:
+def alone(answer: Answer, control: Control) -> Window:
     """The window of a contour around which nobody looks."""
 
     def examined(blocks: Sequence[Block], state: State, _: object) -> Iterator[WindowPart]:
         while blocks:
-            found, before, own = dialect.find(blocks, 0, state, dialect.modes), state, None
+            found, before, own = control.find(blocks, 0, state, control.modes), state, None
             if isinstance(found, ParsedContour) and found.form.is_contour:
-                own = examine(found, dialect, Policy.ENFORCE, depth=Depth.VERDICT)
-                state = leave(found, own.contour.end if own.contour else None, dialect.modes)
+                own = examine(found, control, Policy.ENFORCE, depth=Depth.VERDICT)
+                state = leave(found, own.contour.end if own.contour else None, control.modes)
             part, blocks = (
                 blocks[: len(found.blocks) if own and found else 1],
                 blocks[len(found.blocks) if own and found else 1 :],
             )
-            state = state if own else advance(state, part[0], dialect.modes)
+            state = state if own else advance(state, part[0], control.modes)
             yield WindowPart(tuple(part), before, state, len(part) + 1, (), own)
 
-    return Window((), answer.claim.blocks, (), answer.claim.before, dialect, examined)
+    return Window((), answer.claim.blocks, (), answer.claim.before, control, examined)
 
 
 def agrees(finding: Diagnostic) -> bool:

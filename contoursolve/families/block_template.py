@@ -346,20 +346,20 @@ class SweepSpec(Struct, frozen=True):
             if not isinstance(text, str):
                 raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
         program = gcode.parse(self.block, "<block>")
-        dialect = choose(self.control, program, dict(self.settings))
-        if dialect is not None and self.branches is Branches.ALL:
-            dialect = replace_fields(dialect, rules=tuple(each for each in dialect.rules if not each.is_about_choice))
+        control = choose(self.control, program, dict(self.settings))
+        if control is not None and self.branches is Branches.ALL:
+            control = replace_fields(control, rules=tuple(each for each in control.rules if not each.is_about_choice))
         told = SolveOptions(start=self.start, units=self.units, rules=self.rules, facts=self.facts, strict=True)
-        asked = told.request(program.name, dialect)
-        if dialect is None:
+        asked = told.request(program.name, control)
+        if control is None:
             unread = run(program, replace(asked, facts=()))
             if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
             raise UnknownControlError(f"the block does not show its control: {' or '.join(CONTROLS)}")
-        program = gcode.spelled(program, dialect.modes.syntax)
+        program = gcode.spelled(program, control.modes.syntax)
         from contoursolve.families.variables import numbered  # noqa: PLC0415 - it raises errors of this module
 
-        program, places = numbered(program, dialect.modes.language, dict(self.variables), self.names)
+        program, places = numbered(program, control.modes.language, dict(self.variables), self.names)
         return Template(program, asked, variables=places).with_words(self.names)
 
 

@@ -351,9 +351,9 @@ def verdict_of(answer: Answer) -> Status | None:
 
 def premises_of(cases: Iterable[CaseClass], template: Template, more: Iterable[Premises] = ()) -> Premises:
     """The premises of the contours of classes beside their words, without those that are refused."""
-    dialect = template.asked.dialect
+    control = template.asked.control
     several = (*more, *(case.premises for case in cases if case.status is None))
-    return join_premises(several, dialect.name if dialect is not None else "")
+    return join_premises(several, control.name if control is not None else "")
 
 
 class FreeWords:

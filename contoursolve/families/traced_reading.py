@@ -242,8 +242,8 @@ def read_row(
 ) -> ParsedContour | None:
     """The contour of a row, read apart from all else that is said of it, and with `notes` by numbers that remember
     their words; None where a contour like one of another row is not found."""
-    dialect, filled = template.asked.dialect, template.filled(values)
-    if dialect is None:
+    control, filled = template.asked.control, template.filled(values)
+    if control is None:
         return None
     program, start = attach(filled.program, filled.asked)[0], filled.asked.start
     blocks: Sequence[Block] = program.blocks
@@ -251,7 +251,7 @@ def read_row(
     if notes is not None:
         marked = _Marking(template.words, values, notes)
         blocks, before = marked.of(blocks), marked.of(before)
-    return _first_contour(dialect, blocks, before, template, like)
+    return _first_contour(control, blocks, before, template, like)
 
 
 class _Marking:
@@ -277,23 +277,23 @@ class _Marking:
 
 
 def _first_contour(
-    dialect: Control, blocks: Sequence[Block], before: Sequence[Block], template: Template, like: ParsedContour
+    control: Control, blocks: Sequence[Block], before: Sequence[Block], template: Template, like: ParsedContour
 ) -> ParsedContour | None:
     """The contour at the place of another one. What begins there is read with all that stands before it."""
-    state, first = dialect.initial_state(template.asked.unit), like.blocks[0].line
+    state, first = control.initial_state(template.asked.unit), like.blocks[0].line
     for block in before:
-        state = advance(state, block, dialect.modes)
+        state = advance(state, block, control.modes)
     index, is_behind = 0, all(word.span.line >= first for word in template.words.values())
     while index < len(blocks):
-        found = dialect.find(blocks, index, state, dialect.modes)
+        found = control.find(blocks, index, state, control.modes)
         if blocks[index].line == first:
             return found
         if found is None or not found.form.is_contour:
-            state = advance(state, blocks[index], dialect.modes)
+            state = advance(state, blocks[index], control.modes)
             index += 1
         elif is_behind:
             index += reach_of(found, blocks, index)
-            state = leave(found, template.end_of(found.blocks[0].line), dialect.modes)
+            state = leave(found, template.end_of(found.blocks[0].line), control.modes)
         else:
             return None
     return None

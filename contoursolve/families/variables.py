@@ -71,9 +71,9 @@ def with_numbers(
 ) -> str:
     """A block with numbers for all of its variables. Raises FamilyError for one without a value, and as `choose`."""
     program = gcode.parse(block, "<block>")
-    dialect = choose(control, program, settings)
-    if dialect is None:
+    chosen = choose(control, program, settings)
+    if chosen is None:
         return block
     known = {name.strip().upper(): float(value) for name, value in values.items()}
-    spelled = gcode.spelled(program, dialect.modes.syntax)
-    return numbered(spelled, dialect.modes.language, known, ())[0].text
+    spelled = gcode.spelled(program, chosen.modes.syntax)
+    return numbered(spelled, chosen.modes.language, known, ())[0].text

@@ -79,7 +79,7 @@ def notebook_of(opened: Opened | None, line: int) -> Reply:
 
 def _unread(opened: Opened) -> Product | None:
     """The reason why nothing is made of a program whose control is not known; None where it is."""
-    if opened.program.dialect is not None or not opened.troubles:
+    if opened.program.control is not None or not opened.troubles:
         return None
     return Product(None, "; ".join(opened.troubles))
 

@@ -45,7 +45,7 @@ def diagnostics_of(opened: Opened) -> list[types.Diagnostic]:
 
 
 def _diagnostic(opened: Opened, finding: Diagnostic) -> types.Diagnostic:
-    page = opened.pages.uri(finding.code, opened.program.dialect)
+    page = opened.pages.uri(finding.code, opened.program.control)
     related = [
         types.DiagnosticRelatedInformation(types.Location(opened.uri, _range(opened, label.span)), label.text)
         for label in finding.labels
@@ -108,8 +108,8 @@ def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction
                 is_preferred=fix.applicability.value == SAFE,
                 edit=opened.workspace_edit(changes),
             )
-        if finding.code not in explanations and opened.program.dialect is not None:
-            arguments = [finding.code, opened.program.dialect.name]
+        if finding.code not in explanations and opened.program.control is not None:
+            arguments = [finding.code, opened.program.control.name]
             command = types.Command(f"Explain {finding.code}", "contoursolve.explain", arguments=arguments)
             explanations[finding.code] = types.CodeAction(
                 command.title, kind=types.CodeActionKind.QuickFix, diagnostics=[shown], command=command

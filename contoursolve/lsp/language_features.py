@@ -118,13 +118,13 @@ def _with_place(name: str, answer: Answer) -> str:
 
 
 def _about_plain_word(opened: Opened, word: Word) -> str:
-    dialect = opened.program.dialect
-    if dialect is None:
+    control = opened.program.control
+    if control is None:
         return ""
     if word.address == "G" and word.number is not None and word.number % 1 == 0:
-        code = dialect.modes.codes.get(int(word.number))
+        code = control.modes.codes.get(int(word.number))
         return f"**{_plain(word.text)}** {code.meaning}" if code and code.meaning else ""
-    row = dialect.modes.lexicon.addresses.get(word.address)
+    row = control.modes.lexicon.addresses.get(word.address)
     return f"**{_plain(word.text)}** {row.meaning}" if row else ""
 
 
@@ -189,20 +189,20 @@ class Completer:
 
     def items(self) -> Iterator[types.CompletionItem]:
         """Words of the contour there, or examples of blocks."""
-        dialect, answer = self.opened.program.dialect, self.opened.program.contour_at(self.line)
+        control, answer = self.opened.program.control, self.opened.program.contour_at(self.line)
         near, begun = self.before[-_LONGEST_WORD:], _BLOCK_BEGUN.match(self.before)
         letters = re.search(r"[#,]?[A-Za-z]*\Z", near)
         typed = letters[0] if letters else ""
         if is_in_comment(self.opened, self.line, self.column):
             return
-        if dialect is not None and answer is not None:
+        if control is not None and answer is not None:
             # Behind a digit begins no word, unless its letter is there.
             if typed or not near or near[-1].isspace():
                 self.begin = self.column - len(typed)
                 yield from self._words(answer)
         elif begun is not None:
             self.begin = begun.start("code") + 1
-            for each in CONTROLS.values() if dialect is None else (dialect,):
+            for each in CONTROLS.values() if control is None else (control,):
                 yield from self._blocks(each)
 
     def _words(self, answer: Answer) -> Iterator[types.CompletionItem]:
@@ -211,12 +211,12 @@ class Completer:
             detail = "fixed by the other words" if each.contour is not None else ""
             yield self._item(each.text, each.text.replace("?", "${1}"), each.meaning, detail, each.address, number)
 
-    def _blocks(self, dialect: Control) -> Iterator[types.CompletionItem]:
-        key = dialect.name, *sorted(dialect.modes.settings.items())
+    def _blocks(self, control: Control) -> Iterator[types.CompletionItem]:
+        key = control.name, *sorted(control.modes.settings.items())
         if key not in _LEGAL:
-            _LEGAL[key] = dialect.examples
+            _LEGAL[key] = control.examples
         for number, each in enumerate(_LEGAL[key]):
-            title = f"{dialect.name}: {each.title}" if self.opened.program.dialect is None else each.title
+            title = f"{control.name}: {each.title}" if self.opened.program.control is None else each.title
             yield self._item(each.text.replace("\n", " / "), _snippet(each.text), title, "", each.text, number)
 
     def _item(
@@ -256,8 +256,8 @@ def _is_code(text: str, at: int) -> bool:
 def signatures_of(opened: Opened, position: types.Position) -> types.SignatureHelp | None:
     """The sets of words that complete the block under the cursor, and what each of them means."""
     line, _ = opened.places.place(position)
-    answer, dialect = opened.program.contour_at(line), opened.program.dialect
-    if answer is None or dialect is None:
+    answer, control = opened.program.contour_at(line), opened.program.control
+    if answer is None or control is None:
         return None
     stated = " ".join(each.word.text.strip() for each in answer.words if each.word.span.line == line)
     additions = {each.address: each.meaning for each in answer.addable}

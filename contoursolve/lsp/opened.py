@@ -101,7 +101,7 @@ class Opened:
     @property
     def source(self) -> str:
         """The source that names the control."""
-        if self.program.dialect is None:
+        if self.program.control is None:
             return "none"
         if self.program.is_stated:
             return "comment"

@@ -16,12 +16,12 @@ class Pages:
         self._folder = TemporaryDirectory(prefix="contoursolve-", ignore_cleanup_errors=True)
         atexit.register(self._folder.cleanup)
 
-    def uri(self, code: str, dialect: "contoursolve.Control | None") -> str:
+    def uri(self, code: str, control: "contoursolve.Control | None") -> str:
         """The address of the page about a rule; empty if there is none."""
-        name = f"{dialect.name}-{code}.md" if dialect is not None else f"{code}.md"
+        name = f"{control.name}-{code}.md" if control is not None else f"{code}.md"
         path = Path(self._folder.name) / name
         try:
-            return path.as_uri() if path.exists() else self.write(name, [contoursolve.explain(code, dialect)])
+            return path.as_uri() if path.exists() else self.write(name, [contoursolve.explain(code, control)])
         except (UserError, OSError):
             return ""
 

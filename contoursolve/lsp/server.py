@@ -158,7 +158,7 @@ class Server(LanguageServer):
         severities = [finding.severity for finding in opened.program.diagnostics]
         status = {
             "uri": opened.uri,
-            "control": opened.program.dialect.name if opened.program.dialect else None,
+            "control": opened.program.control.name if opened.program.control else None,
             "source": opened.source,
             "contours": len(statuses),
             "solved": statuses.count(contoursolve.Status.SOLVED),

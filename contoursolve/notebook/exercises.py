@@ -125,7 +125,7 @@ def _words(answer: Answer) -> list[Word]:
 def _drawn(answer: Answer, draw: Random) -> str:
     """The block with other numbers: round ones, zeros and angles along an axis as they are."""
     units = {id(given.word): given.unit for given in answer.profile.givens.values()}
-    spelling = answer.system.dialect.modes.syntax.words
+    spelling = answer.system.control.modes.syntax.words
     edits = []
     for word in _words(answer):
         number = Decimal(str(word.number))

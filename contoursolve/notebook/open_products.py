@@ -48,7 +48,7 @@ def stated_tool(program: "OpenProgram", path: Path | None) -> "ToolReport | str 
     is_stated = "contoursolve tool" in program.text
     try:
         has_table = path is not None and find_tool_table(path.parent)
-        return report_on_tool(program, path) if program.dialect is not None and (is_stated or has_table) else None
+        return report_on_tool(program, path) if program.control is not None and (is_stated or has_table) else None
     except (OSError, ValueError) as error:
         return str(error) if is_stated else None
 
@@ -73,7 +73,7 @@ def expanded(program: "OpenProgram", **options: Any) -> Product:
     from contoursolve.api import expand  # noqa: PLC0415 - as above
 
     try:
-        found = expand(program.text, control=program.dialect, name=program.name, **options)
+        found = expand(program.text, control=program.control, name=program.name, **options)
     except ValueError as error:
         return Product(None, str(error))
     return _expansion(program, found.text, found.summary)
@@ -89,7 +89,7 @@ def expanded_beside_tool(program: "OpenProgram", path: Path | None, **stated: An
     from contoursolve.program import SolveOptions  # noqa: PLC0415 - as above
 
     source, wish = file_in_memory(program.text, program.name), ExpansionOptions(is_inline=True)
-    asked = SolveOptions(control=program.dialect, units=program.unit)
+    asked = SolveOptions(control=program.control, units=program.unit)
     try:
         tool = _tool_of(path, **stated)
         found = rewrite_beside_tool(source, BytesIO(), wish, asked, tool, follow_options)
@@ -101,7 +101,7 @@ def expanded_beside_tool(program: "OpenProgram", path: Path | None, **stated: An
 
 
 def _expansion(program: "OpenProgram", text: str | None, summary: "Summary") -> Product:
-    return _telling(text, summary, program.dialect.title if program.dialect else "", "expand")
+    return _telling(text, summary, program.control.title if program.control else "", "expand")
 
 
 def converted(program: "OpenProgram", control: str, settings: Mapping[str, str]) -> Product:
@@ -111,7 +111,7 @@ def converted(program: "OpenProgram", control: str, settings: Mapping[str, str])
 
     try:
         found = convert(
-            program.text, cast("ControlName", control), control=program.dialect, settings=settings, name=program.name
+            program.text, cast("ControlName", control), control=program.control, settings=settings, name=program.name
         )
     except ValueError as error:
         return Product(None, str(error))
@@ -154,15 +154,15 @@ def notebook_about(program: "OpenProgram", line: int) -> Product:
     """A notebook that explores the contour on a line, or why there is none."""
     from contoursolve.notebook.standing_alone import standing_alone  # noqa: PLC0415 - as above
 
-    answer, dialect = program.contour_at(line), program.dialect
-    if answer is None or dialect is None:
+    answer, control = program.contour_at(line), program.control
+    if answer is None or control is None:
         return Product(None, "there is no contour under the cursor")
     if not answer.start.is_known or answer.start.is_relative:
         return Product(None, "the start point of this contour is not known")
     options: dict[str, Any] = {
-        "control": dialect.name,
+        "control": control.name,
         "units": answer.unit.value,
-        "settings": dict(dialect.modes.settings),
+        "settings": dict(control.modes.settings),
     }
     text = standing_alone(answer)
     if not text:  # it rests on lines before it: they come along

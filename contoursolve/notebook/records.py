@@ -64,8 +64,8 @@ def text_of(record: Shown) -> Iterable[str]:
     return str(record).split("\n")
 
 
-def _reads_by(dialect: Control, lexicon: Lexicon) -> bool:
-    own = dialect.modes.lexicon
+def _reads_by(control: Control, lexicon: Lexicon) -> bool:
+    own = control.modes.lexicon
     return any(each is lexicon for each in (own, *own.others.values()))
 
 
@@ -152,7 +152,7 @@ def _rule(rule: Rule) -> list[str]:
 
 def controls_of(rule: Rule) -> list[str]:
     """The controls that have a rule."""
-    return [name for name, dialect in CONTROLS.items() if rule in (*dialect.rules, *dialect.catalogue)]
+    return [name for name, control in CONTROLS.items() if rule in (*control.rules, *control.catalogue)]
 
 
 def _family(family: Family) -> Iterator[str]:

@@ -21,7 +21,7 @@ def standing_alone(answer: Answer, *, is_exact: bool = False) -> str:
     `Answer.standing_alone`."""
     if not answer.start.is_known or answer.start.is_relative:
         return ""
-    control, policy = answer.read_by.dialect, answer.read_by.policy
+    control, policy = answer.read_by.control, answer.read_by.policy
     state, codes = answer.claim.before, control.modes.codes
     selected = [code.text for code in codes.values() if code.plane is not None and code.plane.code == state.plane.code]
     is_switched = _ABSOLUTE in codes and codes[_ABSOLUTE].effect.value == "absolute"

@@ -12,52 +12,52 @@ from contoursolve.output.plain_text import columns
 from contoursolve.reading import THIS_CONTROL, Control, Rule, ZeroMove, ZeroRow
 
 
-def catalogue_lines(dialects: Iterable[Control]) -> list[str]:
+def catalogue_lines(controls: Iterable[Control]) -> list[str]:
     """One line a rule: code, severity, evidence, the control's alarm, message."""
     lines: list[str] = []
-    for dialect in dialects:
+    for control in controls:
         rows = [
             (rule.code, rule.severity.value, rule.source.evidence.value, _alarm(rule), rule.title)
-            for rule in sorted(dialect.catalogue, key=lambda rule: rule.code)
+            for rule in sorted(control.catalogue, key=lambda rule: rule.code)
         ]
         header = ("code", "severity", "evidence", "alarm", "message")
-        lines += [f"{dialect.name}: {dialect.title}", *columns([header, *rows], left=(0, 1, 2, 3, 4)), ""]
-        lines += _zero_lines(dialect)
-        lines += _setting_lines(dialect)
+        lines += [f"{control.name}: {control.title}", *columns([header, *rows], left=(0, 1, 2, 3, 4)), ""]
+        lines += _zero_lines(control)
+        lines += _setting_lines(control)
     return lines
 
 
-def catalogue_data(dialects: Iterable[Control]) -> dict[str, Any]:
+def catalogue_data(controls: Iterable[Control]) -> dict[str, Any]:
     """The same as plain data for JSON, with the advice and the examples of each rule: schema contoursolve/rules/1."""
-    controls = [
+    told = [
         {
-            **members(dialect, "name title"),
+            **members(control, "name title"),
             "rules": [
-                {**members(rule, _FIELDS), "options": rule.options.replace(THIS_CONTROL, dialect.name)}
-                for rule in sorted(dialect.catalogue, key=lambda rule: rule.code)
+                {**members(rule, _FIELDS), "options": rule.options.replace(THIS_CONTROL, control.name)}
+                for rule in sorted(control.catalogue, key=lambda rule: rule.code)
             ],
-            "zero": [members(each, "names move source") for each in _moves_of_zero(dialect)],
-            "settings": [members(each, "name meaning values default bounds unit source") for each in dialect.settings],
-            "assumptions": [members(each, "name meaning source") for each in dialect.assumptions],
+            "zero": [members(each, "names move source") for each in _moves_of_zero(control)],
+            "settings": [members(each, "name meaning values default bounds unit source") for each in control.settings],
+            "assumptions": [members(each, "name meaning source") for each in control.assumptions],
         }
-        for dialect in dialects
+        for control in controls
     ]
-    return {"schema": "contoursolve/rules/1", "controls": controls}
+    return {"schema": "contoursolve/rules/1", "controls": told}
 
 
 _FIELDS = "code severity message=title advice note source alarm wrong=rejected right=accepted"
 
 
-def _zero_lines(dialect: Control) -> Iterator[str]:
+def _zero_lines(control: Control) -> Iterator[str]:
     """Lines about what moves the coordinate system."""
-    for row in _moves_of_zero(dialect):
-        yield f"zero {dialect.name}: {row.names}: {row.move.value} ({row.source})"
+    for row in _moves_of_zero(control):
+        yield f"zero {control.name}: {row.names}: {row.move.value} ({row.source})"
     yield ""
 
 
-def _moves_of_zero(dialect: Control) -> Iterator[ZeroRow]:
+def _moves_of_zero(control: Control) -> Iterator[ZeroRow]:
     """The moves of the coordinate system, rows that are alike as one: of codes in a row, the first and the last one."""
-    table, names = dialect.modes.zero, dict[tuple[ZeroMove, Source], list[str]]()
+    table, names = control.modes.zero, dict[tuple[ZeroMove, Source], list[str]]()
     for name, row in table.names.items():
         names.setdefault((row.move, row.source), []).append(name)
     for row in table.beside:
@@ -77,10 +77,10 @@ def _moves_of_zero(dialect: Control) -> Iterator[ZeroRow]:
 _NUMBERED = re.compile(r"(.*?)(\d+)")
 
 
-def _setting_lines(dialect: Control) -> Iterator[str]:
+def _setting_lines(control: Control) -> Iterator[str]:
     """Lines of the settings, for what the manual leaves open: each with its values, the default one marked."""
-    for setting in dialect.settings:
-        name = f"{dialect.name}.{setting.name}"
+    for setting in control.settings:
+        name = f"{control.name}.{setting.name}"
         yield f"setting {name}: {setting.meaning} ({setting.source})"
         rows = [
             (f"--setting {name}={value}", "default" if value == setting.default else "", meaning)
@@ -90,22 +90,22 @@ def _setting_lines(dialect: Control) -> Iterator[str]:
         if setting.bounds or setting.names:
             yield setting.choices("").capitalize()
         yield ""
-    for each in dialect.assumptions:
-        yield f"assumption {dialect.name}.{each.name}: {each.meaning} ({each.source})"
-    if dialect.assumptions:
+    for each in control.assumptions:
+        yield f"assumption {control.name}.{each.name}: {each.meaning} ({each.source})"
+    if control.assumptions:
         yield ""
 
 
-def word_set_lines(dialects: Iterable[Control]) -> Iterator[str]:
+def word_set_lines(controls: Iterable[Control]) -> Iterator[str]:
     """Legality and determinacy of every set of words of every form."""
-    for dialect in dialects:
-        sampled = [form for form in dialect.forms if form.table.sample is not None]
+    for control in controls:
+        sampled = [form for form in control.forms if form.table.sample is not None]
         if not sampled:
-            yield f"{dialect.name}: this control has no table of word sets, because none of its forms has a sample"
+            yield f"{control.name}: this control has no table of word sets, because none of its forms has a sample"
         for form in sampled:
             blocks = " / ".join(form.table.sample.blocks if form.table.sample else ())
-            yield f"{dialect.name} {form.name}, {form.title}: words of {blocks} | the manual's rules | the equations"
-            yield from (str(row) for row in tabulate(form, dialect))
+            yield f"{control.name} {form.name}, {form.title}: words of {blocks} | the manual's rules | the equations"
+            yield from (str(row) for row in tabulate(form, control))
             yield ""
 
 
@@ -137,25 +137,25 @@ def rule_lines(rule: Rule, controls: Sequence[str]) -> list[str]:
     return lines
 
 
-def rule_page(code: str, dialects: Iterable[Control]) -> str:
+def rule_page(code: str, controls: Iterable[Control]) -> str:
     """A page of Markdown about a rule: what is wrong and what to do, with blocks that are wrong and right.
 
     It names the place in the manual of each control that has the rule. Raises LookupError if none has it.
     """
     check_type("code", code, str)
-    found = [(each, rule) for each in dialects for rule in each.catalogue if rule.code == code]
+    found = [(each, rule) for each in controls for rule in each.catalogue if rule.code == code]
     if not found:
         raise LookupError(f"no rule has the code {code!r}")
     alike: dict[tuple[str, ...], list[tuple[Control, Rule]]] = {}
-    for dialect, rule in found:
-        alike.setdefault((rule.title, rule.advice, *rule.rejected), []).append((dialect, rule))
+    for control, rule in found:
+        alike.setdefault((rule.title, rule.advice, *rule.rejected), []).append((control, rule))
     pages = []
     for rows in alike.values():
-        controls, rule = ", ".join(each.title for each, _ in rows), rows[0][1]
+        titles, rule = ", ".join(each.title for each, _ in rows), rows[0][1]
         told = (f"{rule.title}.", f"What to do: {rule.advice}.", rule.note and f"Good to know: {rule.note}.")
         alarm = f"Alarm of the control: {rule.alarm.number} ({rule.alarm.evidence.value})." if rule.alarm else ""
         source = f"Source: {rule.source}."
-        pages += [f"## {controls}", *filter(None, told), *filter(None, (alarm, source))]
+        pages += [f"## {titles}", *filter(None, told), *filter(None, (alarm, source))]
         for title, examples in (("Wrong:", rule.rejected), ("Right:", rule.accepted)):
             pages += [line for each in examples for line in (title, f"```gcode\n{each}\n```")]
     return "\n\n".join((f"# {code}", *pages)) + "\n"
@@ -184,16 +184,16 @@ def _plainly(number: str) -> str:
     return number.strip().lower().removeprefix("ps").lstrip("0")
 
 
-def alarm_rows(dialects: Iterable[Control]) -> Iterator[AlarmRow]:
+def alarm_rows(controls: Iterable[Control]) -> Iterator[AlarmRow]:
     """The alarms of controls: those of their rules, and those about the radius of a tool."""
     from contoursolve.controls import TOOL_FACTS  # noqa: PLC0415 - few ask for alarms
     from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - the same
 
-    for dialect in dialects:
-        yield from (AlarmRow(rule.alarm, dialect.name, rule) for rule in dialect.catalogue if rule.alarm)
-        facts = TOOL_FACTS.get(dialect.name)
+    for control in controls:
+        yield from (AlarmRow(rule.alarm, control.name, rule) for rule in control.catalogue if rule.alarm)
+        facts = TOOL_FACTS.get(control.name)
         for kind, alarm in facts.alarms.items() if facts else ():
-            yield AlarmRow(alarm, dialect.name, ToolFaultKind[kind.upper()].rule)
+            yield AlarmRow(alarm, control.name, ToolFaultKind[kind.upper()].rule)
 
 
 def _short(line: str) -> str:

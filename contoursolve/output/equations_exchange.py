@@ -42,7 +42,7 @@ def _several(systems: Systems) -> Iterable[EquationSystem]:
 def _system(system: EquationSystem) -> dict[str, Any]:
     columns, rows = system.unknowns, system.statements
     return {
-        "control": system.dialect.name,
+        "control": system.control.name,
         "blocks": [block.text for block in system.claim.blocks],
         "unknowns": [
             {"symbol": each.name, "meaning": each.meaning, "unit": each.unit, "value": each.value} for each in columns

@@ -26,7 +26,7 @@ def to_sarif(results: Sequence[Result], version: str, own: Control | None = None
     from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - only here
 
     controls = [*CONTROLS.values(), *([own] if own else [])]
-    known = {rule.code: rule for dialect in controls for rule in dialect.rules}
+    known = {rule.code: rule for control in controls for rule in control.rules}
     told = {finding.code for result in results for finding in result.diagnostics}
     rules = sorted((known | {kind.code: kind.rule for kind in ToolFaultKind if kind.code in told}).items())
     index = {code: number for number, (code, _) in enumerate(rules)}

@@ -38,7 +38,7 @@ def rewrite_beside_tool(
 ) -> Rewritten:
     """Write a program along the path of a tool into `body`; `follow` reads it. Raises ToolError, and as `rewrite`."""
     beside = _open_beside_tool(source, tool, asked, follow, is_inline=wish.is_inline)
-    control = beside.dialect
+    control = beside.control
     if control is not None and control.writing is not None and wish.post is not POSTS["same"]:
         raise ToolError(
             f"the path of a tool is written in the words of {control.name} itself: write that first, then expand it "
@@ -57,7 +57,7 @@ class BesideTool(Struct, frozen=True):
 
     source: OpenFile
     blocks: Mapping[int, Block]
-    dialect: Control | None
+    control: Control | None
     writer: MovedProgram
 
     def say_at_home(self, summary: Summary) -> None:
@@ -106,17 +106,17 @@ def _open_beside_tool(
 ) -> BesideTool:
     program, blocks = parse(source.read(), source.name), dict[int, Block]()
     run = follow(program, asked)
-    dialect = run.asked.dialect
-    if dialect is not None:
-        blocks = dict(enumerate(written_out(run, dialect, is_inline=is_inline), 1))
+    control = run.asked.control
+    if control is not None:
+        blocks = dict(enumerate(written_out(run, control, is_inline=is_inline), 1))
     if blocks:
         end = "\r\n" if "\r\n" in program.text else "\n"
         data = source.mark + source.encode("".join(each.text + end for each in blocks.values()))
         source = replace(source, data=BytesIO(data), size=len(data), stamp=None)
         program = parse(source.read(), source.name)
-        run = follow(program, replace(asked, control=dialect))
+        run = follow(program, replace(asked, control=control))
     report = look_at_tool(result := run.collect(), run.asked, tool)
-    return BesideTool(source, blocks, dialect, _moved_program(program, result, report))
+    return BesideTool(source, blocks, control, _moved_program(program, result, report))
 
 
 def _moved_program(program: Program, result: Result, report: ToolReport) -> MovedProgram:

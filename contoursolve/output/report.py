@@ -164,9 +164,9 @@ def _lighting(result: Result) -> str:
 
 def _conditions(result: Result, places: PageAnchors) -> h.Element:
     """The control, and everything apart from the program that the result depends on."""
-    dialect = CONTROLS.get(result.control or "")
+    control = CONTROLS.get(result.control or "")
     rows = [("program", result.program.name)]
-    rows.append(("control", f"{dialect.title} ({dialect.name})" if dialect else result.control or "not known"))
+    rows.append(("control", f"{control.title} ({control.name})" if control else result.control or "not known"))
     if result.policy is not Policy.ENFORCE:
         rows.append(("rules of the manual", result.policy.value))
     rows += [("setting", f"{result.control}.{name}={value}") for name, value in sorted(result.settings.items())]

@@ -274,12 +274,12 @@ def _role(answer: Answer, solved: Role = Role.INK) -> Role:
 def _moves(result: Result) -> list[PlaneMove]:
     """The moves at a feed that are joined to a contour, before it or after it, in the plane of that contour, and the
     rapid moves that lead to these or away from them; nothing for a control that nobody has described."""
-    dialect = CONTROLS.get(result.control or "")
-    if dialect is None:
+    control = CONTROLS.get(result.control or "")
+    if control is None:
         return []
     axes = tuple(dict.fromkeys(axis for answer in result.answers for axis in answer.plane.axes))
     # Before any code that says it, the unit is that of the first contour.
-    path = follow(result, dialect.configure(result.settings), result.answers[0].unit, axes)
+    path = follow(result, control.configure(result.settings), result.answers[0].unit, axes)
     owners = {line: answer for answer in result.answers for line in answer.lines}
     found: dict[int, PlaneMove] = {}
     reached: Counter[int] = Counter()
@@ -308,11 +308,11 @@ def _moves(result: Result) -> list[PlaneMove]:
 
 def plain_trail(result: Result, like: Answer) -> list[Trail]:
     """The feed moves of a program as it is where a contour stood, which needs none any more."""
-    dialect = CONTROLS.get(result.control or "")
-    if dialect is None:
+    control = CONTROLS.get(result.control or "")
+    if control is None:
         return []
     axes = like.plane.axes
-    steps = follow(result, dialect.configure(result.settings), like.unit, axes).steps
+    steps = follow(result, control.configure(result.settings), like.unit, axes).steps
     moves = [step for step in steps if isinstance(step, Travel) and step.motion is Motion.FEED]
     segments = [flat_segment(step, axes, axes) for step in moves if like.lines[0] <= step.line <= like.lines[-1]]
     found = tuple(segment for segment in segments if segment is not None)

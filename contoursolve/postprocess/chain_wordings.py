@@ -38,9 +38,9 @@ class ChainWordings(GCodeSpeller):
     """The words of a language for elements of a contour."""
 
     def __init__(
-        self, drawn: ContourDrawing, dialect: Control, state: State, language: Language, around: HostProgram | None
+        self, drawn: ContourDrawing, control: Control, state: State, language: Language, around: HostProgram | None
     ) -> None:
-        super().__init__(drawn, dialect, state, around)
+        super().__init__(drawn, control, state, around)
         self.language = language
         self.addresses = self._addresses()
         self.corner_shapes = {language.address_of(name): shape for name, shape in language.corner.words.items()}

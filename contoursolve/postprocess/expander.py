@@ -83,22 +83,22 @@ class Expander:
     """Format of arc centres: coordinates or distances from the start, and the additional decimals."""
 
     def __init__(
-        self, dialect: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, control: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
-        self.dialect = dialect
-        self.modes = dialect.modes
+        self.control = control
+        self.modes = control.modes
         self.options = options
         self.summary = summary
         self.lines = lines
-        self.watch = Watch(options.post, dialect, options.post.readings.get(machine_of(dialect)))
+        self.watch = Watch(options.post, control, options.post.readings.get(machine_of(control)))
         summary.unfamiliar = self.watch.found
         self.numberer = Numberer(self.modes, numbers)
         self.lasting = self.modes.lasting if self.watch.reading is None else {}
         self.formats: dict[Hashable, Format] = {}
         self.offsets = Offsets(self.modes)
-        target = options.post.target or (dialect if options.post is SAME else None)
-        spelled = options.post.modes.syntax if options.post.modes else dialect.modes.syntax
-        self._other = spelled if spelled is not dialect.modes.syntax else None
+        target = options.post.target or (control if options.post is SAME else None)
+        spelled = options.post.modes.syntax if options.post.modes else control.modes.syntax
+        self._other = spelled if spelled is not control.modes.syntax else None
         """How the target spells blocks, if it is in another way."""
         self._radius = target.modes.radius if target else "R"
         self.motion: int | None = None
@@ -313,9 +313,9 @@ class Expander:
         parts = blocks_of(claim, claim.before, self.modes) if diameter is Diameter.ABSOLUTE else ()
         is_mixed = counts and any(part.state.is_incremental for part in parts)
         if not any(code.diameter for code in modes.codes.values()) and not is_mixed:
-            is_lathe = machine_of(self.dialect) is MachineKind.LATHE
-            settings = {setting.name for setting in self.dialect.settings}
-            advice = f"; for a lathe, set {self.dialect.name}.machine=lathe" if "machine" in settings else ""
+            is_lathe = machine_of(self.control) is MachineKind.LATHE
+            settings = {setting.name for setting in self.control.settings}
+            advice = f"; for a lathe, set {self.control.name}.machine=lathe" if "machine" in settings else ""
             return "" if counts is is_lathe else f"X is {what} here, and the target cannot switch that{advice}"
         if diameter is Diameter.ABSOLUTE:
             return "X is a diameter in absolute coordinates alone, which the target does not know"

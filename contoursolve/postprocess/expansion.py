@@ -21,7 +21,7 @@ __all__ = ["OPENING", "expand_lines", "lines_of_facts", "opening_of"]
 
 def expand_lines(
     lines: Lines,
-    dialect: Control,
+    control: Control,
     asked: Request,
     options: ExpansionOptions,
     summary: Summary,
@@ -36,18 +36,18 @@ def expand_lines(
     computes is read as a whole; `expander` makes another pass than the usual one. Unless the control of the lines is
     certain, raises UnknownControlError if some block is for another one.
     """
-    writing, kind = dialect.writing, Expander
+    writing, kind = control.writing, Expander
     if writing is not None and options.post is SAME:
         kind = InOwnWords
     elif writing is not None:
         kind = InGCodes
-    together = Batch(dialect, asked.policy, is_proven=False)
+    together = Batch(control, asked.policy, is_proven=False)
     blocks: Iterable[Line] = lines.blocks()
     machine = None
     if runs is ProgramKind.FOLLOWED:
         whole = tuple(each_block([*blocks], 0))
-        program = Program("", "", whole, dialect.modes.syntax)
-        blocks, machine = whole, machine_for(program, dialect, asked.around, asked.unit)
+        program = Program("", "", whole, control.modes.syntax)
+        blocks, machine = whole, machine_for(program, control, asked.around, asked.unit)
 
     def leave(event: ProgramEvent) -> None:
         is_end = event.kind is EventKind.UNDECIDED
@@ -56,9 +56,9 @@ def expand_lines(
             summary.left.append(Left((event.line,), told, (), {}, is_end))
 
     telling = leave if options.is_inline or kind is InGCodes else None
-    asked = replace_fields(asked, dialect=dialect, depth=Depth.PATH)
+    asked = replace_fields(asked, control=control, depth=Depth.PATH)
     steps = walk(blocks, asked, together, machine, telling, is_called=runs is ProgramKind.FOR_CALLS)
-    yield from (expander or kind)(dialect, options, summary, lines, numbers).expand(steps)
+    yield from (expander or kind)(control, options, summary, lines, numbers).expand(steps)
 
 
 def lines_of_facts(program: Program, asked: Request) -> dict[int, tuple[Directive, ...]]:
@@ -67,12 +67,12 @@ def lines_of_facts(program: Program, asked: Request) -> dict[int, tuple[Directiv
     return {block.line: worded for block in attached.blocks if worded and worded[0] in block.directives}
 
 
-def opening_of(options: ExpansionOptions, dialect: Control, unit: Length, summary: Summary) -> str:
+def opening_of(options: ExpansionOptions, control: Control, unit: Length, summary: Summary) -> str:
     """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
-    text = options.post.opening.get(machine_of(dialect), "") if summary.replaced else ""
-    if summary.unit is not None and dialect.writing is not None:
-        unit, text = summary.unit, options.post.opening.get(machine_of(dialect), dialect.writing.opening)
-    if dialect.diameter is not None:
-        counts = summary.counts_diameters or any(dialect.initial_state(unit).plane.diameters)
+    text = options.post.opening.get(machine_of(control), "") if summary.replaced else ""
+    if summary.unit is not None and control.writing is not None:
+        unit, text = summary.unit, options.post.opening.get(machine_of(control), control.writing.opening)
+    if control.diameter is not None:
+        counts = summary.counts_diameters or any(control.initial_state(unit).plane.diameters)
         text = text.replace("G8 ", "G7 ") if counts else text.replace("G7 ", "G8 ")
     return text.format(unit=options.post.code_of(unit)) + summary.line_end if text else ""

@@ -17,13 +17,13 @@ class FormWordings(GCodeSpeller):
     """The words of a control's forms for elements of a contour."""
 
     def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
-        for address, sign, shape in self.dialect.corners if element is not self.drawn.elements[-1] else ():
+        for address, sign, shape in self.control.corners if element is not self.drawn.elements[-1] else ():
             size = size_as(shape, element)
             if size is not None:
                 yield self.word(address, sign * size)
 
     def special(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
-        for form, names in _uses(self.dialect):
+        for form, names in _uses(self.control):
             path = form.outline.path
             row = self.drawn.elements[index : index + len(path)]
             if [isinstance(each, Line) for each in path] == [isinstance(each.segment, LineSegment) for each in row]:
@@ -50,7 +50,7 @@ class FormWordings(GCodeSpeller):
         self, form: ContourForm, words: tuple[WrittenWord, ...], count: int, way: CornerWay
     ) -> Iterator[Wording]:
         """The block of a form with some words, if its rules allow them."""
-        if not check(self.dialect.rules, form.roles, {word.text[:1]: None for word in words}):
+        if not check(self.control.rules, form.roles, {word.text[:1]: None for word in words}):
             number = int(form.name.removeprefix("G"))
             block = WrittenBlock(number if number in _MODAL else None, form.name, words)
             yield self.closed(count, (block,), replace(way, words=()))
@@ -64,18 +64,18 @@ _USES: dict[object, tuple[tuple[ContourForm, frozenset[str]], ...]] = {}
 refuses may be right by another."""
 
 
-def _uses(dialect: Control) -> tuple[tuple[ContourForm, frozenset[str]], ...]:
+def _uses(control: Control) -> tuple[tuple[ContourForm, frozenset[str]], ...]:
     """The sets of words by which each form of a control may be stated, but for those of corners."""
-    key = dialect.name, dialect.forms, *sorted(dialect.modes.settings.items())
+    key = control.name, control.forms, *sorted(control.modes.settings.items())
     if key not in _USES:
-        _USES[key] = tuple(dict.fromkeys(_sets(dialect)))
+        _USES[key] = tuple(dict.fromkeys(_sets(control)))
     return _USES[key]
 
 
-def _sets(dialect: Control) -> Iterator[tuple[ContourForm, frozenset[str]]]:
-    for form in (each for each in dialect.forms if each.is_contour):
+def _sets(control: Control) -> Iterator[tuple[ContourForm, frozenset[str]]]:
+    for form in (each for each in control.forms if each.is_contour):
         if form.table.sample is not None:
-            sets: Sequence[frozenset[str]] = [frozenset(row.addresses) for row, _ in legal_samples(form, dialect)]
+            sets: Sequence[frozenset[str]] = [frozenset(row.addresses) for row, _ in legal_samples(form, control)]
         else:
-            sets = [each for each in stated_sets(form) if not check(dialect.rules, form.roles, dict.fromkeys(each))]
+            sets = [each for each in stated_sets(form) if not check(control.rules, form.roles, dict.fromkeys(each))]
         yield from ((form, each.difference(form.outline.shapes)) for each in sets)

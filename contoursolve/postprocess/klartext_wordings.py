@@ -42,9 +42,9 @@ class KlartextWordings(Speller):
     corner_shapes = CORNERS
 
     def __init__(
-        self, drawn: ContourDrawing, dialect: Control, state: State, answer: Answer, program: SmallProgram
+        self, drawn: ContourDrawing, control: Control, state: State, answer: Answer, program: SmallProgram
     ) -> None:
-        super().__init__(drawn, dialect, state)
+        super().__init__(drawn, control, state)
         self.answer, self.program, self.tries = answer, program, MOST_TRIED
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:

@@ -21,9 +21,9 @@ _NUMBER = re.compile(r"(?:[NPQ]|GOTO)[ \t]*([0-9]{1,5})(?![0-9])", re.IGNORECASE
 """Block numbers, and numbers of blocks to which a program may jump; in comments, too."""
 
 
-def numbers_of(lines: Iterable[str], dialect: Control) -> "Numbers":
+def numbers_of(lines: Iterable[str], control: Control) -> "Numbers":
     """The block numbers of a program, in the spelling of its control."""
-    return Numbers(lines, dialect.writing.number if dialect.writing is not None else _NUMBER)
+    return Numbers(lines, control.writing.number if control.writing is not None else _NUMBER)
 
 
 class Numbers:

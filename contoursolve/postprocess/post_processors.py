@@ -265,9 +265,9 @@ FANUC = Post(
 POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
 
 
-def machine_of(dialect: Control) -> MachineKind:
+def machine_of(control: Control) -> MachineKind:
     """The kind of machine of a control."""
-    return MachineKind.LATHE if dialect.plane.code == "G18" else MachineKind.MILL
+    return MachineKind.LATHE if control.plane.code == "G18" else MachineKind.MILL
 
 
 _SINUMERIK_LATHE = {

@@ -36,10 +36,10 @@ class _Expander(Expander):
     has_motions = False
 
     def __init__(
-        self, dialect: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, control: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
-        super().__init__(dialect, options, summary, lines, numbers)
-        self.writing = cast("Writing", dialect.writing)
+        super().__init__(control, options, summary, lines, numbers)
+        self.writing = cast("Writing", control.writing)
 
     def _relying(self, *_: object) -> str:
         return ""
@@ -65,9 +65,9 @@ class InOwnWords(_Expander):
     has_absolute_centers = True
 
     def __init__(
-        self, dialect: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, control: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
-        super().__init__(dialect, options, summary, lines, numbers)
+        super().__init__(control, options, summary, lines, numbers)
         self.own = self.writing.own()
         self.center_decimals = self.writing.center_decimals
         self.numberer.prefix = self.writing.number_prefix
@@ -103,9 +103,9 @@ class InGCodes(_Expander):
     """All of a program in G codes; what has none is a comment."""
 
     def __init__(
-        self, dialect: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, control: Control, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
-        super().__init__(dialect, options, summary, lines, numbers)
+        super().__init__(control, options, summary, lines, numbers)
         self.plain = self.writing.plain()
 
     def _keep(self, block: Block, state: State, _there: int | None = None) -> Iterator[str]:

@@ -86,35 +86,35 @@ def rewrite(
     """
     unread: list[Left] = []
     recogniser = Recogniser(source.name)
-    named, dialect = named_control(control, settings), None
+    named, chosen = named_control(control, settings), None
     with suppress(SeveralControlsError):
-        dialect = named or _recognise(recogniser, _blocks(source, unread))
+        chosen = named or _recognise(recogniser, _blocks(source, unread))
     shows = recogniser.signs or recogniser.may_turn
-    if dialect is None and (shows or blocks_of_called_files(source.lines(), asked.around)):
-        dialect = choose_alike(None, parse(source.read(), source.name), asked, settings)
+    if chosen is None and (shows or blocks_of_called_files(source.lines(), asked.around)):
+        chosen = choose_alike(None, parse(source.read(), source.name), asked, settings)
     summary = Summary()
     body.write(source.mark)
-    if dialect is None:
+    if chosen is None:
         check_settings(settings or {})
         summary.left += unread
         lines: Iterable[str | object] = source.lines()
     else:
-        dialect = configure(dialect, settings)
+        chosen = configure(chosen, settings)
         if not isinstance(control, Control):
-            dialect = for_machine(dialect, settings or {}, source.lines())
-        asked = asked.of(dialect, source.lines)
+            chosen = for_machine(chosen, settings or {}, source.lines())
+        asked = asked.of(chosen, source.lines)
         check_start(asked)
         summary.concluded += conclusions(asked, ())
         places = lines_of_facts(parse(source.read(), source.name), asked) if asked.facts else {}
         is_certain = bool(named or recogniser.begun) or not recogniser.is_sure
         lines = expand_lines(
-            (writer.lines if writer else Lines)(source.lines(), dialect, places, is_certain=is_certain),
-            dialect,
+            (writer.lines if writer else Lines)(source.lines(), chosen, places, is_certain=is_certain),
+            chosen,
             asked,
             options,
             summary,
-            numbers=numbers_of(source.lines(), dialect) if options.numbering is Numbering.ALL else None,
-            runs=ProgramKind.IN_ORDER if writer else kind_of(source.lines(), dialect.modes.language),
+            numbers=numbers_of(source.lines(), chosen) if options.numbering is Numbering.ALL else None,
+            runs=ProgramKind.IN_ORDER if writer else kind_of(source.lines(), chosen.modes.language),
             expander=writer.expander if writer else None,
         )
     held: list[str] = []
@@ -133,8 +133,8 @@ def rewrite(
                 told = source.share
                 progress(told)
     body.write(source.encode("".join(held)))
-    opening = opening_of(options, dialect, asked.unit, summary) if dialect else ""
-    return Rewritten(body, place, source.encode(opening), dialect.name if dialect else None, summary)
+    opening = opening_of(options, chosen, asked.unit, summary) if chosen else ""
+    return Rewritten(body, place, source.encode(opening), chosen.name if chosen else None, summary)
 
 
 def _recognise(recogniser: Recogniser, blocks: Iterable[Block]) -> Control | None:

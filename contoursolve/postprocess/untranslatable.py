@@ -75,13 +75,13 @@ def _looking_for(addresses: str, is_counting: bool) -> re.Pattern[str]:
 class Watch:
     """Looks at every block that is not replaced."""
 
-    def __init__(self, post: Post, dialect: Control, reading: SupportedCodes | None) -> None:
+    def __init__(self, post: Post, control: Control, reading: SupportedCodes | None) -> None:
         self.post = post
         self.reading = reading
-        self.control = dialect.name
-        self.is_spelled_otherwise = post.target is None or post.target.modes.syntax is not dialect.modes.syntax
-        self.lexicon = dialect.modes.lexicon
-        self.modes = dialect.modes
+        self.control = control.name
+        self.is_spelled_otherwise = post.target is None or post.target.modes.syntax is not control.modes.syntax
+        self.lexicon = control.modes.lexicon
+        self.modes = control.modes
         without_point = post.without_point or self.lexicon.numbers.without_point
         self.counts = None if without_point is self.lexicon.numbers.without_point else without_point
         self.found: list[Unfamiliar] = []

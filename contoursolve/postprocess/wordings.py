@@ -126,12 +126,12 @@ class Speller:
     """The words that make the corner behind an element, each with the shape that it makes."""
 
     def __init__(
-        self, drawn: ContourDrawing, dialect: Control, state: State, around: HostProgram | None = None
+        self, drawn: ContourDrawing, control: Control, state: State, around: HostProgram | None = None
     ) -> None:
         self.around, self.line = around, 0 if around is not None and around.is_rapid else 1
-        self.drawn, self.dialect, self.modes = drawn, dialect, dialect.modes
+        self.drawn, self.control, self.modes = drawn, control, control.modes
         self.plane, self.unit = state.plane, state.unit
-        self.lexicon = dialect.modes.words(state)
+        self.lexicon = control.modes.words(state)
         rows = self.lexicon.addresses.values()
         self.steps = {row.axis: row.address for row in rows if row.is_increment and row.axis and around is None}
 
@@ -261,7 +261,7 @@ class GCodeSpeller(Speller):
 
     def kept(self, motion: int) -> int | None:
         """The motion that a block of it leaves in force; None on a control that has each block say it."""
-        return motion if self.dialect.has_modal_motions else None
+        return motion if self.control.has_modal_motions else None
 
     def code(self, motion: int) -> str:
         """The code of a motion."""

@@ -69,7 +69,7 @@ from .recognise import (
     SeveralControlsError as SeveralControlsError,
     UnknownControlError as UnknownControlError,
     choose as choose,
-    find_dialect as find_dialect,
+    find_control as find_control,
     for_kind as for_kind,
     for_machine as for_machine,
     named_control as named_control,

@@ -98,14 +98,14 @@ def choose_alike(
         if not _is_alike(contour):
             said, made = _differences(dict(zip(readers, contour, strict=True)))
             raise UnknownControlError(said, readers, made)
-    own_dialect = configure(CONTROLS[first], own)
+    own_control = configure(CONTROLS[first], own)
     if not others:
-        return own_dialect
+        return own_control
     is_told_alike = len({readings[name].findings for name in readers}) == 1
     if is_told_alike and any(each.has_errors for each in readings.values()):
         full = (_read(program, configure(CONTROLS[name], own), asked, Depth.FULL) for name in readers)
         is_told_alike = len({each.findings for each in full}) == 1
-    return _first_of(readers, own_dialect, is_told_alike=is_told_alike)
+    return _first_of(readers, own_control, is_told_alike=is_told_alike)
 
 
 def _by_arcs(program: Program, asked: Request, own: Mapping[str, str]) -> Control | None:
@@ -147,9 +147,9 @@ def _choose(
     return found, turned_with_corners(program.blocks) if found is None else (), None
 
 
-def _read(program: Program, dialect: Control, asked: Request, depth: Depth = Depth.VERDICT) -> _Reading:
+def _read(program: Program, control: Control, asked: Request, depth: Depth = Depth.VERDICT) -> _Reading:
     """Read a program as a control does; with a depth other than VERDICT, its fixes are looked for, too."""
-    own = asked.of(dialect, lambda: (block.text for block in program.blocks))
+    own = asked.of(control, lambda: (block.text for block in program.blocks))
     running = Run(program, replace_fields(own, depth=depth))
     result = running.collect()
     found = (*result.answers, *running.called)

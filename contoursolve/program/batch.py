@@ -66,7 +66,7 @@ class Batch(Struct):
     The answers are those of `examine`: the same outputs of the same function, checked in columns.
     """
 
-    dialect: Control
+    control: Control
     policy: Policy
     is_proven: bool
     kinds: dict[Hashable, Kind] = field(default_factory=dict)
@@ -74,7 +74,7 @@ class Batch(Struct):
     @property
     def rules(self) -> tuple[Rule, ...]:
         """The rules of the control."""
-        return self.dialect.rules
+        return self.control.rules
 
     def solve(self, claims: Sequence[ParsedContour], examine: Sequence[Callable[[], Answer]]) -> list[Answer]:
         """The answers to contours whose start is known; `examine` gives that to each of them."""

@@ -32,10 +32,10 @@ def blocks_of_called_files(lines: Iterable[str], around: Surroundings) -> list[B
 def _libraries(around: Surroundings) -> Sequence[tuple[MacroLanguage, Library]]:
     """A library of subprograms for each language."""
     languages: dict[str, tuple[MacroLanguage, Syntax]] = {}
-    for dialect in CONTROLS.values():
-        language = dialect.modes.language
+    for control in CONTROLS.values():
+        language = control.modes.language
         if language is not None:
-            languages.setdefault(language.name, (language, dialect.modes.syntax))
+            languages.setdefault(language.name, (language, control.modes.syntax))
     return [(language, Library(language, syntax, around.folders)) for language, syntax in languages.values()]
 
 

@@ -25,10 +25,10 @@ _ALIKE = 6
 """Decimals of mm to which two paths are compared."""
 
 
-def machine_for(program: Program, dialect: Control, around: Surroundings, unit: Length) -> Machine | None:
+def machine_for(program: Program, control: Control, around: Surroundings, unit: Length) -> Machine | None:
     """The machine that runs a program, which begins in a unit; None for one that neither calls, jumps nor computes."""
-    limit = Limit(dialect.modes.most_blocks, f"{dialect.name}.{Limit().setting}")
-    return machine_in(program, dialect.modes, around, unit, limit)
+    limit = Limit(control.modes.most_blocks, f"{control.name}.{Limit().setting}")
+    return machine_in(program, control.modes, around, unit, limit)
 
 
 def arguments_without_point(machine: Machine, asked: Request) -> Iterator[Diagnostic]:
@@ -71,13 +71,13 @@ def in_text_order(
     asked: Request,
     told: Sequence[Diagnostic],
     profiles: list[CycleProfile],
-    dialect: Control,
+    control: Control,
     called: list[Answer],
 ) -> Iterator[Step]:
     """The steps of a program as it runs, each contour once, in the order in which the program is written. What is
     wrong in lines that the program passes over, stops nothing. `told` are findings about the whole text; the profiles
     of cycles are added to `profiles`, contours of other files to `called`; it is for a control."""
-    rules, state = asked.rules, dialect.initial_state(asked.unit)
+    rules, state = asked.rules, control.initial_state(asked.unit)
     ran: dict[int, list[Step]] = {}
     before: dict[int, State] = {}
     findings, here = list(told), _Substituted()
@@ -101,7 +101,7 @@ def in_text_order(
     if not ran:
         # No contour minds where it is not followed.
         findings = [each for each in findings if each.about is not ReadIssue.NOT_FOLLOWED]
-    profiles.extend(profiles_of(in_cycle, dialect.modes))
+    profiles.extend(profiles_of(in_cycle, control.modes))
     told_of = chain.from_iterable((*turns_back(each, rules), *begins_wrongly(each, rules)) for each in profiles)
     findings += (_as_typed(each, blocks, here) for each in told_of)
     by_line: dict[int, list[Diagnostic]] = {}

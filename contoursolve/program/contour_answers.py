@@ -31,21 +31,21 @@ _MOST_NESTED = 2
 """Explanations of contours, one for the other, that are made while a program is followed ahead."""
 
 
-def answer_to(asked: Request, dialect: Control, found: ParsedContour, pending: Pending) -> Answer:
+def answer_to(asked: Request, control: Control, found: ParsedContour, pending: Pending) -> Answer:
     """The answer to a contour, with the values that it asks for filled in; its findings are not explained yet."""
     behind = islice(pending.view, pending.after, None)
-    answer = examine(found, dialect, asked.policy, lambda: next_place(behind, found, dialect.modes), asked.depth)
+    answer = examine(found, control, asked.policy, lambda: next_place(behind, found, control.modes), asked.depth)
     if answer.contour is None:
         following = [each for each in pending.view[pending.after : pending.after + BEHIND] if each.says_something]
-        block, goes_on = next(iter(following), None), any(axis_words(each, dialect.modes) for each in following)
+        block, goes_on = next(iter(following), None), any(axis_words(each, control.modes) for each in following)
         if pending.view.end_at_call and not goes_on:
-            answer = replace(answer, diagnostics=tuple(_at_call(each, answer, dialect) for each in answer.diagnostics))
-        elif block is not None and dialect.modes.zero.rows_in(block):
+            answer = replace(answer, diagnostics=tuple(_at_call(each, answer, control) for each in answer.diagnostics))
+        elif block is not None and control.modes.zero.rows_in(block):
             answer = replace(answer, diagnostics=tuple(_at_moved_zero(each, block) for each in answer.diagnostics))
     if answer.contour is not None and any(value.value is not None for value in answer.asked):
         from contoursolve.diagnosis import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
-        return replace(answer, filled=fill_in(answer, pending.step.before, dialect))
+        return replace(answer, filled=fill_in(answer, pending.step.before, control))
     return answer
 
 
@@ -53,14 +53,14 @@ _CUT_OFF = {"corner-without-next": "a corner", "end-missing": "a line by its ang
 """The elements that need the next one, by the ends of the codes of what is said where none follows."""
 
 
-def _at_call(finding: Diagnostic, answer: Answer, dialect: Control) -> Diagnostic:
+def _at_call(finding: Diagnostic, answer: Answer, control: Control) -> Diagnostic:
     """The finding about a contour right before a call or a return, behind which nobody looks for its next element."""
     what = next((each for code, each in _CUT_OFF.items() if finding.code.endswith(f"-{code}")), None)
     if what is None:
         return finding
     words = [word for word in answer.claim.words.values() if word.span == finding.span]
     name = f"{what} right before a call or a return"
-    told = report(context_of(answer.claim, dialect.rules), ReadIssue.NOT_READ, Basis.RULE, words, name=name)
+    told = report(context_of(answer.claim, control.rules), ReadIssue.NOT_READ, Basis.RULE, words, name=name)
     help_ = "write the next cutting move right after it, in the same program"
     return replace(told, severity=finding.severity, help=help_)
 
@@ -74,14 +74,14 @@ def _at_moved_zero(finding: Diagnostic, moving: Block) -> Diagnostic:
     return replace(finding, message=f"{finding.message}: {told}")
 
 
-def explained(asked: Request, dialect: Control, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts) -> Answer:
+def explained(asked: Request, control: Control, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts) -> Answer:
     """An answer with what is wrong, or hardly meant, explained, and how it is mended; `ahead` is before the contour,
     `parts` examines blocks that are tried."""
     if asked.depth in (Depth.VERDICT, Depth.TRIAL):
         return answer
 
     def window() -> "Window":
-        return _window(dialect, answer, pending, ahead, parts)
+        return _window(control, answer, pending, ahead, parts)
 
     if asked.depth is Depth.PATH and answer.contour is not None and _is_wrong(answer):
         # What is written needs no repair.
@@ -91,16 +91,16 @@ def explained(asked: Request, dialect: Control, answer: Answer, pending: Pending
         from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
         following = pending.view[pending.after : pending.after + BEHIND]
-        answer = diagnose(answer, dialect, asked.policy, following, window())
+        answer = diagnose(answer, control, asked.policy, following, window())
         if asked.depth.is_full and _has(answer, ReadIssue.VARIABLE):
             from contoursolve.program.open_values import tell_values  # noqa: PLC0415 - few contours need it
 
-            return tell_values(answer, dialect, asked.policy)
+            return tell_values(answer, control, asked.policy)
         return answer
     if _has(answer, ReadIssue.POINT_MISSING):
         from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
-        answer = mend_points(answer, dialect)
+        answer = mend_points(answer, control)
     before = (block for blocks in near(ahead, has_plain=False) for block in reversed(blocks))
     beside = chain(before, pending.view.telling(pending.after, NEAR))
     if may_be_suspected(answer, beside, lambda: _around(pending, ahead)) or _has_odd_points(answer):
@@ -118,14 +118,14 @@ def _has_odd_points(answer: Answer) -> bool:
     return has_odd_points(answer)
 
 
-def _window(dialect: Control, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts, own: int = 0) -> "Window":
+def _window(control: Control, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts, own: int = 0) -> "Window":
     """The blocks around a contour; its own are as many more as `own` says. Behind it, no contour is cut in two, as far
     as so many blocks are known."""
     view, after = pending.view, pending.after + own
     behind, count = view[after : after + BEHIND], NEAR
-    while count < len(behind) and dialect.signs(behind[count - 1]):
+    while count < len(behind) and control.signs(behind[count - 1]):
         count += 1
-    return window_of(ahead, view[:after], behind[:count], answer.claim.before, dialect, parts)
+    return window_of(ahead, view[:after], behind[:count], answer.claim.before, control, parts)
 
 
 def _around(pending: Pending, ahead: Ahead) -> Sequence[Block]:
@@ -151,17 +151,17 @@ class Answers:
     looks_back = True
     """True where the lines before a contour run before it."""
 
-    def __init__(self, asked: Request, dialect: Control, parts: Parts) -> None:
-        self.asked, self.dialect, self.parts = asked, dialect, parts
+    def __init__(self, asked: Request, control: Control, parts: Parts) -> None:
+        self.asked, self.control, self.parts = asked, control, parts
 
     def solve(self, found: ParsedContour, pending: Pending) -> Answer:
         """The answer to a contour, which is not explained yet."""
-        return answer_to(self.asked, self.dialect, mark_trusted(found, self.asked), pending)
+        return answer_to(self.asked, self.control, mark_trusted(found, self.asked), pending)
 
     def explain(self, answer: Answer, pending: Pending) -> Answer:
         """The same answer with what is wrong, or hardly meant, explained."""
         ahead = pending.ahead if self.looks_back else ()
-        answer = explained(self.asked, self.dialect, answer, pending, ahead, self.parts)
+        answer = explained(self.asked, self.control, answer, pending, ahead, self.parts)
         answer = with_named_words(answer, self.asked)
         return replace(answer, diagnostics=self._named(answer.diagnostics, answer)) if answer.diagnostics else answer
 
@@ -186,7 +186,7 @@ class Answers:
         lines = [each.span.line for each in found]
         behind = pending.view[pending.after : pending.after + NEAR]
         own = next((at for at, block in enumerate(behind, 1) if block.line in lines), 0)
-        window = _window(self.dialect, answer, pending, pending.ahead, self.parts, own)
+        window = _window(self.control, answer, pending, pending.ahead, self.parts, own)
         return self._named(mend_behind(answer, found, window), answer)
 
 
@@ -223,8 +223,8 @@ class AnswersInPasses(Answers):
 
     looks_back = False
 
-    def __init__(self, asked: Request, dialect: Control, parts: Parts) -> None:
-        super().__init__(asked, dialect, parts)
+    def __init__(self, asked: Request, control: Control, parts: Parts) -> None:
+        super().__init__(asked, control, parts)
         self._known: dict[object, Answer] = {}
         """By what is known before a contour, its blocks and those behind it."""
         self._wrong = Counter[tuple[str, int]]()

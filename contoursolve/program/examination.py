@@ -109,7 +109,7 @@ class Examination:
     def __init__(
         self,
         asked: Request,
-        dialect: Control,
+        control: Control,
         together: Together | None = None,
         *,
         goes_on: bool = False,
@@ -117,14 +117,14 @@ class Examination:
         is_ahead: bool = False,
         is_called: bool = False,
     ) -> None:
-        self.asked, self.dialect = asked, dialect
+        self.asked, self.control = asked, control
         answers = AnswersInPasses if is_run else AnswersAhead if is_ahead else Answers
-        self.answers = answers(asked, dialect, self._parts)
-        self.queue = Queue(dialect, together, self.answers, goes_on=goes_on)
+        self.answers = answers(asked, control, self._parts)
+        self.queue = Queue(control, together, self.answers, goes_on=goes_on)
         self._context = Context(asked.rules, asked.unit)
-        self._plain = PlainLines(dialect.modes, has_points=asked.is_strict)
+        self._plain = PlainLines(control.modes, has_points=asked.is_strict)
         """The lines of which nothing is told: of a number without a point, it may be."""
-        state, found = state_before(asked, dialect)
+        state, found = state_before(asked, control)
         state = replace(state, zero={}) if is_called else state
         # A program that runs is not read in its order, in which a % stands.
         self.begin = Cursor(state, Marks(is_done=is_run), start_count(asked, state), findings=found)
@@ -133,7 +133,7 @@ class Examination:
     @cached_property
     def _trial(self) -> "Examination":
         """The walk over blocks that are tried."""
-        return Examination(replace(self.asked, depth=Depth.TRIAL, start=None, facts=()), self.dialect)
+        return Examination(replace(self.asked, depth=Depth.TRIAL, start=None, facts=()), self.control)
 
     def _parts(self, blocks: Sequence[Block], state: State, ahead: Ahead) -> "Iterator[WindowPart]":
         """Blocks from a state on, with what is ahead of them, as they are examined, without what is said of what is
@@ -148,7 +148,7 @@ class Examination:
 
     def find(self, view: View, state: State) -> Beginning:
         """The contour, or the block alone, that begins with the first of some blocks."""
-        contour = self.dialect.find(view, 0, state, self.dialect.modes)
+        contour = self.control.find(view, 0, state, self.control.modes)
         return Beginning(contour, reach_of(contour, view)) if contour is not None else Beginning(None, 1)
 
     def take(self, view: View, found: Beginning, cursor: Cursor) -> WalkStep:
@@ -169,7 +169,7 @@ class Examination:
 
     def _lost_point(self, view: View, found: Beginning, cursor: Cursor) -> tuple[int, Word] | None:
         """The word of what was found that has lost its point, with the place of its block; None for none."""
-        modes, blocks = self.dialect.modes, view[: found.lines]
+        modes, blocks = self.control.modes, view[: found.lines]
         if modes.lexicon.numbers.without_point is not WithoutPoint.LEAST_INCREMENTS:
             return None
         if not any(counts_few(word, modes.lexicon) for block in blocks for word in block.words if word.address in AXES):
@@ -183,7 +183,7 @@ class Examination:
     def _explain_lost(self, word: Word, blocks: Sequence[Block], state: State) -> Diagnostic:
         """That a word of some blocks has lost its point."""
         context = Context(self.asked.rules, self.asked.unit, place=blocks[0].span)
-        return explain_lost(context, word, blocks, self.dialect.modes, state.unit)
+        return explain_lost(context, word, blocks, self.control.modes, state.unit)
 
     def _take_contour(
         self, view: View, blocks: tuple[Block, ...], contour: ParsedContour, here: Cursor, lost: Word | None
@@ -205,12 +205,12 @@ class Examination:
 
     def _codes_beside(self, block: Block, contour: ParsedContour) -> Iterator[Diagnostic]:
         """The codes in a block of a contour that the control has not, but for those of which the contour tells."""
-        rows = self.dialect.modes.codes
+        rows = self.control.modes.codes
         if all(word.address != "G" or (word.number is not None and word.number in rows) for word in block.words):
             return
         told = {word.span for word in contour.unread}
         context = Context(self.asked.rules, self.asked.unit, place=block.span)
-        for each in explain_codes_by_name(context, block, self.dialect.modes):
+        for each in explain_codes_by_name(context, block, self.control.modes):
             if each.span not in told and each.about is ReadIssue.CODE_UNKNOWN:
                 yield each
 
@@ -219,7 +219,7 @@ class Examination:
     ) -> WalkStep:
         """The step that takes a block that is no contour, though it may be `read` as one is; where it leads is not
         known if a word has `lost` its point."""
-        block, asked, modes = blocks[0], self.asked, self.dialect.modes
+        block, asked, modes = blocks[0], self.asked, self.control.modes
         states = here.state, advance(here.state, block, modes)
         if read is not None:
             pending = Pending(read, Step((), here.state), view, len(blocks))
@@ -238,7 +238,7 @@ class Examination:
 
     def pass_block(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> WalkStep | None:
         """The step that takes a plain line, if it makes no contour with others: what moves behind it is plain, too."""
-        block, modes = blocks[index], self.dialect.modes
+        block, modes = blocks[index], self.control.modes
         if block.callers or not is_plain(cursor.state, modes) or not self._plain.has(block.text):
             return None
         begins, behind = modes.syntax.plain.begins, blocks[index + 1 : index + 1 + NEAR]
@@ -254,7 +254,7 @@ class Examination:
         step = Step((), cursor.state, findings=cursor.findings + outside, passage=passage)
 
         def behind() -> Cursor:
-            state = advance_plainly(cursor.state, passage, self.dialect.modes)
+            state = advance_plainly(cursor.state, passage, self.control.modes)
             told = tuple(span for span in cursor.told if span.line >= passage.line + passage.count)
             return Cursor(state, marks, cursor.count, further(cursor.ahead, passage, cursor.state), told)
 
@@ -263,7 +263,7 @@ class Examination:
     def happen(self, event: ProgramEvent, cursor: Cursor) -> Cursor:
         """The cursor behind an event of the program, with what is found there; its state is that before the event."""
         context = Context(self.asked.rules, self.asked.unit, place=Span(event.line, 1, 2))
-        found = (*cursor.findings, *_findings_of_event(event, context, self.dialect))
+        found = (*cursor.findings, *_findings_of_event(event, context, self.control))
         count = self.begin.count if event.kind is EventKind.FRESH else cursor.count
         return Cursor(cursor.state, cursor.marks, count, findings=found)
 
@@ -303,7 +303,7 @@ class Examination:
     def _next(self, ahead: Lookahead, cursor: Cursor) -> WalkStep | None:
         """The step at the next line; None where it depends on lines that are not read yet."""
         if isinstance(ahead.line, Passage):
-            passage = ahead.plain(moves=is_plain(cursor.state, self.dialect.modes), joins=self.dialect.has_runs)
+            passage = ahead.plain(moves=is_plain(cursor.state, self.control.modes), joins=self.control.has_runs)
             if passage is not None:
                 return self.pass_by(passage, cursor)
         view = ahead.view()
@@ -324,7 +324,7 @@ class Examination:
 
     def told(self, steps: Iterator[Step | Pending], *, is_whole: bool = False) -> Iterator[Step]:
         """Steps with all contours solved, and with those findings outside contours that are told."""
-        outside = Outside(self.dialect, is_strict=self.asked.is_strict)
+        outside = Outside(self.control, is_strict=self.asked.is_strict)
         size, most = (_WHOLE, _WHOLE) if is_whole else (_FIRST, _WINDOW)
         if self.queue.together is None:
             size, most = 1, 1
@@ -337,7 +337,7 @@ class Examination:
     def with_arcs(self, step: Step | Pending) -> Step:
         """A step that is solved, with the findings about its arcs."""
         own = step.step if isinstance(step, Pending) else step
-        return own if self.asked.depth is Depth.TRIAL else with_arcs(self.asked, self.dialect, own)
+        return own if self.asked.depth is Depth.TRIAL else with_arcs(self.asked, self.control, own)
 
     def _passages(self, lines: Blocks) -> Iterator[Block | Passage]:
         return self._plain.among(in_passages(lines))
@@ -368,7 +368,7 @@ class _OneByOne:
         return [each() for each in examine]
 
 
-def _findings_of_event(event: ProgramEvent, context: Context, dialect: Control) -> Iterator[Diagnostic]:
+def _findings_of_event(event: ProgramEvent, context: Context, control: Control) -> Iterator[Diagnostic]:
     """Findings about what happens between two blocks."""
     if event.kind in (EventKind.STOPPED, EventKind.MAY_STOP):
         stopped = report(context, context.row(ReadIssue.NOT_FOLLOWED), Basis.RULE, [], reason=event.reason)
@@ -381,7 +381,7 @@ def _findings_of_event(event: ProgramEvent, context: Context, dialect: Control) 
     if event.unread:
         yield report(context, context.row(ReadIssue.NOT_READ), Basis.RULE, [], name=event.unread)
     if event.called:
-        yield from explain_call(context, event.called, dialect)
+        yield from explain_call(context, event.called, control)
 
 
 # What is told ----------------------------------------------------------------------------------------------------

@@ -20,22 +20,22 @@ class Lines:
     def __init__(
         self,
         lines: Iterable[str],
-        dialect: Control,
+        control: Control,
         facts: Mapping[int, tuple[Directive, ...]],
         *,
         is_certain: bool,
     ) -> None:
         self._lines = lines
         self._facts = facts
-        self._plain = PlainLines(dialect.modes)
+        self._plain = PlainLines(control.modes)
         self._is_certain = is_certain
-        self._dialect, self._own = dialect, ""
+        self._control, self._own = control, ""
         self._ends: dict[int, str] = {}
         self.end = _USUAL
         """The end of the last line that has one."""
 
     def blocks(self) -> Iterator[Line]:
-        has, facts, syntax = self._plain.has, self._facts, self._dialect.modes.syntax
+        has, facts, syntax = self._plain.has, self._facts, self._control.modes.syntax
         held: list[str] = []
         for number, line in enumerate(self._lines, 1):
             # Arcs are written anew in blocks of their own.
@@ -56,16 +56,16 @@ class Lines:
 
     def _read(self, line: str, number: int) -> Block:
         text = self._put(line, number)
-        block = parse_block(text, number, self._dialect.modes.syntax)
+        block = parse_block(text, number, self._control.modes.syntax)
         if number in self._facts:
             block = replace(block, directives=(*block.directives, *self._facts[number]))
         if self._is_certain:
             return block
-        self._own = self._own or sign_of(block, self._dialect)
+        self._own = self._own or sign_of(block, self._control)
         for other in CONTROLS.showing(text):
-            sign = sign_against(block, self._dialect, other) if other.name != self._dialect.name else ""
+            sign = sign_against(block, self._control, other) if other.name != self._control.name else ""
             if sign:
-                raise several_controls({self._dialect.name: self._own, other.name: sign})
+                raise several_controls({self._control.name: self._own, other.name: sign})
         return block
 
     def _put(self, line: str, number: int) -> str:

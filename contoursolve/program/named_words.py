@@ -38,10 +38,10 @@ def _named_beside(blocks: Iterable[Block]) -> list[tuple[Block, Named]]:
     return [(block, each) for block in blocks if block.named and block.says_something for each in block.named]
 
 
-def with_named(asked: Request, dialect: Control, program: Program) -> tuple[Request, tuple[Diagnostic, ...]]:
+def with_named(asked: Request, control: Control, program: Program) -> tuple[Request, tuple[Diagnostic, ...]]:
     """The request with the words that lines of their own name for the whole program, and the findings about them.
     Raises NamedWordError for those that are named apart from the program."""
-    syntax = dialect.modes.syntax
+    syntax = control.modes.syntax
     apart = [read_named(each.role, each.text, syntax) for each in asked.named]
     own = [each for block in program.blocks if is_named_for_all(block) for each in block.named]
     if not apart and not own:
@@ -49,7 +49,7 @@ def with_named(asked: Request, dialect: Control, program: Program) -> tuple[Requ
     findings = list[Diagnostic]()
     there = [word for block in program.blocks for word in block.words]
     are_compared = any(each.role is NamedAs.REFERENCE for each in own + apart)
-    contours = _lines_of_contours(asked, dialect, program) if are_compared else []
+    contours = _lines_of_contours(asked, control, program) if are_compared else []
     kept = []
     for each in (*apart, *own):
         about, reason = ReadIssue.TRUSTED_ABSENT, _absent(each, there, "the program")
@@ -66,9 +66,9 @@ def with_named(asked: Request, dialect: Control, program: Program) -> tuple[Requ
     return replace(asked, named=tuple(kept)), tuple(findings)
 
 
-def _lines_of_contours(asked: Request, dialect: Control, program: Program) -> list[int]:
-    before = dialect.initial_state(asked.unit)
-    found = contours_of(program.blocks, dialect.find, dialect.modes, before, asked.start)
+def _lines_of_contours(asked: Request, control: Control, program: Program) -> list[int]:
+    before = control.initial_state(asked.unit)
+    found = contours_of(program.blocks, control.find, control.modes, before, asked.start)
     return [each.blocks[0].line for each, _ in found]
 
 

@@ -50,7 +50,7 @@ _MOVING = frozenset("XYZUVWABCR")
 
 def conclusions(asked: Request, blocks: Iterable[Block]) -> Iterator[Diagnostic]:
     """Findings about the conclusions on the control, at the first block that shows it."""
-    own = cast("Control", asked.dialect)
+    own = cast("Control", asked.control)
     place = next((block.span for block in telling(blocks) if own.signs(block)), Span(1, 1, 2)) if own.taken else None
     for each in own.taken:
         context = Context(asked.rules, asked.unit, place=cast("Span", place))
@@ -62,7 +62,7 @@ def conclusions(asked: Request, blocks: Iterable[Block]) -> Iterator[Diagnostic]
 
 def nothing_to_solve(asked: Request, blocks: Sequence[Block]) -> Diagnostic:
     """The finding that a program has no contour block: a warning where nothing in it looks like one."""
-    own = asked.dialect
+    own = asked.control
     if own is None and asked.depth is not Depth.VERDICT:
         found = _contour_with_comma(asked, blocks[:_LOOKED_AT])
         if found is not None:
@@ -86,18 +86,18 @@ def _other_controls(own: Control, blocks: Sequence[Block]) -> Iterator[str]:
         yield f"{sign} is for {either(names)}: try --control {names[0] if len(names) == 1 else 'with one of them'}"
 
 
-def _lacks_motion(dialect: Control, blocks: Sequence[Block], unit: Length) -> bool:
+def _lacks_motion(control: Control, blocks: Sequence[Block], unit: Length) -> bool:
     """Whether no motion is in force in the first block with a word of the control's contours."""
-    first = next((block for block in telling(blocks) if dialect.signs(block)), None)
-    if first is None or any(each.address not in dialect.modes.lexicon.addresses for each in dialect.signs(first)):
+    first = next((block for block in telling(blocks) if control.signs(block)), None)
+    if first is None or any(each.address not in control.modes.lexicon.addresses for each in control.signs(first)):
         return False
-    state = dialect.initial_state(unit)
-    for block in PlainLines(dialect.modes).among(in_passages(blocks)):
+    state = control.initial_state(unit)
+    for block in PlainLines(control.modes).among(in_passages(blocks)):
         if isinstance(block, Passage):
             motion = motion_of(words_of(block.text, block.syntax))
             state = state if motion is None else replace(state, motion=motion)
         elif block.line <= first.line:
-            state = advance(state, block, dialect.modes)
+            state = advance(state, block, control.modes)
         if block.line >= first.line:
             break
     return state.motion is None
@@ -105,7 +105,7 @@ def _lacks_motion(dialect: Control, blocks: Sequence[Block], unit: Length) -> bo
 
 def _contour_with_comma(asked: Request, blocks: Sequence[Block]) -> Diagnostic | None:
     """The first word that makes a contour for some control, if it has a comma."""
-    slips = ((name, slip) for name, dialect in CONTROLS.items() for slip in _slips_as(dialect, blocks, asked.unit))
+    slips = ((name, slip) for name, control in CONTROLS.items() for slip in _slips_as(control, blocks, asked.unit))
     for name, slip in slips:
         context = Context(asked.rules, asked.unit, place=slip.span)
         readers = _readers_of(slip.span, blocks, asked.unit)
@@ -129,14 +129,14 @@ def _readers_of(place: Span, blocks: Sequence[Block], unit: Length) -> list[str]
     ]
 
 
-def _slips_as(dialect: Control, blocks: Sequence[Block], unit: Length) -> Iterator[Diagnostic]:
+def _slips_as(control: Control, blocks: Sequence[Block], unit: Length) -> Iterator[Diagnostic]:
     """The words that make a contour for a control with their comma, in the first lines of a program."""
     from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
-    state, tries = dialect.initial_state(unit), _TRIES
-    lacking = {*dialect.modes.lexicon.after_comma}
+    state, tries = control.initial_state(unit), _TRIES
+    lacking = {*control.modes.lexicon.after_comma}
     for index, block in enumerate(blocks):
-        before, state = state, advance(state, block, dialect.modes)
+        before, state = state, advance(state, block, control.modes)
         # What moves in rapid traverse, or alone, is an axis that turns.
         stated = {word.address for word in block.words if word.address in _MOVING}
         # Beside both ends of a line, an angle has nothing to say: it is an axis, too.
@@ -146,8 +146,8 @@ def _slips_as(dialect: Control, blocks: Sequence[Block], unit: Length) -> Iterat
             return
         if lacking & stated:
             tries -= 1
-            context = Context(dialect.rules, unit, place=block.span)
-            found = explain_commas(context, dialect, blocks[index : index + NEAR], (before, state))
+            context = Context(control.rules, unit, place=block.span)
+            found = explain_commas(context, control, blocks[index : index + NEAR], (before, state))
             yield from (each for each in found if each.fixes)
 
 
@@ -170,11 +170,11 @@ def look_without_control(asked: Request, blocks: Sequence[Block]) -> Step:
         if asked.is_strict or block.directives or is_torn or is_unread:
             found += findings_of_block(asked, block)
         # One line is enough: with that mended, the control is known.
-        dialect = _control_of_digits(block) if is_torn else None
-        if dialect is not None:
+        control = _control_of_digits(block) if is_torn else None
+        if control is not None:
             index = block.line - first
             is_shown, near = True, blocks[index : index + NEAR]
-            found = [*with_letters(asked, dialect, near, _state_before(asked, dialect, blocks, index), found)]
+            found = [*with_letters(asked, control, near, _state_before(asked, control, blocks, index), found)]
     found += marks.finish(context)
     return Step((), unread_state(asked.unit), findings=tuple(found))
 
@@ -185,9 +185,9 @@ def _control_of_digits(block: Block) -> Control | None:
     return next((each for each in CONTROLS.showing(meant.text) if each.signs(meant)), None)
 
 
-def _state_before(asked: Request, dialect: Control, blocks: Sequence[Block], index: int) -> State:
+def _state_before(asked: Request, control: Control, blocks: Sequence[Block], index: int) -> State:
     """The state of a control before a block."""
-    state = dialect.initial_state(asked.unit)
+    state = control.initial_state(asked.unit)
     for block in (*(asked.start.blocks if asked.start else ()), *islice(blocks, index)):
-        state = advance(state, block, dialect.modes)
+        state = advance(state, block, control.modes)
     return state

@@ -148,9 +148,9 @@ class OpenProgram:
         return OpenProgram(self.text, settings=own.settings, name=self.name, **told)
 
     @property
-    def dialect(self) -> Control | None:
+    def control(self) -> Control | None:
         """The control; None where nothing tells it."""
-        return self._control.dialect
+        return self._control.control
 
     @property
     def is_stated(self) -> bool:
@@ -170,7 +170,7 @@ class OpenProgram:
     @property
     def syntax(self) -> Syntax:
         """Syntax of its blocks: that of its control, or ISO 6983 if the control is not known."""
-        return self.dialect.modes.syntax if self.dialect is not None else ISO
+        return self.control.modes.syntax if self.control is not None else ISO
 
     @property
     def text(self) -> str:
@@ -209,7 +209,7 @@ class OpenProgram:
     @property
     def request(self) -> Request:
         """The options of its examination, with its control."""
-        return replace(self._asked, dialect=self.dialect, around=surroundings_of(self.name))
+        return replace(self._asked, control=self.control, around=surroundings_of(self.name))
 
     def configure(self, control: ControlName | Control | None, settings: Mapping[str, str]) -> None:
         """Read the program as one for this control (None: as it shows), with these settings."""
@@ -232,10 +232,10 @@ class OpenProgram:
             return
         self._forget()
         is_another = self._control.follow(change)
-        is_run = self.dialect is not None and (
+        is_run = self.control is not None and (
             self._examination is None
-            or needs_running(change.come, self.dialect.modes.language)
-            or says_end((*change.gone, *change.come), self.dialect.modes.language)
+            or needs_running(change.come, self.control.modes.language)
+            or says_end((*change.gone, *change.come), self.control.modes.language)
             or any(map(has_named, change.come))
         )
         if is_another or is_run:
@@ -251,13 +251,13 @@ class OpenProgram:
         self._lines.spell(self.syntax)
         # A program that calls or computes is examined as a whole, or that names words for all of it.
         if (
-            self.dialect is not None
-            and (kind := kind_of(self._lines.texts, self.dialect.modes.language)) is not ProgramKind.FOLLOWED
+            self.control is not None
+            and (kind := kind_of(self._lines.texts, self.control.modes.language)) is not ProgramKind.FOLLOWED
             and not any(map(is_named_for_all, (self._lines[at] for at in self._marked_lines())))
         ):
-            asked, self._kept = replace(self._asked, dialect=self.dialect), KeptSteps()
+            asked, self._kept = replace(self._asked, control=self.control), KeptSteps()
             is_called = kind is ProgramKind.FOR_CALLS
-            self._examination = Examination(asked, self.dialect, goes_on=True, is_called=is_called)
+            self._examination = Examination(asked, self.control, goes_on=True, is_called=is_called)
             known = self._examination.begin
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
 
@@ -349,7 +349,7 @@ class OpenProgram:
             self._bring_up(self._parts[index])
             first, known = sum(part.count for part in self._parts[:index]), self._parts[index].known
             rest = Blocks("".join(self._lines.texts[first:]), first + 1, self._lines.syntax)
-            walk = Examination(examination.asked, examination.dialect, goes_on=True, is_ahead=True).follow(rest, known)
+            walk = Examination(examination.asked, examination.control, goes_on=True, is_ahead=True).follow(rest, known)
             self._ahead = first + 1, *next(walk), walk
         while True:
             line, step, known, walk = self._ahead
@@ -456,7 +456,7 @@ class OpenProgram:
             return
         asked = self._examination.asked
         yield from ((each, (each.span.line,)) for each in conclusions(asked, self._lines))
-        parts, outside, begin = self._parts, Outside(self.dialect), 0
+        parts, outside, begin = self._parts, Outside(self.control), 0
         starts = [*accumulate((part.count for part in parts), initial=0)]
         is_told = any(part.answer is not None for part in parts)
         for index, part in enumerate(parts):
@@ -496,7 +496,7 @@ class OpenProgram:
 
     def result(self) -> Result:
         """The program with all that is found in it, once `check` has returned True."""
-        if self._examination is None or self.dialect is None:
+        if self._examination is None or self.control is None:
             return self._unread or frame_of(self._program(), self.request)
         from contoursolve.program.batch import Batch  # noqa: PLC0415 - an editor asks for findings alone
 
@@ -504,7 +504,7 @@ class OpenProgram:
         program = self._program()
         parts = [part for part in self._parts if part.answer is not None]
         if sum(part.answer_age != now for part in parts) > _MOST_RENEWED:
-            together = Batch(self.dialect, asked.policy, is_proven=True)
+            together = Batch(self.control, asked.policy, is_proven=True)
             for part, answer in zip(parts, Run(program, asked, together).collect().answers, strict=True):
                 part.answer, part.answer_age = answer, now
         starts = accumulate((part.count for part in self._parts), initial=0)

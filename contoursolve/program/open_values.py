@@ -23,10 +23,10 @@ _MOST = 3
 """Ranges that are told."""
 
 
-def tell_values(answer: Answer, dialect: Control, policy: Policy) -> Answer:
+def tell_values(answer: Answer, control: Control, policy: Policy) -> Answer:
     """The answer to a contour that depends on one variable of unknown value, with the ranges in which values that were
     tried make a contour, and what is wrong beside them."""
-    language = dialect.modes.language
+    language = control.modes.language
     about = next((each for each in answer.diagnostics if each.about is ReadIssue.VARIABLE), None)
     if language is None or about is None or not answer.start.is_known:
         return answer
@@ -34,7 +34,7 @@ def tell_values(answer: Answer, dialect: Control, policy: Policy) -> Answer:
     name = next(iter(names)) if len(names) == 1 else ""
     if not name:
         return answer
-    finding = replace(about, notes=(*about.notes, *_Search(answer, dialect, policy, name).told()))
+    finding = replace(about, notes=(*about.notes, *_Search(answer, control, policy, name).told()))
     return replace(answer, diagnostics=tuple(finding if each is about else each for each in answer.diagnostics))
 
 
@@ -48,8 +48,8 @@ def _names(language: MacroLanguage, text: str) -> Iterator[str]:
 class _Search:
     """Values of one variable of a contour."""
 
-    def __init__(self, answer: Answer, dialect: Control, policy: Policy, name: str) -> None:
-        self.answer, self.dialect, self.policy, self.name = answer, dialect, policy, name
+    def __init__(self, answer: Answer, control: Control, policy: Policy, name: str) -> None:
+        self.answer, self.control, self.policy, self.name = answer, control, policy, name
         self.decimals = DECIMALS[answer.unit.value]
 
     def told(self) -> list[str]:
@@ -97,20 +97,20 @@ class _Search:
 
     def _failure(self, value: float, depth: Depth = Depth.VERDICT) -> str | None:
         """The error of the contour with a value; None without one."""
-        claim, dialect = self.answer.claim, self.dialect
-        found = dialect.find(
-            [self._block(number, value) for number in range(len(claim.blocks))], 0, claim.before, dialect.modes
+        claim, control = self.answer.claim, self.control
+        found = control.find(
+            [self._block(number, value) for number in range(len(claim.blocks))], 0, claim.before, control.modes
         )
         if not isinstance(found, ParsedContour) or len(found.blocks) != len(claim.blocks):
             return "the blocks are read as another contour"
-        answer = examine(found, dialect, self.policy, lambda: None, depth)
+        answer = examine(found, control, self.policy, lambda: None, depth)
         error = next((each for each in answer.diagnostics if each.is_error), None)
         return error.message if error else None if answer.contour is not None else ""
 
     def _block(self, number: int, value: float) -> Block:
         """A block of the contour with a value of the variable in its words."""
         block = self.answer.claim.blocks[number]
-        language, text = self.dialect.modes.language, block.text
+        language, text = self.control.modes.language, block.text
         for word in reversed(language.read(text).words if language else ()):
             result = evaluate(word.value, lambda name: value if name == self.name else Unknown(name))
             if isinstance(result, float):

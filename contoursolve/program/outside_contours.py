@@ -91,27 +91,27 @@ def findings_of_block(
 ) -> Sequence[Diagnostic]:
     """Findings about a block that is no contour; `here` is the state with its codes in force, `ahead` what says
     something before it."""
-    dialect = asked.dialect
+    control = asked.control
     points: Sequence[Diagnostic] = ()
-    if asked.is_strict and dialect is not None and here is not None:
-        points = tuple(_of_points(_context_of(asked, block), block, here, dialect))
-    if dialect and _is_clean(block, dialect, here):
+    if asked.is_strict and control is not None and here is not None:
+        points = tuple(_of_points(_context_of(asked, block), block, here, control))
+    if control and _is_clean(block, control, here):
         return points
     context = _context_of(asked, block)
     found = [*_of_characters(context, block), *_of_facts(asked, block), *points]
-    if dialect is None:
+    if control is None:
         return found
-    lexicon = dialect.modes.lexicon
+    lexicon = control.modes.lexicon
     axis_words = [each for each in block.words if (own := lexicon.addresses.get(each.address)) and own.axis]
     found += explain_asked_outside(context, block)
     found += explain_words(context, lexicon, _repeated(axis_words), axis_words)
     if here is None:
         return found
     if COMMENTED not in here.memory:
-        previous = last_of(ahead, dialect.modes)
-        found += _of_vocabulary(context, block, here, dialect, previous)
-        found += _of_unread(context, block, here, dialect, previous)
-    if found and has_corners(block, here, dialect.modes):
+        previous = last_of(ahead, control.modes)
+        found += _of_vocabulary(context, block, here, control, previous)
+        found += _of_unread(context, block, here, control, previous)
+    if found and has_corners(block, here, control.modes):
         return [*explain_corners(context, block.text, found, lexicon, _CORNER_WORDS)]
     return found
 
@@ -121,11 +121,11 @@ def _context_of(asked: Request, block: Block) -> Context:
     return Context(asked.rules, asked.unit, place=block.span)
 
 
-def _is_clean(block: Block, dialect: Control, here: State | None) -> bool:
+def _is_clean(block: Block, control: Control, here: State | None) -> bool:
     """Whether a block has words alone, all read, and moves each axis once, as usual: there is nothing to say then."""
     if block.faults or block.directives or block.unmarked or block.named:
         return False
-    addresses, modes = [word.address for word in block.words], dialect.modes
+    addresses, modes = [word.address for word in block.words], control.modes
     own = {*_OF_ARCS, modes.radius} if here is not None and here.motion in _ARCS else set[str]()
     others = [each for each in addresses if not is_known(each, modes.lexicon)]
     is_read = own.issuperset(others)
@@ -160,9 +160,9 @@ def _of_facts(asked: Request, block: Block) -> Iterator[Diagnostic]:
     yield from named_outside(asked, block)
 
 
-def _of_points(context: Context, block: Block, here: State, dialect: Control) -> Iterator[Diagnostic]:
+def _of_points(context: Context, block: Block, here: State, control: Control) -> Iterator[Diagnostic]:
     """Coordinates without a decimal point that count least increments, in a block that moves by them."""
-    modes, rows = dialect.modes, dialect.modes.lexicon.addresses
+    modes, rows = control.modes, control.modes.lexicon.addresses
     if COMMENTED in here.memory or block.macro is not None or any(modes.is_call(word) for word in block.words):
         return
     if any(isinstance(code, Word) or code.effect in _OTHERWISE for code in codes_of(block, modes)):
@@ -173,29 +173,29 @@ def _of_points(context: Context, block: Block, here: State, dialect: Control) ->
 
 
 def _of_vocabulary(
-    context: Context, block: Block, here: State, dialect: Control, previous: Previous | None
+    context: Context, block: Block, here: State, control: Control, previous: Previous | None
 ) -> Iterator[Diagnostic]:
     """Words and codes that the control has not."""
-    modes, signs = dialect.modes, dialect.signs(block)
+    modes, signs = control.modes, control.signs(block)
     for each in explain_codes_by_name(context, block, modes):
         # The contour of this block is lost with it.
         yield replace(each, severity=Severity.ERROR) if signs else each
-    yield from _of_words_beside(context, block, dialect)
+    yield from _of_words_beside(context, block, control)
     if not (
         moves(block, here, modes, signs) or has_corners(block, here, modes) or like_corners(block, modes, _CORNER_WORDS)
     ):
         return
     # Of the block behind a contour, some controls tell by themselves what its words would have meant there.
-    is_said = dialect.follow is not None and _is_of_contour(previous, modes)
+    is_said = control.follow is not None and _is_of_contour(previous, modes)
     for each in explain_vocabulary(context, block, here, modes, _COMMA_WORDS):
         if not is_said or each.about is not ReadIssue.WORD_IDLE:
             yield each
 
 
-def _of_words_beside(context: Context, block: Block, dialect: Control) -> Iterator[Diagnostic]:
+def _of_words_beside(context: Context, block: Block, control: Control) -> Iterator[Diagnostic]:
     """Words of corners and angles beside a code that uses the words of its block in its own way."""
-    words = [word for word in block.words if is_corner_word(word.address, dialect.modes.lexicon)]
-    codes = codes_of(block, dialect.modes) if words else ()
+    words = [word for word in block.words if is_corner_word(word.address, control.modes.lexicon)]
+    codes = codes_of(block, control.modes) if words else ()
     own = next((each for each in codes if not isinstance(each, Word) and each.effect in _OWN_USE), None)
     if own is not None:
         row = context.row(ReadIssue.WORD_BESIDE_CODE)
@@ -209,11 +209,11 @@ def _is_of_contour(previous: Previous | None, modes: Modes) -> bool:
 
 
 def _of_unread(
-    context: Context, block: Block, here: State, dialect: Control, previous: Previous | None
+    context: Context, block: Block, here: State, control: Control, previous: Previous | None
 ) -> Iterator[Diagnostic]:
     """That a block is not read, which is told once of several in a row."""
-    unread, is_needed = dialect.modes.unread(block, here), bool(dialect.signs(block))
-    if unread is None or (not is_needed and is_read_by_arcs(unread, block, here, dialect.modes)):
+    unread, is_needed = control.modes.unread(block, here), bool(control.signs(block))
+    if unread is None or (not is_needed and is_read_by_arcs(unread, block, here, control.modes)):
         return
     last = previous[0][-1].words if previous else ()
     is_first = unread in block.words and all(name_of(each) != name_of(unread) for each in last)
@@ -229,7 +229,7 @@ class _OfAllControls(Container[str]):
 
     @cached_property
     def _words(self) -> frozenset[str]:
-        return frozenset(each for dialect in CONTROLS.values() for each in self._find(dialect.modes.lexicon))
+        return frozenset(each for control in CONTROLS.values() for each in self._find(control.modes.lexicon))
 
     def __contains__(self, word: object) -> bool:
         return word in self._words
@@ -255,27 +255,27 @@ def with_slips(
 ) -> Sequence[Diagnostic]:
     """The findings about the first of some blocks, with those about slips without which it would be a contour, and with
     what was meant. `states` are those before and behind it, `ahead` is before it, `parts` examines what is tried."""
-    block, dialect = blocks[0], asked.dialect
-    if dialect is None or asked.depth in (Depth.VERDICT, Depth.TRIAL):
+    block, control = blocks[0], asked.control
+    if control is None or asked.depth in (Depth.VERDICT, Depth.TRIAL):
         return found
-    modes, context = dialect.modes, _context_of(asked, block)
+    modes, context = control.modes, _context_of(asked, block)
     after_comma = modes.lexicon.after_comma
     if after_comma and any(word.address in after_comma for word in block.words):
         from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
         found = [
             *found,
-            *explain_commas(_context_of(asked, block), dialect, blocks[:NEAR], states, last_of(ahead, modes)),
+            *explain_commas(_context_of(asked, block), control, blocks[:NEAR], states, last_of(ahead, modes)),
         ]
     if has_lookalike_code(block):
-        found = with_letters(asked, dialect, blocks[:NEAR], states[0], found)
+        found = with_letters(asked, control, blocks[:NEAR], states[0], found)
     own = [each for each in found if each.span.line == block.line]
     is_open = any(each.severity is not Severity.INFO for each in own) and not any(each.fixes for each in own)
-    is_near = is_open and (any(map(_may_draw, blocks[:NEAR], repeat(dialect))) or _is_like_contour(block, modes))
+    is_near = is_open and (any(map(_may_draw, blocks[:NEAR], repeat(control))) or _is_like_contour(block, modes))
     if is_near or (not own and any(doubtful_words(block, modes))):
         from contoursolve.diagnosis import mend_line  # noqa: PLC0415 - few programs need it
 
-        window = window_of(ahead, (block,), blocks[1:NEAR], states[0], dialect, parts)
+        window = window_of(ahead, (block,), blocks[1:NEAR], states[0], control, parts)
         others = [each for each in found if each.span.line != block.line]
         found = [*others, *mend_line(context, own, window)]
     return found
@@ -291,14 +291,14 @@ def _is_like_contour(block: Block, modes: Modes) -> bool:
     return any(mistyped_codes(word, modes) for word in words)
 
 
-def _may_draw(block: Block, dialect: Control) -> bool:
+def _may_draw(block: Block, control: Control) -> bool:
     """Whether a block has, or almost has, a word by which contours are known."""
     is_long = any(len(word.address) > 1 for word in block.words) or "," in block.text
-    return is_long or bool(dialect.signs(block))
+    return is_long or bool(control.signs(block))
 
 
 def with_letters(
-    asked: Request, dialect: Control, blocks: Sequence[Block], before: State, found: Sequence[Diagnostic]
+    asked: Request, control: Control, blocks: Sequence[Block], before: State, found: Sequence[Diagnostic]
 ) -> Sequence[Diagnostic]:
     """The findings about the first of some blocks, with those about letters with digits in whose place it would be a
     contour."""
@@ -307,36 +307,36 @@ def with_letters(
     block = blocks[0]
     own = [each for each in found if each.span.line == block.line]
     others = [each for each in found if each.span.line != block.line]
-    return [*others, *explain_letters(_context_of(asked, block), dialect, blocks, before, own)]
+    return [*others, *explain_letters(_context_of(asked, block), control, blocks, before, own)]
 
 
 # Arcs ------------------------------------------------------------------------------------------------------------
 
 
-def with_arcs(asked: Request, dialect: Control, step: Step) -> Step:
+def with_arcs(asked: Request, control: Control, step: Step) -> Step:
     """A step with the findings about its arcs, if it is no contour: about those in plain lines as well."""
     if step.answer is not None or asked.policy is Policy.OFF or (not step.blocks and step.passage is None):
         return step
-    modes, context, found = dialect.modes, Context(asked.rules, asked.unit), list[Diagnostic]()
+    modes, context, found = control.modes, Context(asked.rules, asked.unit), list[Diagnostic]()
     for block in () if any(map(_is_of_shape, step.findings)) else step.blocks:
-        found += _elsewhere(context, block, _explain_arc(context, dialect, block, step.before))
+        found += _elsewhere(context, block, _explain_arc(context, control, block, step.before))
     if step.passage is not None:
         passage = step.passage
         for index in suspected(passage, step.before, modes):
             before = advance_plainly(step.before, passage.part(0, index), modes) if index else step.before
             line = passage.lines[index].rstrip("\r\n")
-            found += _explain_arc(context, dialect, parse_block(line, passage.line + index, passage.syntax), before)
+            found += _explain_arc(context, control, parse_block(line, passage.line + index, passage.syntax), before)
     if asked.policy is Policy.WARN:
         found = [replace(each, severity=Severity.WARNING) if each.is_error else each for each in found]
     return replace(step, findings=(*step.findings, *found)) if found else step
 
 
-def _explain_arc(context: Context, dialect: Control, block: Block, before: State) -> Iterator[Diagnostic]:
-    arc = arc_of(block, before, dialect.modes)
+def _explain_arc(context: Context, control: Control, block: Block, before: State) -> Iterator[Diagnostic]:
+    arc = arc_of(block, before, control.modes)
     if arc is not None:
         from contoursolve.diagnosis import explain_arc  # noqa: PLC0415 - many programs have none
 
-        yield from explain_arc(context, dialect, arc, before)
+        yield from explain_arc(context, control, arc, before)
 
 
 def _is_of_shape(finding: Diagnostic) -> bool:

@@ -119,11 +119,11 @@ class FactPlaceError(ProgramError, ValueError):
 def attach(program: Program, asked: Request) -> tuple[Program, tuple[Directive, ...]]:
     """The program with the further facts in the last block of its only contour, or else of its last block; and the
     facts, those that are no texts in words. Raises FactPlaceError if there are several contours."""
-    dialect = asked.dialect
-    if dialect is None or not asked.facts:
+    control = asked.control
+    if control is None or not asked.facts:
         return program, asked.facts
-    before, program = dialect.initial_state(asked.unit), spelled(program, dialect.modes.syntax)
-    contours = [each for each, _ in contours_of(program.blocks, dialect.find, dialect.modes, before, asked.start)]
+    before, program = control.initial_state(asked.unit), spelled(program, control.modes.syntax)
+    contours = [each for each, _ in contours_of(program.blocks, control.find, control.modes, before, asked.start)]
     if len(contours) > 1:
         lines = ", ".join(str(each.blocks[0].line) for each in contours)
         raise FactPlaceError(
@@ -156,18 +156,18 @@ def run(program: Program, asked: Request, together: Together | None = None, kept
 
 def frame_of(program: Program, asked: Request, facts: tuple[Directive, ...] = ()) -> Result:
     """A result without contours and findings."""
-    dialect = asked.dialect
+    control = asked.control
     return Result(
         program,
-        dialect.name if dialect else None,
+        control.name if control else None,
         (),
         (),
         asked.start,
         facts,
-        dialect.modes.settings if dialect else {},
+        control.modes.settings if control else {},
         asked.policy,
         around=asked.around,
-        is_concluded=dialect is not None and any(each.about in _OF_CONTROL for each in dialect.taken),
+        is_concluded=control is not None and any(each.about in _OF_CONTROL for each in control.taken),
     )
 
 
@@ -178,13 +178,13 @@ class Run:
     def __init__(
         self, program: Program, asked: Request, together: Together | None = None, kept: KeptSteps | None = None
     ) -> None:
-        dialect = asked.dialect
-        if dialect is not None:
-            program = spelled(program, dialect.modes.syntax)
+        control = asked.control
+        if control is not None:
+            program = spelled(program, control.modes.syntax)
         program, facts = attach(program, asked)
         self._beside: tuple[Diagnostic, ...] = ()
-        if dialect is not None and (asked.named or has_named(program.text)):
-            asked, self._beside = with_named(asked, dialect, program)
+        if control is not None and (asked.named or has_named(program.text)):
+            asked, self._beside = with_named(asked, control, program)
             # Contours that are solved together say nothing of words that are named.
             together = None
         self.frame = frame_of(program, asked, facts)
@@ -193,14 +193,14 @@ class Run:
         self.profiles: list[CycleProfile] = []
         """The profiles of cycles that ran, when all is examined."""
         self.asked, self._together, self._kept = asked, together, kept
-        self._machine = machine_for(program, dialect, asked.around, asked.unit) if dialect else None
+        self._machine = machine_for(program, control, asked.around, asked.unit) if control else None
 
     @cached_property
     def _running(self) -> Running | None:
         """The run of a program that calls or computes."""
-        if self._machine is None or self.asked.dialect is None:
+        if self._machine is None or self.asked.control is None:
             return None
-        return Running(self._examination(self.asked.dialect), self._machine, self._kept)
+        return Running(self._examination(self.asked.control), self._machine, self._kept)
 
     def ahead(self) -> Iterator[None]:
         """The run of a program that calls or computes, step by step; what is told of it waits for its end."""
@@ -210,7 +210,7 @@ class Run:
         # A machine has read them.
         blocks = self._machine.main.blocks if self._machine is not None else self.frame.program.blocks
         asked, is_told = self.asked, False
-        own = asked.dialect
+        own = asked.control
         if own is not None and not asked.is_strict and begins_for_another(blocks, own):
             yield nothing_to_solve(asked, blocks)
             return
@@ -228,19 +228,19 @@ class Run:
 
     def _steps(self) -> Iterator[Step]:
         blocks, asked = self.frame.program.blocks, self.asked
-        if asked.dialect is None:
+        if asked.control is None:
             return tell([look_without_control(asked, blocks)], Outside(None, is_strict=asked.is_strict))
         if self._running is not None:
             return steps_as_run(self._running, self.profiles, self.called)
-        return self._examination(asked.dialect).steps(blocks)
+        return self._examination(asked.control).steps(blocks)
 
-    def _examination(self, dialect: Control) -> Examination:
+    def _examination(self, control: Control) -> Examination:
         machine, goes_on = self._machine, self.asked.depth.is_full
         told = (block.text for block in telling(self.frame.program.blocks))
-        kind = None if machine is not None else kind_of(told, dialect.modes.language)
+        kind = None if machine is not None else kind_of(told, control.modes.language)
         is_called = kind is ProgramKind.FOR_CALLS if machine is None else machine.is_for_calls
         return Examination(
-            self.asked, dialect, self._together, goes_on=goes_on, is_run=machine is not None, is_called=is_called
+            self.asked, control, self._together, goes_on=goes_on, is_run=machine is not None, is_called=is_called
         )
 
     @property
@@ -275,7 +275,7 @@ def walk(
     well. One that returns `is_called` by others."""
     is_run = machine is not None and not is_whole
     is_called = is_called if machine is None else machine.is_for_calls
-    examination = Examination(asked, cast("Control", asked.dialect), together, is_run=is_run, is_called=is_called)
+    examination = Examination(asked, cast("Control", asked.control), together, is_run=is_run, is_called=is_called)
     if machine is None:
         return examination.steps(lines)
     if is_whole:

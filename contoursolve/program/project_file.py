@@ -155,14 +155,14 @@ def read_setting(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def configure(dialect: Control, settings: Mapping[str, str] | None) -> Control:
+def configure(control: Control, settings: Mapping[str, str] | None) -> Control:
     """A control, which need not be built in, with those of the settings by `control.name` that are about it.
 
     Raises SettingError, naming what there is.
     """
     if not settings:
-        return dialect
-    return _configured(settings, dialect).get(dialect.name, dialect)
+        return control
+    return _configured(settings, control).get(control.name, control)
 
 
 def check_settings(settings: Mapping[str, str]) -> None:
@@ -193,9 +193,9 @@ def _configured(settings: Mapping[str, str], own: Control | None) -> dict[str, C
 
 def _example() -> str:
     names = (
-        f"{dialect.name}.{setting.name}={setting.default}"
-        for dialect in CONTROLS.values()
-        for setting in dialect.settings
+        f"{control.name}.{setting.name}={setting.default}"
+        for control in CONTROLS.values()
+        for setting in control.settings
     )
     return next(names, "")
 

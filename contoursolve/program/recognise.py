@@ -82,25 +82,25 @@ def choose(
     )
 
 
-def for_machine(dialect: Control, settings: Mapping[str, str], lines: Iterable[str]) -> Control:
+def for_machine(control: Control, settings: Mapping[str, str], lines: Iterable[str]) -> Control:
     """A control that is on mills and on lathes, for the kind of machine that a program is for, if nothing states it: a
     lathe where X and Z move alone and no plane is selected."""
-    turned = for_kind(dialect, settings, "lathe")
-    shown = frozenset[str]() if turned is dialect else _shown_of_turning(lines, dialect.modes.syntax)
+    turned = for_kind(control, settings, "lathe")
+    shown = frozenset[str]() if turned is control else _shown_of_turning(lines, control.modes.syntax)
     if not shown:
-        return dialect
+        return control
     # A program that selects the plane and diameters says all that is taken of it.
     if "G18" in shown and shown & _DIAMETERS:
         return turned
-    told = Taken(ReadIssue.MACHINE_TAKEN, {"setting": f"{dialect.name}.{_MACHINE}"})
+    told = Taken(ReadIssue.MACHINE_TAKEN, {"setting": f"{control.name}.{_MACHINE}"})
     return replace(turned, taken=(*turned.taken, told))
 
 
-def for_kind(dialect: Control, settings: Mapping[str, str], kind: str) -> Control:
+def for_kind(control: Control, settings: Mapping[str, str], kind: str) -> Control:
     """A control that is on mills and on lathes, for one of these kinds of machine, if no setting states it."""
-    name = f"{dialect.name}.{_MACHINE}"
-    is_open = name not in settings and any(each.name == _MACHINE for each in dialect.settings)
-    return configure(dialect, {name: kind}) if is_open else dialect
+    name = f"{control.name}.{_MACHINE}"
+    is_open = name not in settings and any(each.name == _MACHINE for each in control.settings)
+    return configure(control, {name: kind}) if is_open else control
 
 
 def _shown_of_turning(lines: Iterable[str], syntax: Syntax) -> frozenset[str]:
@@ -141,10 +141,10 @@ def named_control(control: str | Control | None, settings: Mapping[str, str] | N
     """The control of this name, or that is given as its tables, or else the one that the settings name; None if nothing
     names one. Raises UnknownControlError, which lists the choices."""
     wanted = control or (settings or {}).get(CONTROL)
-    return wanted if isinstance(wanted, Control) else find_dialect(wanted) if wanted else None
+    return wanted if isinstance(wanted, Control) else find_control(wanted) if wanted else None
 
 
-def find_dialect(control: str) -> Control:
+def find_control(control: str) -> Control:
     """The control of this name. Raises UnknownControlError, which lists the choices."""
     if control not in CONTROLS:
         hint = did_you_mean(control, CONTROLS)
@@ -177,15 +177,15 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
         shown.add(Y_AXIS)
     if stated & {"Z", "W"} and stated & _SHARED:
         shown.add(_CORNER_ON_Z)
-    for dialect in CONTROLS.showing(block.text):
-        words = () if f"own {dialect.name}" in known else _signs(dialect, block)
+    for control in CONTROLS.showing(block.text):
+        words = () if f"own {control.name}" in known else _signs(control, block)
         if words:
-            shown.add(f"sign {dialect.name}")
+            shown.add(f"sign {control.name}")
         addresses = {word.address for word in words} - _SHARED
         if addresses:
-            shown.add(f"{'own' if addresses - _OF_ARCS else 'arc'} {dialect.name}")
+            shown.add(f"{'own' if addresses - _OF_ARCS else 'arc'} {control.name}")
         if addresses and stated & _OF_CONTOURS and POLAR_WORDS not in shown:
-            shown.add(f"sure {dialect.name}")
+            shown.add(f"sure {control.name}")
     return frozenset(shown)
 
 
@@ -199,9 +199,9 @@ def _shown_plainly(words: str) -> frozenset[str]:
     return frozenset(shown)
 
 
-def _signs(dialect: Control, block: Block) -> list[Word]:
+def _signs(control: Control, block: Block) -> list[Word]:
     """The words of a block that show a control."""
-    return [word for word in dialect.signs(block) if word.address not in dialect.rare]
+    return [word for word in control.signs(block) if word.address not in control.rare]
 
 
 class Recogniser:
@@ -297,19 +297,19 @@ class Recogniser:
             raise several_controls(shown, SeveralControlsError if shown.keys() <= {*fitting} else UnknownControlError)
         return None
 
-    def may_be(self, dialect: Control) -> bool:
+    def may_be(self, control: Control) -> bool:
         """Whether the program may be for a control, for all that it shows."""
-        return self._fits(dialect) and not self._is_excluded(dialect.name)
+        return self._fits(control) and not self._is_excluded(control.name)
 
-    def _fits(self, dialect: Control) -> bool:
+    def _fits(self, control: Control) -> bool:
         """Whether it has all the words, and is for such a machine: a program for a mill that selects no plane has
         contours in X and Y."""
         shared = self._shown & _SHARED
-        if not shared <= dialect.modes.lexicon.addresses.keys() - dialect.rare:
+        if not shared <= control.modes.lexicon.addresses.keys() - control.rare:
             return False
-        if dialect.name in self._certain:
+        if control.name in self._certain:
             return True
-        is_lathe = any(dialect.plane.diameters)
+        is_lathe = any(control.plane.diameters)
         if self._kind:
             return is_lathe == (self._kind == _LATHE)
         # A program that moves X and Z alone is that of a lathe.
@@ -440,9 +440,9 @@ def begun_by(block: Block) -> Control | None:
     return next((each for each in CONTROLS.showing(block.text) if _begins(each.signs(block))), None)
 
 
-def begins_for_another(blocks: Iterable[Block], dialect: Control) -> bool:
+def begins_for_another(blocks: Iterable[Block], control: Control) -> bool:
     """Whether blocks begin as a program of another control does."""
-    return any(begun_by(block) and not _begins(dialect.signs(block)) for block in islice(blocks, FIRST_LINES))
+    return any(begun_by(block) and not _begins(control.signs(block)) for block in islice(blocks, FIRST_LINES))
 
 
 def _begins(words: Sequence[Word]) -> bool:
@@ -465,9 +465,9 @@ def several_controls(
     )
 
 
-def what_shows(blocks: Iterable[Block], dialect: Control) -> str:
+def what_shows(blocks: Iterable[Block], control: Control) -> str:
     """The first sign that blocks are for a control; empty if there is none."""
-    return next((sign for block in telling(blocks) for sign in [sign_of(block, dialect)] if sign), "")
+    return next((sign for block in telling(blocks) for sign in [sign_of(block, control)] if sign), "")
 
 
 def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
@@ -486,15 +486,15 @@ def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
     return {name: found[name] for name in CONTROLS if name in found and name != own}
 
 
-def sign_of(block: Block, dialect: Control) -> str:
+def sign_of(block: Block, control: Control) -> str:
     """The sign that a block is for a control; empty if there is none."""
-    words = dialect.signs(block)
+    words = control.signs(block)
     return _sign(words, block) if words else ""
 
 
-def sign_against(block: Block, dialect: Control, other: Control) -> str:
+def sign_against(block: Block, control: Control, other: Control) -> str:
     """The sign that a block is for another control and that is no word of this one; empty if there is none."""
-    own = dialect.modes.lexicon.addresses
+    own = control.modes.lexicon.addresses
     foreign = [word for word in _signs(other, block) if word.address not in _SHARED or word.address not in own]
     return _sign(foreign, block) if foreign else ""
 

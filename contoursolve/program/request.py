@@ -28,7 +28,7 @@ T = TypeVar("T")
 class Request(Struct, frozen=True):
     """Options of an examination; made once for each program, where it comes in."""
 
-    dialect: Control | None
+    control: Control | None
     """Its control; None where nothing tells it, so that its characters alone are examined."""
     unit: Length = Length.MM
     """Of the numbers before any code that says it."""
@@ -45,12 +45,12 @@ class Request(Struct, frozen=True):
     is_strict: bool = False
     """Whether every line is told of, and not only that on which a contour depends."""
 
-    def of(self, dialect: Control, lines: Callable[[], Iterable[str]] | None = None) -> "Request":
+    def of(self, control: Control, lines: Callable[[], Iterable[str]] | None = None) -> "Request":
         """The same for a program of this control, as which the start point is read, too. Raises VariableNameError
         where a value is stated of what is none of its variables, nor one that its `lines` declare."""
-        if self.around.values and dialect.modes.language is not None:
-            check_names(self.around.values, [dialect.modes.language], lines and (lambda: self._with_called(lines())))
-        return replace(self, dialect=dialect, start=self.start and spelled(self.start, dialect.modes.syntax))
+        if self.around.values and control.modes.language is not None:
+            check_names(self.around.values, [control.modes.language], lines and (lambda: self._with_called(lines())))
+        return replace(self, control=control, start=self.start and spelled(self.start, control.modes.syntax))
 
     def _with_called(self, lines: Iterable[str]) -> Iterator[str]:
         """Lines, and those of the files that they call."""
@@ -61,7 +61,7 @@ class Request(Struct, frozen=True):
     @property
     def rules(self) -> tuple[Rule, ...]:
         """The rules by which findings are told: where nothing tells the control, those of all controls."""
-        return self.dialect.rules if self.dialect is not None else COMMON_RULES
+        return self.control.rules if self.control is not None else COMMON_RULES
 
 
 Units = Literal["mm", "inch"]
@@ -138,7 +138,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
             if (value := getattr(self, argument)) is not None:
                 check_type(argument, value, kind, fits)
 
-    def request(self, name: str, dialect: Control | None = None) -> Request:
+    def request(self, name: str, control: Control | None = None) -> Request:
         """The request for the program of this name, for a control; a text alone is one fact. Raises ValueError where
         units, rules or depth is none of its choices."""
         self.check_types()
@@ -155,9 +155,9 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
             surroundings_of(name, self.variables, self.folders),
             self.strict,
         )
-        if dialect is None and asked.around.values:
+        if control is None and asked.around.values:
             check_names(asked.around.values, [each.modes.language for each in CONTROLS.values() if each.modes.language])
-        return asked.of(dialect) if dialect is not None else asked
+        return asked.of(control) if control is not None else asked
 
 
 _ARGUMENTS: Mapping[str, tuple[type, str]] = {

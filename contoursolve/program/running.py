@@ -36,7 +36,7 @@ def steps_as_run(
     written. At the end, the profiles of cycles are added to `profiles`, contours of other files to `called`."""
     examination, machine = running.examination, running.machine
     asked, blocks = examination.asked, machine.main.blocks
-    outside = Outside(examination.dialect, is_strict=asked.is_strict)
+    outside = Outside(examination.control, is_strict=asked.is_strict)
     told = list[Diagnostic]()
     if asked.is_strict:
         context = Context(asked.rules, asked.unit)
@@ -52,7 +52,7 @@ def steps_as_run(
         asked,
         told,
         profiles if profiles is not None else [],
-        examination.dialect,
+        examination.control,
         called if called is not None else [],
     )
 
@@ -134,7 +134,7 @@ class Running(Ways):
         lines: Iterable[Block | ProgramEvent] | None = None,
     ) -> None:
         begin = examination.begin
-        super().__init__(lambda: begin.state, examination.dialect.modes, self._read)
+        super().__init__(lambda: begin.state, examination.control.modes, self._read)
         self.examination, self.machine, self.cursor = examination, machine, begin
         self.kept = kept
         if kept is not None:
@@ -148,7 +148,7 @@ class Running(Ways):
 
     def _go(self) -> Iterator[Any]:
         yield from self.machine.follow(self.machine.run() if self._lines is None else self._lines, self)
-        first = self.examination.dialect.initial_state(self.examination.asked.unit)
+        first = self.examination.control.initial_state(self.examination.asked.unit)
         rest = [*self.examination.end(replace(self.cursor, state=first))]
         self.machine.found += rest
         yield from rest

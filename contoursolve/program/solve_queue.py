@@ -115,13 +115,13 @@ class Queue:
 
     def __init__(
         self,
-        dialect: Control,
+        control: Control,
         together: Together | None,
         answers: Answering,
         *,
         goes_on: bool = False,
     ) -> None:
-        self.dialect, self.together, self.answers, self.goes_on = dialect, together, answers, goes_on
+        self.control, self.together, self.answers, self.goes_on = control, together, answers, goes_on
         self.pending: list[Pending] = []
 
     def add(self, pending: Pending) -> None:
@@ -154,7 +154,7 @@ class Queue:
             step, origin = each.step, _awaited(claim, answer) if answer.contour is None else None
             told, tried = self._check_on(each, answer, is_else_right=origin is not None)
             end = partial(self._end_of_fix, tried) if self.goes_on else _nowhere
-            each.left = cache(partial(_after, claim, self.dialect.modes, answer, origin, end))
+            each.left = cache(partial(_after, claim, self.control.modes, answer, origin, end))
             behind = self._behind(each, claim.form.name, answer.contour, each.left)
             if behind:
                 told = replace(told, diagnostics=(*told.diagnostics, *self.answers.mend_behind(told, behind, each)))
@@ -183,7 +183,7 @@ class Queue:
         if not is_else_right:
             return self._with_start(told, ReadIssue.CONTOUR_WAITS, (), line=lines), answer
         state = before.move({axis: Position(place.assumed, place.reason, place.span) for axis, place in lost.items()})
-        claim = self.dialect.find(each.view, 0, state, self.dialect.modes) if state.start().is_known else None
+        claim = self.control.find(each.view, 0, state, self.control.modes) if state.start().is_known else None
         if not isinstance(claim, ParsedContour):
             return self._with_start(told, ReadIssue.CONTOUR_WAITS, (), line=lines), answer
         tried = self._examine(claim, each)
@@ -193,7 +193,7 @@ class Queue:
 
     def _with_start(self, answer: Answer, about: ReadIssue, others: tuple[Diagnostic, ...], **fields: Any) -> Answer:
         """The answer with another finding about its start, and others."""
-        context = context_of(answer.claim, self.dialect.rules)
+        context = context_of(answer.claim, self.control.rules)
         start = report(context, context.row(about), Basis.RULE, [], **fields)
         lost = [each for each in answer.diagnostics if each.about is ReadIssue.POSITION_UNKNOWN]
         labels = (*start.labels, *(label for each in lost for label in each.labels))
@@ -228,14 +228,14 @@ class Queue:
         ends = list[End]()
         texts = enumerate(fix.replacement.split("\n"), claim.blocks[0].line)
         pointed = [word for block in claim.blocks for word in block.pointed]
-        blocks = [parse_block(text, line, self.dialect.modes.syntax).with_points(pointed) for line, text in texts]
+        blocks = [parse_block(text, line, self.control.modes.syntax).with_points(pointed) for line, text in texts]
 
         def end_of(found: ParsedContour) -> End:
-            contour = examine(found, self.dialect, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour
+            contour = examine(found, self.control, Policy.ENFORCE, lambda: None, Depth.VERDICT).contour
             ends.append(contour.end if contour else None)
             return ends[-1]
 
-        for _ in contours_of(blocks, self.dialect.find, self.dialect.modes, claim.before, end_of=end_of):
+        for _ in contours_of(blocks, self.control.find, self.control.modes, claim.before, end_of=end_of):
             pass
         return ends[-1] if ends else None
 
@@ -243,17 +243,17 @@ class Queue:
         self, each: Pending, form: str, contour: Contour | None, left: Callable[[], State]
     ) -> tuple[Diagnostic, ...]:
         """The findings about the block behind a contour."""
-        dialect = self.dialect
-        if dialect.follow is None:
+        control = self.control
+        if control.follow is None:
             return ()
-        found = dialect.follow(form, contour, left, islice(each.view, each.after, None), dialect.modes)
-        return tuple(report_behind(one, dialect, each.contour.blocks) for one in found)
+        found = control.follow(form, contour, left, islice(each.view, each.after, None), control.modes)
+        return tuple(report_behind(one, control, each.contour.blocks) for one in found)
 
     def leave(self, pending: Pending) -> State:
         """The state after a contour; where it ends follows when it is solved."""
         if pending.left is not None:
             return pending.left()
-        contour, addresses = pending.contour, self.dialect.modes.lexicon.addresses
+        contour, addresses = pending.contour, self.control.modes.lexicon.addresses
         state, axes = contour.left, [*contour.after.plane.axes]
         for words in map(contour.beside_plane, contour.blocks):
             axes += [axis for axis in (addresses[word.address].axis for word in words) if axis not in axes]

@@ -22,13 +22,13 @@ class StartCount(Struct, frozen=True):
     """True where X counted diameters, if codes switch that; None if they do not, and behind the first contour."""
 
 
-def state_before(asked: Request, dialect: Control) -> tuple[State, tuple[Diagnostic, ...]]:
+def state_before(asked: Request, control: Control) -> tuple[State, tuple[Diagnostic, ...]]:
     """The modal state before a program, behind the block that states its start point apart; and what is found about
     that block."""
-    state, found = dialect.initial_state(asked.unit), list[Diagnostic]()
+    state, found = control.initial_state(asked.unit), list[Diagnostic]()
     for block in asked.start.blocks if asked.start else ():
         found += findings_of_block(asked, block)
-        state = advance(state, block, dialect.modes)
+        state = advance(state, block, control.modes)
     return state, tuple(found)
 
 
@@ -53,27 +53,27 @@ def compare_count(
         told.append(explain_start_units(Context(asked.rules, count.unit, place=block.span), here.unit, block))
     if count.has_diameters is not None and here.counts_diameters() is not count.has_diameters:
         context = Context(asked.rules, here.unit, place=block.span)
-        told.append(explain_start_diameter(context, here, _code_of_x(here, asked.dialect), block))
+        told.append(explain_start_diameter(context, here, _code_of_x(here, asked.control), block))
     return StartCount(here.unit), tuple(told)
 
 
-def _code_of_x(state: State, dialect: Control | None) -> str:
+def _code_of_x(state: State, control: Control | None) -> str:
     """The code by which X is what it is in a state."""
-    codes = dialect.modes.codes.values() if dialect else ()
+    codes = control.modes.codes.values() if control else ()
     return next((code.text for code in codes if code.diameter is state.diameter), state.plane.code)
 
 
 def check_start(asked: Request) -> None:
     """Raise StartError where words that state the start point cannot be read, or give no position."""
-    dialect, start = asked.dialect, asked.start
-    if dialect is None or start is None or not start.text.strip():
+    control, start = asked.control, asked.start
+    if control is None or start is None or not start.text.strip():
         return
-    _, found = state_before(asked, dialect)
+    _, found = state_before(asked, control)
     error = next((each for each in found if each.is_error), None)
-    axes = {name for name, each in dialect.modes.lexicon.addresses.items() if each.axis}
+    axes = {name for name, each in control.modes.lexicon.addresses.items() if each.axis}
     has_position = any(word.address in axes for block in start.blocks for word in block.words)
     if error is not None or not has_position:
         told = error.message if error is not None else "it gives no position"
         raise StartError(
-            f'--start "{start.text}": {told}; write words such as "X40. Z0.", as {dialect.name} reads them'
+            f'--start "{start.text}": {told}; write words such as "X40. Z0.", as {control.name} reads them'
         )

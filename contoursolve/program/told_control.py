@@ -30,7 +30,7 @@ class ToldControl:
         """The control that somebody named; None: as the program shows."""
         self.settings: dict[str, str] = {}
         """The settings that somebody gave; what a comment in the program states counts more."""
-        self.dialect: Control | None = None
+        self.control: Control | None = None
         """The control; None where nothing tells it."""
         self.is_stated = False
         """Whether a comment in the program states it."""
@@ -56,9 +56,9 @@ class ToldControl:
             self._stated = stated_settings(self._lines.texts)
             self.is_stated = CONTROL in self._stated
             settings = self.settings | self._stated
-            self.dialect = choose_alike(self.named, program, self._asked, settings, self._recognise)
+            self.control = choose_alike(self.named, program, self._asked, settings, self._recognise)
         except (UnknownControlError, SettingError) as error:
-            self.dialect, self.trouble = None, str(error)
+            self.control, self.trouble = None, str(error)
             named = {self.named, self.settings.get(CONTROL)} - {None}
             self.is_ambiguous = isinstance(error, UnknownControlError) and not named
 
@@ -74,15 +74,15 @@ class ToldControl:
     def follow(self, change: Splice) -> bool:
         """Find the control anew, if the lines that have changed may tell another one; whether they do. One with the
         same settings stays what it was."""
-        old = self.dialect
+        old = self.control
         # Where blocks show several controls, the reason names their lines.
         is_shown = self._shows_something_else(change.gone, change.come)
         is_stated = change.first < FIRST_LINES and self._states_something_else()
         if is_stated or self.trouble or is_shown or self._concludes_otherwise([*change.gone, *change.come]):
             self.find()
-        if old is None or self.dialect is None or not _alike(old, self.dialect):
+        if old is None or self.control is None or not _alike(old, self.control):
             return True
-        self.dialect = old
+        self.control = old
         return False
 
     def _states_something_else(self) -> bool:
@@ -108,10 +108,10 @@ class ToldControl:
 
     def _concludes_otherwise(self, changed: Sequence[str]) -> bool:
         """Whether something else may be concluded about the control, now that these lines are gone or have come."""
-        if self.dialect is None:
+        if self.control is None:
             return any(map(may_make_corner, changed)) or has_arcs(self._lines.text)
-        syntax = self.dialect.modes.syntax
-        is_alike = any(each.about is ReadIssue.CONTROL_ALIKE for each in self.dialect.taken)
+        syntax = self.control.modes.syntax
+        is_alike = any(each.about is ReadIssue.CONTROL_ALIKE for each in self.control.taken)
         return is_alike or any(shown_of_machine(line, syntax) - TURNED_AXES for line in changed)
 
 

@@ -39,14 +39,14 @@ _WAITING = frozenset(
 class Outside:
     """One pass over the findings outside the contours of one program, which tells some of them."""
 
-    def __init__(self, dialect: Control | None, *, is_strict: bool = False) -> None:
+    def __init__(self, control: Control | None, *, is_strict: bool = False) -> None:
         self.is_strict = is_strict
-        self._signs = dialect.signs if dialect else _no_signs
-        self._modes = dialect.modes if dialect else None
-        own = [each for each in dialect.modes.lexicon.addresses if len(each) > 1] if dialect else []
-        self._long = {*own, *(dialect.modes.lexicon.spell(each, "").split(" ")[0] for each in own if dialect)}
+        self._signs = control.signs if control else _no_signs
+        self._modes = control.modes if control else None
+        own = [each for each in control.modes.lexicon.addresses if len(each) > 1] if control else []
+        self._long = {*own, *(control.modes.lexicon.spell(each, "").split(" ")[0] for each in own if control)}
         """Addresses with a comma or several letters: those of contours."""
-        self._corners = {*corner_words(dialect.modes.lexicon)} if dialect else set[str]()
+        self._corners = {*corner_words(control.modes.lexicon)} if control else set[str]()
         self._held: list[Diagnostic] = []
         self._contour = 0
         """The first line of the last contour; 0 if there is none yet."""

@@ -66,14 +66,14 @@ def window_of(
     own: Sequence[Block],
     behind: Sequence[Block],
     state: State,
-    dialect: Control,
+    control: Control,
     parts: Parts,
 ) -> "Window":
     """Blocks in a state, with what is ahead of them, as far as it is near, and some blocks behind."""
     from contoursolve.diagnosis import Window  # noqa: PLC0415 - most programs need no diagnosis
 
-    held, count = _read(ahead, dialect.modes), sum(1 for _ in near(ahead))
-    return Window(tuple(held[len(held) - count :]), tuple(own), tuple(behind), state, dialect, parts)
+    held, count = _read(ahead, control.modes), sum(1 for _ in near(ahead))
+    return Window(tuple(held[len(held) - count :]), tuple(own), tuple(behind), state, control, parts)
 
 
 def near(ahead: Ahead, *, has_plain: bool = True) -> Iterator[Sequence[Block]]:

@@ -29,12 +29,7 @@ from .contour_form import (
     lay_out as lay_out,
     stated_sets as stated_sets,
 )
-from .control_flow import (
-    Paths as Paths,
-    TakenBlocks as TakenBlocks,
-    Ways as Ways,
-)
-from .dialect import (
+from .control import (
     NAMED_FILE as NAMED_FILE,
     POLAR_WORDS as POLAR_WORDS,
     SEMICOLON_COMMENT as SEMICOLON_COMMENT,
@@ -43,6 +38,11 @@ from .dialect import (
     Control as Control,
     LegalBlock as LegalBlock,
     Taken as Taken,
+)
+from .control_flow import (
+    Paths as Paths,
+    TakenBlocks as TakenBlocks,
+    Ways as Ways,
 )
 from .doubtful_words import doubtful_words as doubtful_words
 from .follow import (

@@ -7,7 +7,7 @@ from contoursolve.controls import CONTROLS, ControlName
 from contoursolve.diagnosis import Answer, status_text
 from contoursolve.diagnostics import UserError, check_type
 from contoursolve.postprocess import WrittenContours, write_contour
-from contoursolve.program import Result, configure, find_dialect
+from contoursolve.program import Result, configure, find_control
 from contoursolve.reading import Control
 from contoursolve.sketches.known_part import solve_sketch
 from contoursolve.sketches.sketch import ContourSketch
@@ -62,7 +62,7 @@ def write(
     if control is None:
         answer = _answer_of(contour)
         return tuple(write_contour(answer, configure(CONTROLS[name], settings), most=1) for name in CONTROLS)
-    target = control if isinstance(control, Control) else configure(find_dialect(control), settings)
+    target = control if isinstance(control, Control) else configure(find_control(control), settings)
     return write_contour(_answer_of(contour), target)
 
 

@@ -323,13 +323,13 @@ class ToolReport(Struct, frozen=True):
 def look_at_tool(result: Result, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()) -> ToolReport:
     """The runs of a solved program with the paths of the tool, and what it cannot cut; places of its path are in these
     axes, or in those of its control. Raises ToolError."""
-    dialect, path, rules, runs = runs_beside(result, asked, wanted, axes)
+    control, path, rules, runs = runs_beside(result, asked, wanted, axes)
     if not runs and all(answer.contour is not None for answer in result.answers):
         raise nothing_cut(path)
-    told, made = ToolFindings(result, dialect, asked, wanted), tuple(map(rules.at, runs))
+    told, made = ToolFindings(result, control, asked, wanted), tuple(map(rules.at, runs))
     found = [each for number, tool_run in enumerate(made) for each in told.of(tool_run, is_first=not number)]
     found += [each for tool_run in made for each in told.of_points(tool_run.run) if each not in result.diagnostics]
-    for own in find_bare(path, wanted, dialect, runs) if runs and runs[0].is_stated else ():
+    for own in find_bare(path, wanted, control, runs) if runs and runs[0].is_stated else ():
         found += told.of_bare(own if own.is_lathe else replace(own, side=runs[0].side), rules)
     return ToolReport(made, tuple(sorted(_once(found), key=rank)), path)
 
@@ -348,11 +348,11 @@ def runs_beside(
 ) -> tuple[Control, ToolPath, ToolRules, list[CuttingRun]]:
     """The control of a solved program, its path, the ground on which its runs are looked at, and the runs. Raises
     ToolError."""
-    if (dialect := asked.dialect) is None:
+    if (control := asked.control) is None:
         raise ToolError("no block shows the control, which says how moves are read; say which with --control")
-    path = follow(result, dialect, asked.unit, axes or dialect.modes.axes, finishes=True).with_places()
-    rules = ToolRules(path.axes, wanted.outside, TOOL_FACTS.get(dialect.name, ToolFacts()), settings_of(dialect))
-    return dialect, path, rules, find_runs(path, wanted, dialect)
+    path = follow(result, control, asked.unit, axes or control.modes.axes, finishes=True).with_places()
+    rules = ToolRules(path.axes, wanted.outside, TOOL_FACTS.get(control.name, ToolFacts()), settings_of(control))
+    return control, path, rules, find_runs(path, wanted, control)
 
 
 def _crossing(made: OffsetPath) -> list[ToolFault]:
@@ -365,9 +365,9 @@ def _crossing(made: OffsetPath) -> list[ToolFault]:
 class ToolFindings:
     """Faults as findings about the lines and words of one program."""
 
-    def __init__(self, result: Result, dialect: Control, asked: Request, wanted: ToolRequest) -> None:
-        self.result, self.dialect, self.asked, self.wanted = result, dialect, asked, wanted
-        self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
+    def __init__(self, result: Result, control: Control, asked: Request, wanted: ToolRequest) -> None:
+        self.result, self.control, self.asked, self.wanted = result, control, asked, wanted
+        self.facts = TOOL_FACTS.get(control.name, ToolFacts())
         self.broken, self.said = set[int](), set[tuple[ToolFaultKind, WordInForce | None]]()
         self.blocks = {block.line: block for block in result.program.blocks}
 
@@ -398,7 +398,7 @@ class ToolFindings:
         """The coordinates without a decimal point that count least increments, where others of its moves have one."""
         moves = [each for each in (own.lead, *own.travels, own.leaving) if each and not each.element and not each.file]
         blocks = {each.line: self.blocks[each.line] for each in moves if each.line in self.blocks}
-        lexicon, shapes = self.dialect.modes.lexicon, {*own.plane.centers, self.dialect.modes.radius}
+        lexicon, shapes = self.control.modes.lexicon, {*own.plane.centers, self.control.modes.radius}
         rows = lexicon.addresses
         words = {
             line: [
@@ -483,7 +483,7 @@ class ToolFindings:
         # Of a word, its number stands in the place of an element.
         working = 0 if fault.kind in _OF_WORDS else fault.working or 0
         name, last = "arc" if isinstance(element, ArcSegment) else "straight", working or fault.element
-        said, codes = self._word_of(own, fault), {f"G{n}": self.dialect.modes.codes[n].text for n in (40, 41, 42)}
+        said, codes = self._word_of(own, fault), {f"G{n}": self.control.modes.codes[n].text for n in (40, 41, 42)}
         lines = " to ".join(str(own.travels[number].line) for number in (fault.element, last))
         return {
             "tool": f"{_kind(own)} {own.size}",
@@ -492,7 +492,7 @@ class ToolFindings:
             "why": f" ({own.why})" if own.why else "",
             "still_on": str(own.still_on),
             "lines": " to ".join(dict.fromkeys([str(own.lines[0]), str(own.lines[-1])])),
-            "cancel": self.dialect.modes.codes[40].text,
+            "cancel": self.control.modes.codes[40].text,
             "void": own.void.text.strip() if own.void else "",
             "word": said.text if said else "",
             "at": str(said.line) if said else "",
@@ -513,7 +513,7 @@ class ToolFindings:
             "begin": str(own.lines[0]),
             "tip": str(own.tool.tip),
             "side": own.side.value,
-            "code": self.dialect.modes.codes[own.side.code].text,
+            "code": self.control.modes.codes[own.side.code].text,
             "needed": angle_text(fault.rest[0]),
             "stated": angle_text(fault.rest[1]),
             "rest": f"{back} and {on} along its sides",
@@ -581,11 +581,11 @@ class ToolFindings:
                 given = answer.profile.givens.get(sizes.get(travel.element, ""))
                 return given.word if given is not None else None
         block = self.blocks.get(travel.line) if not travel.file else None
-        return block.find(self.dialect.modes.radius) if block is not None and not travel.element else None
+        return block.find(self.control.modes.radius) if block is not None and not travel.element else None
 
     def _fixes(self, own: CuttingRun, fault: ToolFault, word: Word) -> Iterator[Fix]:
         """The radius of the tool in the place of a smaller one, if the tool then cuts the contour."""
-        block, lexicon = self.blocks[word.span.line], self.dialect.modes.lexicon
+        block, lexicon = self.blocks[word.span.line], self.control.modes.lexicon
         if not own.travels[fault.element].element or word.address not in lexicon.addresses:
             return
         new = write_word(word.address, own.radius, lexicon, own.unit, ROUND_CEILING)
@@ -598,7 +598,7 @@ class ToolFindings:
     def _mends(self, block: Block, text: str, own: CuttingRun) -> bool:
         """Whether a contour can be cut with a block in another text, and brings no new error."""
         lines = [text if each.line == block.line else each.text for each in self.result.program.blocks]
-        program = spelled(parse("\n".join(lines), self.result.program.name), self.dialect.modes.syntax)
+        program = spelled(parse("\n".join(lines), self.result.program.name), self.control.modes.syntax)
         tried = run(program, self.asked)
         if sum(each.is_error for each in tried.diagnostics) > sum(each.is_error for each in self.result.diagnostics):
             return False

@@ -57,12 +57,12 @@ class ToolTrials:
     """The runs of a solved program, and what keeps tools of any radius from each. Raises ToolError."""
 
     def __init__(self, result: Result, asked: Request, wanted: ToolRequest) -> None:
-        dialect, self.path, self.rules, self.runs = runs_beside(result, asked, replace(wanted, default=_UNSTATED))
+        control, self.path, self.rules, self.runs = runs_beside(result, asked, replace(wanted, default=_UNSTATED))
         for each in (word for own in self.runs for word in own.added if word.number):
             told = f"{each.text} in program line {each.line} {each.row.meaning}"
             raise ToolError(f"{told}, so that no radius is that of the tool alone; take it out")
-        self.told = ToolFindings(result, dialect, asked, wanted)
-        self.premises = join_premises([each.premises for each in result.answers], dialect.name)
+        self.told = ToolFindings(result, control, asked, wanted)
+        self.premises = join_premises([each.premises for each in result.answers], control.name)
 
     def radii(self, number: int, within: tuple[float, float] | None) -> FeasibleRange:
         """The radii that fit a run. Raises FamilyError, ToolError."""

@@ -148,10 +148,10 @@ def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = F
     return last > first + 1 and dist(at, foot_on(on, at)) <= AGREEMENT
 
 
-def find_runs(path: ToolPath, asked: ToolRequest, dialect: Control) -> list[CuttingRun]:
+def find_runs(path: ToolPath, asked: ToolRequest, control: Control) -> list[CuttingRun]:
     """The runs of a program. Raises ToolError."""
-    stock = _Stock(asked, path.blocks, dialect)
-    texts = {side: dialect.modes.codes[side.code].text for side in ToolSide}
+    stock = _Stock(asked, path.blocks, control)
+    texts = {side: control.modes.codes[side.code].text for side in ToolSide}
     for place, code in stock.switches:
         if asked.side and code in {*SIDES} - {asked.side.code}:
             line = path.blocks[place].line
@@ -171,10 +171,10 @@ def find_runs(path: ToolPath, asked: ToolRequest, dialect: Control) -> list[Cutt
     return [stock.left(run, found) for run in found] if is_stated else found
 
 
-def find_bare(path: ToolPath, asked: ToolRequest, dialect: Control, found: Sequence[CuttingRun]) -> list[CuttingRun]:
+def find_bare(path: ToolPath, asked: ToolRequest, control: Control, found: Sequence[CuttingRun]) -> list[CuttingRun]:
     """The cutting moves that a program with G41 or G42 makes without them, on the side to which the tip points; none of
     a tool that nothing states, and none that lead to contours or away."""
-    stock, bare = _Stock(asked, path.blocks, dialect), list[CuttingRun]()
+    stock, bare = _Stock(asked, path.blocks, control), list[CuttingRun]()
     around = {id(each) for own in found for each in (own.lead, own.leaving)}
     for group in _groups(path, is_stated=False) if found else ():
         is_lead = any(each is not None and id(each) in around for each in (group.lead, group.leaving))
@@ -386,11 +386,11 @@ def segment_of(step: Travel, axes: Sequence[str], unknown: float = 0.0) -> Segme
 class _Stock:
     """The tools that a program states, by the places from which on they are in use, in the blocks as they run."""
 
-    def __init__(self, asked: ToolRequest, blocks: Sequence[Block], dialect: Control) -> None:
-        self.asked, self.blocks, self.settings = asked, blocks, settings_of(dialect)
+    def __init__(self, asked: ToolRequest, blocks: Sequence[Block], control: Control) -> None:
+        self.asked, self.blocks, self.settings = asked, blocks, settings_of(control)
         # Such a control turns in its plane Z X, with X as diameter or radius.
-        self.has_lathe = dialect.diameter is not None or dialect.plane.axes == _TURNED
-        self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
+        self.has_lathe = control.diameter is not None or control.plane.axes == _TURNED
+        self.facts = TOOL_FACTS.get(control.name, ToolFacts())
         self.words, corners = RadiusWords(blocks, self.facts.words), self.facts.corners
         self.corners = [
             (place, OutsideCorner(corners[name]))
@@ -398,7 +398,7 @@ class _Stock:
             for word in block.words
             if (name := f"{word.address}{word.number}") in corners
         ]
-        table, letters, modes = asked.table, {address for address, _ in asked.table}, dialect.modes
+        table, letters, modes = asked.table, {address for address, _ in asked.table}, control.modes
         self.tools: list[tuple[int, Tool | Word]] = []
         self.voids: list[tuple[int, Word | None]] = []
         self.changes, self.ends, self.moved, self.switches = (

@@ -34,9 +34,9 @@ _CHOSEN = {
 """The field of what is not usual, by the name of a setting and its value."""
 
 
-def settings_of(dialect: Control) -> ToolSettings:
+def settings_of(control: Control) -> ToolSettings:
     """The values that a control has."""
-    names = {each.name.removeprefix("tool-"): each for each in dialect.settings if each.name.startswith("tool-")}
-    own = {name: dialect.modes.convention(each).value for name, each in names.items()}
+    names = {each.name.removeprefix("tool-"): each for each in control.settings if each.name.startswith("tool-")}
+    own = {name: control.modes.convention(each).value for name, each in names.items()}
     chosen = {field: own[name] == value for (name, value), field in _CHOSEN.items()}
     return ToolSettings(OutsideCorner(own["outside"]), float(own["intersect-limit"]), **chosen)

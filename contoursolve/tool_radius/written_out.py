@@ -17,10 +17,10 @@ _KEPT = frozenset("NFSTMDG")
 """Words beside G70 that hold for the finishing pass."""
 
 
-def written_out(run: Run, dialect: Control, *, is_inline: bool) -> list[Block]:
+def written_out(run: Run, control: Control, *, is_inline: bool) -> list[Block]:
     """The blocks of a program that has calls or cycles with profiles; none of a plain one. Raises ToolError."""
-    program, language = run.frame.program, dialect.modes.language
-    machine = machine_for(program, dialect, run.asked.around, run.asked.unit)
+    program, language = run.frame.program, control.modes.language
+    machine = machine_for(program, control, run.asked.around, run.asked.unit)
     if machine is None or language is None:
         return []
     others = (block.text for block in program.blocks if not _calls_profile(block.text, language))
@@ -29,23 +29,23 @@ def written_out(run: Run, dialect: Control, *, is_inline: bool) -> list[Block]:
     machine.finishes = True
     blocks, backs = list[Block](), iter(list[str]())
     if any(_calls_profile(block.text, language) for block in program.blocks):
-        backs = _ways_back(follow(run.collect(), dialect, run.asked.unit, dialect.modes.axes, finishes=True))
-    for each in _followed(machine, dialect, run.asked.unit):
+        backs = _ways_back(follow(run.collect(), control, run.asked.unit, control.modes.axes, finishes=True))
+    for each in _followed(machine, control, run.asked.unit):
         if isinstance(each, Block):
             blocks.append(each)
         elif isinstance(each, ProgramEvent) and each.reason in FINISHING:
             if each.kind is EventKind.ENTER:
                 blocks += _beside_cycle(blocks.pop())
             elif each.kind is EventKind.LEAVE:
-                blocks.append(parse_block(next(backs), each.line, dialect.modes.syntax))
+                blocks.append(parse_block(next(backs), each.line, control.modes.syntax))
     return blocks
 
 
-def _followed(machine: Machine, dialect: Control, unit: Length) -> Iterator[Block | ProgramEvent]:
+def _followed(machine: Machine, control: Control, unit: Length) -> Iterator[Block | ProgramEvent]:
     """The lines of a program without calls, while somebody follows its modes: SAVE brings some of them back."""
 
     def take(held: Sequence[Block], index: int, state: State, _: bool) -> TakenBlocks:
-        return TakenBlocks(1, advance(state, held[index], dialect.modes))
+        return TakenBlocks(1, advance(state, held[index], control.modes))
 
     ran = list[Block | ProgramEvent]()
 
@@ -54,9 +54,9 @@ def _followed(machine: Machine, dialect: Control, unit: Length) -> Iterator[Bloc
             ran.append(each)
             yield each
 
-    begin = dialect.initial_state(unit)
+    begin = control.initial_state(unit)
     begin = replace(begin, zero={}) if machine.is_for_calls else begin
-    ways = Ways(lambda: begin, dialect.modes, take)
+    ways = Ways(lambda: begin, control.modes, take)
     deque(machine.follow(kept(), ways), 0)
     yield from ran
 

@@ -218,10 +218,10 @@ def _kept(desk: Desk, action: Mapping[str, Any], name: str) -> FileText:
 def _example(control: str) -> tuple[str, str]:
     """The name and the text of a small program with a mistake, for a control: a corner that does not fit, if it has an
     example of that."""
-    dialect = CONTROLS.get(control)
-    if dialect is None:
+    known = CONTROLS.get(control)
+    if known is None:
         raise ActionError(f"{control!r} is no control here")
-    rules = sorted(dialect.catalogue, key=lambda rule: not rule.code.endswith("corner-too-large"))
+    rules = sorted(known.catalogue, key=lambda rule: not rule.code.endswith("corner-too-large"))
     return f"example-{control}.nc", f"{rules[0].rejected[0]}\n"
 
 

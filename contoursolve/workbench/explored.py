@@ -13,8 +13,8 @@ class Explored:
 
     def __init__(self, program: OpenProgram, answer: Answer) -> None:
         self.program, self.first, self.last = program, answer.lines[0], answer.lines[-1]
-        dialect, unit = program.dialect, program.unit
-        begun = begin(program.text, line=self.first, control=dialect, units=unit, examine=self._examine)
+        control, unit = program.control, program.unit
+        begun = begin(program.text, line=self.first, control=control, units=unit, examine=self._examine)
         self.conversation = Conversation(begun)
         self._restore()
 

@@ -213,7 +213,7 @@ class ProgramView:
         }
         news = {name: value for name, value in now.items() if is_whole or self._told.get(name) != value}
         self._told = now
-        dialect = program.dialect
+        control = program.control
         return {
             "id": self.number,
             "name": self.file.name,
@@ -223,7 +223,7 @@ class ProgramView:
             "has_order_mark": bool(self.file.order_mark),
             "line_end": self.line_end,
             "has_changes": self.has_changes,
-            "control": _control(dialect) if dialect is not None else None,
+            "control": _control(control) if control is not None else None,
             "control_from": self._source(),
             "trouble_control": "; ".join(filter(None, (self._project, program.trouble))),
             "unit": contours[0].answer.unit.value if contours else "",
@@ -241,7 +241,7 @@ class ProgramView:
 
     def _source(self) -> str:
         """The source that names the control."""
-        if self.program.dialect is None:
+        if self.program.control is None:
             return "none"
         if self.control is not None:
             return "choice"
@@ -307,8 +307,8 @@ class ProgramView:
         return {"line": span.line, "from": begin, "to": _units(text[: max(span.end_column, span.column + 1) - 1])}
 
 
-def _control(dialect: Control) -> Data:
-    return {"name": dialect.name, "title": dialect.title, "machines": [machine_of(dialect).value]}
+def _control(control: Control) -> Data:
+    return {"name": control.name, "title": control.title, "machines": [machine_of(control).value]}
 
 
 def _page_lines(text: str) -> list[str]:

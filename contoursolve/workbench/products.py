@@ -38,7 +38,7 @@ MOST_VALUE = 1_000_000_000
 def answer_with(make: str, view: ProgramView, action: Mapping[str, Any]) -> Data:
     """The answer of one of `PRODUCTS`, of a program that is examined. Raises ActionError, ValueError."""
     view.program.check()
-    if view.program.dialect is None:
+    if view.program.control is None:
         raise ActionError(view.program.trouble or "no word tells the control; choose it, or write the program first")
     return PRODUCTS[make](view, action)
 
@@ -88,13 +88,13 @@ def _tool(action: Mapping[str, Any]) -> Data:
 
 def _with_values(view: ProgramView, action: Mapping[str, Any]) -> Data:
     program = view.program
-    language = program.dialect.modes.language if program.dialect is not None else None
+    language = program.control.modes.language if program.control is not None else None
     values = read_field(action, "values", dict, {})
     if not all(isinstance(each, int | float) and abs(each) <= MOST_VALUE for each in values.values()):
         raise ActionError(f"values of variables are numbers up to {MOST_VALUE:,}")
     found = sorted(named_variables(language, view.lines()) if language is not None else (), key=_by_number)
     start = read_field(action, "start", str, "").strip() or None
-    result = contoursolve.solve(program.text, control=program.dialect, name=program.name, variables=values, start=start)
+    result = contoursolve.solve(program.text, control=program.control, name=program.name, variables=values, start=start)
     return {
         **_drawn(result, None),
         "fields": [
@@ -182,7 +182,7 @@ def _verify(view: ProgramView, _: Mapping[str, Any]) -> Data:
     """The result of the program, checked against its words without the solver."""
     result = view.program.result()
     program = Document(view.file.name, view.file.encode(view.text))
-    receipt = verify(program, Document("result", to_json(result).encode()), control=view.program.dialect)
+    receipt = verify(program, Document("result", to_json(result).encode()), control=view.program.control)
     details = "\n".join(receipt_lines(receipt))
     return {"name": "", "verdict": receipt.verdict.value, "message": receipt_summary(receipt), "details": details}
 

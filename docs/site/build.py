@@ -78,9 +78,9 @@ def main() -> None:
     write("rules/index.md", "\n".join(rules_index()))
     write("rules/alarms.md", "\n".join(alarms_page(told)))
     for each in told:
-        write(f"rules/{each.control}.md", "\n".join(control_page(each)))
-        write(f"rules/{each.control}/words.md", "\n".join(words_page(each)))
-        for rule in each.dialect.catalogue:
+        write(f"rules/{each.name}.md", "\n".join(control_page(each)))
+        write(f"rules/{each.name}/words.md", "\n".join(words_page(each)))
+        for rule in each.control.catalogue:
             write(f"rules/{each.place(rule.code)}", "\n".join(rule_page(each, rule)))
         for name, drawn in each.pictures.items():
             write(f"rules/pictures/{name}", drawn)
@@ -91,12 +91,12 @@ def main() -> None:
     shutil.copy(Path(__file__).with_name("doctests.py"), OUTPUT)
     nav = Path(__file__).with_name(settings.name).read_text(encoding="utf-8")
     for each in told:
-        words = f"{{ {json.dumps(words_title(each.dialect))} = 'rules/{each.control}/words.md' }}"
-        page = f'"rules/{each.control}.md"'
-        nav = nav.replace(f"{page},", f"{{ {json.dumps(each.dialect.title)} = [{page}, {words}] }},")
+        words = f"{{ {json.dumps(words_title(each.control))} = 'rules/{each.name}/words.md' }}"
+        page = f'"rules/{each.name}.md"'
+        nav = nav.replace(f"{page},", f"{{ {json.dumps(each.control.title)} = [{page}, {words}] }},")
     settings.write_text(nav, encoding="utf-8")
     named = set(re.findall(r"""["']([\w/-]+\.md)["']""", settings.read_text(encoding="utf-8")))
-    rules = {f"rules/{each.place(rule.code)}" for each in told for rule in each.dialect.catalogue}  # reached by links
+    rules = {f"rules/{each.place(rule.code)}" for each in told for rule in each.control.catalogue}  # reached by links
     written = {path.relative_to(PAGES).as_posix() for path in PAGES.rglob("*.md")} - rules
     if named != written:
         sys.exit(f"docs/site/zensical.toml and the pages differ: {', '.join(sorted(named ^ written))}")
@@ -104,7 +104,7 @@ def main() -> None:
     subprocess.run(command, cwd=OUTPUT, check=True)
     for page in SITE.rglob("*.html"):
         page.write_bytes(with_own_worker(page.read_bytes(), "../" * (len(page.relative_to(SITE).parts) - 1)))
-    titles = {f"rules/{each.place(code)}": each.dialect.title for each in told for code in each.shown}
+    titles = {f"rules/{each.place(code)}": each.control.title for each in told for code in each.shown}
     for path in (SITE / "search.json", SITE / "search.js"):
         path.write_text(with_controls(path.read_text(encoding="utf-8"), titles), encoding="utf-8")
     shutil.copy(Path(__file__).with_name("worker.js"), SITE / "assets")
@@ -202,11 +202,11 @@ def rules_index() -> Iterator[str]:
     yield "| assumed | our choice where the pages that we have are silent |\n"
     yield "## The controls\n"
     yield "| control | words | rules | printed | derived | assumed |\n|---|---|--:|--:|--:|--:|"
-    for dialect in CONTROLS.values():
-        grades = [rule.source.evidence.value for rule in dialect.catalogue]
+    for control in CONTROLS.values():
+        grades = [rule.source.evidence.value for rule in control.catalogue]
         counts = [len(grades), *map(grades.count, ("printed", "derived", "assumed"))]
-        words = f"[words]({dialect.name}/words.md)"
-        yield f"| [{dialect.title}]({dialect.name}.md) | {words} | {' | '.join(map(str, counts))} |"
+        words = f"[words]({control.name}/words.md)"
+        yield f"| [{control.title}]({control.name}.md) | {words} | {' | '.join(map(str, counts))} |"
     yield "\n`contoursolve rules` lists them in the terminal, `contoursolve explain CODE` prints one of them."
     yield from counted_from()
 
@@ -215,20 +215,20 @@ def counted_from() -> Iterator[str]:
     """What X is and from where angles count, of all controls."""
     yield "\n## Is X a diameter or a radius? From where does an angle count?\n"
     yield "| control | X | angle of a line | settings about it |\n|---|---|---|---|"
-    for dialect in CONTROLS.values():
-        rows = dialect.modes.lexicon.addresses
+    for control in CONTROLS.values():
+        rows = control.modes.lexicon.addresses
         angles = [
             f"`{row.address}`: {row.meaning}"
             for row in rows.values()
             if row.unit is Unit.DEGREE and re.search(r"\bof (the )?line\b|^travel direction", row.meaning)
         ]
-        asked = [each for each in dialect.settings if re.search(r"\bX is\b|A counts|after ,A", each.meaning)]
-        is_open = dialect.diameter is not None or any("X is" in each.meaning for each in asked)
+        asked = [each for each in control.settings if re.search(r"\bX is\b|A counts|after ,A", each.meaning)]
+        is_open = control.diameter is not None or any("X is" in each.meaning for each in asked)
         what = "a diameter" if rows["X"].is_diameter else "no diameter: a mill"
         what = "a diameter or a radius, as the program or a setting says" if is_open else what
-        about = [f"[{each.name}]({dialect.name}.md#{setting_anchor(each)})" for each in asked]
+        about = [f"[{each.name}]({control.name}.md#{setting_anchor(each)})" for each in asked]
         cells = (what, "<br>".join(angles), ", ".join(about))
-        yield f"| [{dialect.title}]({dialect.name}/words.md) | {' | '.join(cells)} |"
+        yield f"| [{control.title}]({control.name}/words.md) | {' | '.join(cells)} |"
 
 
 # Reference ---------------------------------------------------------------------------------------------------
@@ -260,7 +260,7 @@ def reference_page() -> Iterator[str]:
 def try_page() -> str:
     """The page of the workbench, with what it shows before Python is there, and where Python comes from."""
     text = (TRY / "page.md").read_text(encoding="utf-8")
-    controls = [{"name": name, "title": dialect.title} for name, dialect in CONTROLS.items()]
+    controls = [{"name": name, "title": control.title} for name, control in CONTROLS.items()]
     hello = {
         "controls": controls,
         "examples": [{"control": each["name"], "title": each["title"]} for each in controls],

@@ -52,18 +52,18 @@ class Shown:
 class Manual:
     """A control with the examples of its rules as they were run, and the pictures by name."""
 
-    control: str
+    name: str
     shown: Mapping[str, tuple[tuple[Shown, ...], tuple[Shown, ...]]]
     pictures: Mapping[str, str]
 
     @property
-    def dialect(self) -> Control:
+    def control(self) -> Control:
         """The tables."""
-        return CONTROLS[self.control]
+        return CONTROLS[self.name]
 
     def place(self, code: str) -> str:
         """The page of a rule, seen from the folder `rules`."""
-        return f"{self.control}/{code}.md"
+        return f"{self.name}/{code}.md"
 
 
 def group_of(rule: Rule) -> str:
@@ -86,27 +86,27 @@ def manuals() -> list[Manual]:
         return [*pool.map(manual_of, CONTROLS)]
 
 
-def manual_of(control: str) -> Manual:
+def manual_of(name: str) -> Manual:
     """A control with its examples run, and the pictures of those that show something."""
-    dialect, shown, pictures = CONTROLS[control], {}, dict[str, str]()
-    for rule in dialect.catalogue:
+    control, shown, pictures = CONTROLS[name], {}, dict[str, str]()
+    for rule in control.catalogue:
         if not rule.accepted or not rule.rejected:
             raise SystemExit(f"{control} has no example of {rule.code}: add a gap or a slip to its examples.py")
-        wrong = tuple(_shown(dialect, rule, text, pictures, is_right=False) for text in rule.rejected)
-        shown[rule.code] = wrong, tuple(_shown(dialect, rule, text, pictures, is_right=True) for text in rule.accepted)
-    return Manual(control, shown, pictures)
+        wrong = tuple(_shown(control, rule, text, pictures, is_right=False) for text in rule.rejected)
+        shown[rule.code] = wrong, tuple(_shown(control, rule, text, pictures, is_right=True) for text in rule.accepted)
+    return Manual(name, shown, pictures)
 
 
-def _shown(dialect: Control, rule: Rule, text: str, pictures: dict[str, str], *, is_right: bool) -> Shown:
+def _shown(control: Control, rule: Rule, text: str, pictures: dict[str, str], *, is_right: bool) -> Shown:
     for depth in ("verdict", "full"):  # few findings need all that is known
-        result = try_example(dialect, rule, text, depth)
+        result = try_example(control, rule, text, depth)
         told = next((each for each in result.diagnostics if each.code == rule.code), None)
         if is_right or told:
             break
     if (told is None) is not is_right or (is_right and result.has_errors):
-        raise SystemExit(f"{dialect.name}: an example of {rule.code} says something else:\n{text}")
+        raise SystemExit(f"{control.name}: an example of {rule.code} says something else:\n{text}")
     is_drawn = result.answers and (is_right or (rule.code not in _GENERAL or group_of(rule) == GEOMETRY))
-    name = f"{sha256(f'{dialect.name}{rule.options}{text}'.encode()).hexdigest()[:16]}.svg" if is_drawn else ""
+    name = f"{sha256(f'{control.name}{rule.options}{text}'.encode()).hexdigest()[:16]}.svg" if is_drawn else ""
     if name and name not in pictures:
         pictures[name] = draw_result(result).svg
     message = f"{told.message}; {told.help}" if told else ""
@@ -124,10 +124,10 @@ def _marked(result: Result, told: Diagnostic) -> frozenset[str]:
 
 def control_page(manual: Manual) -> Iterator[str]:
     """The page that leads to the words, rules, settings and assumptions of a control."""
-    dialect, rules = manual.dialect, sorted(manual.dialect.catalogue, key=lambda rule: (group_of(rule), rule.code))
-    yield f"# {dialect.title}\n"
-    yield f"contoursolve calls it `{dialect.name}`. Its contours are {dialect.contours}.\n"
-    yield f"* [Its words]({dialect.name}/words.md): what each means, a right block, and what goes wrong with it"
+    control, rules = manual.control, sorted(manual.control.catalogue, key=lambda rule: (group_of(rule), rule.code))
+    yield f"# {control.title}\n"
+    yield f"contoursolve calls it `{control.name}`. Its contours are {control.contours}.\n"
+    yield f"* [Its words]({control.name}/words.md): what each means, a right block, and what goes wrong with it"
     yield "* [Alarm numbers](alarms.md) of the machine, and what they mean"
     yield f"\n## All {len(rules)} rules {{ #rules }}"
     for group, several in groupby(rules, key=group_of):
@@ -140,7 +140,7 @@ def control_page(manual: Manual) -> Iterator[str]:
     yield "\n## Settings { #settings }\n"
     yield "What the manual leaves open, and you can choose:\n"
     last = ""
-    for setting in sorted(dialect.settings, key=lambda each: each.name in IN_ALL):  # the sort is stable
+    for setting in sorted(control.settings, key=lambda each: each.name in IN_ALL):  # the sort is stable
         title = "Settings that all controls have" if setting.name in IN_ALL else f"{setting.name}, a setting"
         if title != last:
             yield f"\n### {title} {{ #{setting_anchor(setting)} }}\n"
@@ -148,11 +148,11 @@ def control_page(manual: Manual) -> Iterator[str]:
         yield f"* **{plain(setting.meaning)}** ({plain(str(setting.source))})"
         for value, meaning in setting.values.items():
             default = ", the default" if value == setting.default else ""
-            yield f"    * `--setting {dialect.name}.{setting.name}={value}`{default}: {plain(meaning)}"
+            yield f"    * `--setting {control.name}.{setting.name}={value}`{default}: {plain(meaning)}"
         if setting.bounds:
             yield f"    * {plain(setting.choices(''))}"
     yield "\n## Assumptions { #assumptions }\n"
-    for each in dialect.assumptions:
+    for each in control.assumptions:
         yield f"* `{each.name}`: {plain(each.meaning)} ({plain(str(each.source))})"
 
 
@@ -163,8 +163,8 @@ def setting_anchor(setting: Setting) -> str:
 
 def rule_page(manual: Manual, rule: Rule) -> Iterator[str]:
     """A rule: what it says, why, a wrong block and a right one, alarm, source and grade."""
-    yield f"# {rule.code}, {manual.dialect.title}\n"
-    yield f"[All rules](../{manual.control}.md#rules) · [Words](words.md) · {HOW_TO_READ}\n"
+    yield f"# {rule.code}, {manual.control.title}\n"
+    yield f"[All rules](../{manual.name}.md#rules) · [Words](words.md) · {HOW_TO_READ}\n"
     yield f"{rule.severity.value.capitalize()}: {plain(rule.title)}\n"
     yield f"* What to do: {plain(rule.advice)}"
     if rule.note:
@@ -173,7 +173,7 @@ def rule_page(manual: Manual, rule: Rule) -> Iterator[str]:
     if rule.alarm:
         yield f"* Alarm of the control: {rule.alarm.number} ({rule.alarm.evidence.value})"
     if rule.options:
-        yield f"* These blocks are checked with `{rule.options.replace(THIS_CONTROL, manual.control)}`"
+        yield f"* These blocks are checked with `{rule.options.replace(THIS_CONTROL, manual.name)}`"
     for title, examples in zip(("Wrong", "Right"), manual.shown[rule.code], strict=True):
         for each in examples:
             yield f"\n{title}:\n"
@@ -188,34 +188,34 @@ def rule_page(manual: Manual, rule: Rule) -> Iterator[str]:
         yield from fenced(text)
 
 
-def contour_codes(dialect: Control) -> list[Code]:
+def contour_codes(control: Control) -> list[Code]:
     """The codes that begin a contour or make a corner, if they are no words with a number."""
-    codes, words = dialect.modes.codes.values(), dialect.modes.lexicon.addresses
+    codes, words = control.modes.codes.values(), control.modes.lexicon.addresses
     return [code for code in codes if code.effect in (Effect.CONTOUR, Effect.CORNER) and code.text not in words]
 
 
-def words_title(dialect: Control) -> str:
+def words_title(control: Control) -> str:
     """The title of the page of words: with its codes, which the search finds then before all that contains them."""
-    return " ".join(("words", *(code.text for code in contour_codes(dialect))))
+    return " ".join(("words", *(code.text for code in contour_codes(control))))
 
 
 def words_page(manual: Manual) -> Iterator[str]:
     """The words of a control: each with its meaning, unit, a right block, and what goes wrong with it."""
-    dialect = manual.dialect
-    yield f"# {dialect.title}: {words_title(dialect)}\n"
-    yield f"[All rules of this control](../{manual.control}.md#rules) · {HOW_TO_READ}\n"
-    yield plain(f"Numbers: {_numbers(dialect)} ({dialect.modes.lexicon.numbers.source}).")
-    for row in dialect.modes.lexicon.addresses.values():
-        yield from _word_section(manual, typed(row.address, manual), row.address, row.meaning, _kind(row, dialect), row)
-    for code in contour_codes(dialect):
+    control = manual.control
+    yield f"# {control.title}: {words_title(control)}\n"
+    yield f"[All rules of this control](../{manual.name}.md#rules) · {HOW_TO_READ}\n"
+    yield plain(f"Numbers: {_numbers(control)} ({control.modes.lexicon.numbers.source}).")
+    for row in control.modes.lexicon.addresses.values():
+        yield from _word_section(manual, typed(row.address, manual), row.address, row.meaning, _kind(row, control), row)
+    for code in contour_codes(control):
         yield from _word_section(manual, code.text, code.text, code.meaning, "a code of contours", code)
     yield from _variable_section(manual)
 
 
 def _variable_section(manual: Manual) -> Iterator[str]:
-    rule = next(rule for rule in manual.dialect.catalogue if rule.about is ReadIssue.VARIABLE)
+    rule = next(rule for rule in manual.control.catalogue if rule.about is ReadIssue.VARIABLE)
     wrong, right = manual.shown[rule.code]
-    is_followed = manual.dialect.modes.language is not None
+    is_followed = manual.control.modes.language is not None
     example = right[-1] if is_followed else wrong[0]
     name = re.findall(r"#\d+|\b[RPQ]\d{1,3}\b", example.text)[0]
     yield f"\n## {name}, a variable\n"
@@ -237,8 +237,8 @@ def typed(address: str, manual: Manual) -> str:
     return address if "=" in address or not has_sign else f"{address}="
 
 
-def _numbers(dialect: Control) -> str:
-    numbers = dialect.modes.lexicon.numbers
+def _numbers(control: Control) -> str:
+    numbers = control.modes.lexicon.numbers
     if numbers.without_point is WithoutPoint.AS_WRITTEN:
         return "one without a decimal point is in mm, or inches, as one with a point"
     return f"one without a decimal point counts steps of {numbers.mm} mm: 12 is {12 * numbers.mm} mm"
@@ -247,16 +247,16 @@ def _numbers(dialect: Control) -> str:
 _UNITS = {Unit.MM: "mm, or inches", Unit.DEGREE: "degrees", Unit.SIGN: "its sign or its number counts"}
 
 
-def _kind(row: Address, dialect: Control) -> str:
+def _kind(row: Address, control: Control) -> str:
     """The unit of a word's number, and from where it is counted."""
     told = [_UNITS[row.unit]]
     if row.axis:
-        codes = {code.effect: code.text for code in reversed(dialect.modes.codes.values())}
+        codes = {code.effect: code.text for code in reversed(control.modes.codes.values())}
         modal = [codes.get(effect) for effect in (Effect.ABSOLUTE, Effect.INCREMENTAL)]
         by_code = f"absolute with {modal[0]}, an increment with {modal[1]}" if all(modal) else "absolute"
         told.append(f"counted along {row.axis}")
         told.append("an increment" if row.is_increment else "absolute" if row.is_absolute else by_code)
-        if row.axis == "X" and dialect.diameter is not None:
+        if row.axis == "X" and control.diameter is not None:
             told.append("a diameter or a radius, as the program or a setting says")
         elif row.is_diameter:
             told.append("a diameter")
@@ -274,9 +274,9 @@ def _word_section(
     yield f"* Unit: {plain(kind)}{_signed(manual, address, row)}"
     yield f"* Source: {plain(str(row.source))}"
     where, is_code = re.compile(rf"(?<![\w,#]){re.escape(name)}(?![A-Za-z])"), isinstance(row, Code)
-    touching = [each for each in manual.dialect.settings if where.search(f"{each.meaning} {' '.join(each.values)}")]
+    touching = [each for each in manual.control.settings if where.search(f"{each.meaning} {' '.join(each.values)}")]
     if touching:
-        place = f"../{manual.control}.md"
+        place = f"../{manual.name}.md"
         told = (f"[{each.name}]({place}#{setting_anchor(each)}) ({plain(each.meaning)})" for each in touching)
         yield f"* Settings: {', '.join(told)}"
     wrong = [
@@ -301,7 +301,7 @@ def _word_section(
     elif any(code in wrong for code in ("word-idle", "word-unused")):
         yield "\nNo contour of this control uses it: contoursolve reads it, and warns where it says nothing."
     else:
-        raise SystemExit(f"{manual.control} has no right block with {name}: add one to `right` in its examples.py")
+        raise SystemExit(f"{manual.name} has no right block with {name}: add one to `right` in its examples.py")
 
 
 def _signed(manual: Manual, address: str, row: Address | Code) -> str:
@@ -314,8 +314,8 @@ def _signed(manual: Manual, address: str, row: Address | Code) -> str:
 
 
 def _right_block(manual: Manual, code: str, right: Shown, name: str) -> Iterator[str]:
-    rule = next(rule for rule in manual.dialect.catalogue if rule.code == code)
-    with_options = f", with `{rule.options.replace(THIS_CONTROL, manual.control)}`" if rule.options else ""
+    rule = next(rule for rule in manual.control.catalogue if rule.code == code)
+    with_options = f", with `{rule.options.replace(THIS_CONTROL, manual.name)}`" if rule.options else ""
     yield f"\nRight{with_options}:\n"
     yield from fenced(right.text)
     if right.picture:
@@ -327,13 +327,13 @@ def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:
     yield "# Alarm numbers\n"
     yield "Look for the number that your machine shows. `contoursolve explain NUMBER` says the same in the terminal."
     yield "[How to read these pages](index.md#how-to-read) tells what `<word>` and `(assumed)` mean.\n"
-    places = {manual.control: manual for manual in all_manuals}
+    places = {manual.name: manual for manual in all_manuals}
     rows: dict[str, list[str]] = {}
-    known: dict[str, dict[str, None]] = {manual.control: {} for manual in all_manuals}
+    known: dict[str, dict[str, None]] = {manual.name: {} for manual in all_manuals}
     for row in alarm_rows(CONTROLS.values()):
         manual = places[row.control]
         told = f"[{row.rule.code}]({manual.place(row.rule.code)})" if row.rule.code in manual.shown else row.rule.code
-        line = f"* {manual.dialect.title}, {plain(row.alarm.number)} ({row.alarm.evidence.value}): {told}, "
+        line = f"* {manual.control.title}, {plain(row.alarm.number)} ({row.alarm.evidence.value}): {told}, "
         for number in row.numbers:
             known[row.control][plain(number)] = None
             rows.setdefault(number, []).append(line + plain(row.rule.title))
@@ -343,7 +343,7 @@ def alarms_page(all_manuals: list[Manual]) -> Iterator[str]:
     yield "| control | alarm numbers |\n|---|---|"
     for control, numbers in known.items():
         told = ", ".join(sorted(numbers, key=by_number)) or "none that we know"
-        yield f"| [{places[control].dialect.title}]({control}.md) | {told} |"
+        yield f"| [{places[control].control.title}]({control}.md) | {told} |"
     for number in sorted(rows, key=by_number):
         is_newer = len(number) == len("055") and any("Fanuc" in line for line in rows[number])
         yield f"\n## {number}{f', PS{number:0>4}' if is_newer else ''}\n"

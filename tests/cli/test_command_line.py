@@ -156,7 +156,7 @@ def test_the_catalogue_as_json_has_the_fields_that_the_page_lists():
         for control in document["controls"]:
             Draft202012Validator({"items": exact, "minItems": 1}).validate(control[kind])
     told = {control["name"]: {rule["code"] for rule in control["rules"]} for control in document["controls"]}
-    assert told == {name: {rule.code for rule in dialect.catalogue} for name, dialect in CONTROLS.items()}
+    assert told == {name: {rule.code for rule in each.catalogue} for name, each in CONTROLS.items()}
 
 
 # --- JSON ------------------------------------------------------------------------------------------

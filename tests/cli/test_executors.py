@@ -18,7 +18,7 @@ from click.testing import CliRunner
 import contoursolve
 import contoursolve.families.evaluate as evaluating
 from contoursolve.cli import main
-from contoursolve.cli.sweep import _write
+from contoursolve.cli.family import _write
 from contoursolve.families import family, parts_of, sweep
 from contoursolve.gcode.files import CannotWriteError
 

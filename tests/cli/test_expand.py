@@ -39,9 +39,9 @@ def expand(text, **options):
     return expansion.text.split("\n")
 
 
-def path_of(text, dialect, unit=Length.MM):
+def path_of(text, control, unit=Length.MM):
     """The path of a program; blocks that are not solved are a part of it, with the modes that they rely on."""
-    return follow(run_program(parse(text), Request(dialect, unit)), dialect, unit, dialect.modes.axes)
+    return follow(run_program(parse(text), Request(control, unit)), control, unit, control.modes.axes)
 
 
 # --- Rounding ------------------------------------------------------------------------------------------
@@ -73,8 +73,8 @@ def test_with_few_decimals_every_arc_is_still_one(post, arcs, decimals, unit, na
         assert [each for each in found if each.severity is Severity.ERROR] == []
         if written.summary.misread:
             continue
-        dialect = (CONTROLS | TARGET_CONTROLS)[TARGETS[post][written.control == "nct-99m"]]
-        reasons = [each.reason for each in path_of(written.text, dialect, Length(unit)).unfollowed]
+        target = (CONTROLS | TARGET_CONTROLS)[TARGETS[post][written.control == "nct-99m"]]
+        reasons = [each.reason for each in path_of(written.text, target, Length(unit)).unfollowed]
         assert [each for each in reasons if "radius of the arc is" in each or "too small" in each] == []
 
 

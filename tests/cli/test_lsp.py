@@ -74,8 +74,8 @@ def examples() -> list[pytest.ParameterSet]:
     """A control, and the examples of a few of its rules."""
     return [
         pytest.param(name, [rule.rejected[0] for rule in rules if rule.rejected], id=f"{name}-{rules[0].code}")
-        for name, dialect in CONTROLS.items()
-        for rules in (dialect.catalogue[first : first + 4] for first in range(0, len(dialect.catalogue), 4))
+        for name, control in CONTROLS.items()
+        for rules in (control.catalogue[first : first + 4] for first in range(0, len(control.catalogue), 4))
     ]
 
 

@@ -171,8 +171,8 @@ def test_the_table_of_settings_has_every_setting_of_every_control() -> None:
     }
     meant = {
         (each.name, name): [each.default, *(value for value in each.values if value != each.default)]
-        for name, dialect in CONTROLS.items()
-        for each in dialect.settings
+        for name, own in CONTROLS.items()
+        for each in own.settings
     }
     assert shown == meant
 

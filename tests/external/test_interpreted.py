@@ -290,9 +290,9 @@ def hide(comment: re.Match[str]) -> str:
 
 
 def path_of(text: str, control: str) -> ToolPath:
-    dialect = {**CONTROLS, **PLAIN}[control]
-    result = run(parse(text), Request(dialect))
-    return follow(result, dialect, Length.MM, ("X", "Y", "Z"))
+    chosen = {**CONTROLS, **PLAIN}[control]
+    result = run(parse(text), Request(chosen))
+    return follow(result, chosen, Length.MM, ("X", "Y", "Z"))
 
 
 FANUC = ("fanuc-lathe", "fanuc-mill", "haas-lathe", "haas-mill")

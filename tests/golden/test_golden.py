@@ -87,7 +87,7 @@ def wanted() -> Iterator[str]:
                 controls = [*CONTROLS] if option.type.name == "control" else [""]
                 choices = option.type.choices if isinstance(option.type, click.Choice) else controls
                 yield from (f"{name} {option.opts[-1]} {each}".strip() for each in choices)
-    yield from (f"{control}: {rule.code}" for control, dialect in CONTROLS.items() for rule in dialect.catalogue)
+    yield from (f"{control}: {rule.code}" for control, each in CONTROLS.items() for rule in each.catalogue)
 
 
 def covered(name: str, case: Case, parts: Parts) -> Iterator[str]:

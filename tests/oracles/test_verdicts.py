@@ -33,7 +33,7 @@ BY_LETTERS = {letters(key): row for key, row in TABLE.items() if key.startswith(
 
 @pytest.mark.slow
 def test_some_rows_of_the_shipped_table_are_what_sympy_derives_today():
-    for form in (form for dialect in CONTROLS.values() for form in dialect.forms):
+    for form in (form for control in CONTROLS.values() for form in control.forms):
         for stated in list(stated_sets(form))[::389]:
             layout = lay_out(form, stated, frozenset())
             system = build_system(layout.figure, layout.facts)

@@ -84,14 +84,14 @@ def test_the_files_are_sorted_have_their_schema_and_every_control():
 
 @pytest.mark.slow
 def test_the_right_vectors_have_every_form_and_every_word_of_their_control():
-    for control, dialect in CONTROLS.items():
+    for control, tables in CONTROLS.items():
         own = [row for name, row in ROWS if name == control and "contours" in row]
         claims = [answer.claim for row in own for answer in solved(control, row).answers]
         words = {word.address for claim in claims for block in claim.blocks for word in block.words}
         words |= {word.text for claim in claims for block in claim.blocks for word in block.words}
-        lexicon = dialect.modes.lexicon.addresses.keys() - {"ROUNDING", "CHAMFER"}
+        lexicon = tables.modes.lexicon.addresses.keys() - {"ROUNDING", "CHAMFER"}
         assert lexicon - words == NO_WORDS_OF_CONTOURS.get(control, set()), control
-        forms = {(each.name, each.title) for each in dialect.forms if each.is_contour}
+        forms = {(each.name, each.title) for each in tables.forms if each.is_contour}
         assert forms <= {(claim.form.name, claim.form.title) for claim in claims}, control
 
 

@@ -409,7 +409,7 @@ def test_more_contours_than_anybody_means_are_not_begun(tmp_path, monkeypatch):
 
 def test_a_file_for_which_the_disk_has_no_room_is_begun_only_by_force(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("contoursolve.cli.sweep.disk_usage", lambda _: SimpleNamespace(free=1000))
+    monkeypatch.setattr("contoursolve.cli.family.disk_usage", lambda _: SimpleNamespace(free=1000))
     arguments = (*ON_BLOCK, "--vary", "A=170:190:1", "-o", "family.csv")
     status, _, errors = run(*arguments)
     assert (status, "where 1 kB are free; take larger steps, or give --force" in errors) == (2, True)

@@ -350,7 +350,7 @@ def test_no_control_is_known_below_the_tables_of_the_controls():
     """Not by its name, its words or its codes: what differs is a field of a table."""
     names = {part for name in CONTROLS for part in name.split("-")} - {"lathe", "mill", "cnc"}
     named = re.compile(rf"\b({'|'.join(sorted(names))}|sinumerik|klartext|tnc)\b", re.IGNORECASE)
-    lexicons = [dialect.modes.lexicon for dialect in CONTROLS.values()]
+    lexicons = [control.modes.lexicon for control in CONTROLS.values()]
     addresses = {each for one in lexicons for each in (*one.addresses, *one.spelling.names)}
     words = {each for each in addresses if len(each.lstrip(",#")) > 1}
     found = []

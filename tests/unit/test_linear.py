@@ -34,8 +34,8 @@ def line(shape: tuple[str, str, str], length: int) -> str:
 
 def read(text: str) -> None:
     parse(text)
-    for dialect in CONTROLS.values():
-        dialect.modes.syntax.plain.several.match(text)
+    for control in CONTROLS.values():
+        control.modes.syntax.plain.several.match(text)
 
 
 # Programs ------------------------------------------------------------------------------------------------------------

@@ -26,10 +26,10 @@ from contoursolve.tool_radius import OutsideCorner, OutsideName, SideName, ToolS
 GENERAL = {rule.about for rule in GEOMETRY_RULES}
 
 
-def relative(dialect):
+def relative(control):
     """A relative whose rules about geometry are the general ones."""
-    own = tuple(rule for rule in dialect.rules if rule.about not in GENERAL)
-    return replace(dialect, name="mine", title="the machine in hall 2", rules=own + GEOMETRY_RULES)
+    own = tuple(rule for rule in control.rules if rule.about not in GENERAL)
+    return replace(control, name="mine", title="the machine in hall 2", rules=own + GEOMETRY_RULES)
 
 
 MINE = relative(NCT_99M)

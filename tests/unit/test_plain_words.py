@@ -43,8 +43,8 @@ def faults(text: str) -> list[str]:
 
 def shown() -> Iterator[tuple[str, str]]:
     """The texts of rules, commands and public docstrings, and those that the code puts together, with their places."""
-    for dialect in CONTROLS.values():
-        for rule in dialect.rules:
+    for control in CONTROLS.values():
+        for rule in control.rules:
             yield from ((rule.code, text) for text in (rule.message, rule.help, rule.note))
     context = click.Context(main)
     for name in main.list_commands(context):

@@ -87,7 +87,7 @@ def test_words_that_speak_for_a_kind_of_machine_tell_the_control(text, first):
     assert "control-unknown" not in told
     assert solve(text).control == first
     mine = OpenProgram(text)
-    assert (mine.dialect.name if mine.dialect else None) == first
+    assert (mine.control.name if mine.control else None) == first
 
 
 def test_a_program_for_sinumerik_by_its_name_has_no_contour_of_a_lathe():
@@ -105,9 +105,9 @@ def test_where_readers_cut_alike_and_tell_other_findings_that_is_said_and_the_fi
 
 def test_an_edit_may_make_controls_read_differently():
     opened = OpenProgram(MILLED)
-    assert opened.dialect.name == "nct-99m"
+    assert opened.control.name == "nct-99m"
     opened.replace(MILLED.replace("G01 X80. ,C8. F200\n", "G02 X80. Y9. R60. ,R3.\nG01 "))
-    assert opened.dialect is None
+    assert opened.control is None
     assert "differently" in opened.trouble
     opened.replace(MILLED)
     assert [each.code for each in findings_of(opened)] == ["control-alike"]

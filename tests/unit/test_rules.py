@@ -23,7 +23,7 @@ ALARMS = {
 }
 """The alarm numbers on the pages that we have; no other may be invented."""
 
-RULES = {(name, rule.code): rule for name, dialect in CONTROLS.items() for rule in dialect.catalogue}
+RULES = {(name, rule.code): rule for name, control in CONTROLS.items() for rule in control.catalogue}
 EXAMPLES = [
     pytest.param(CONTROLS[control], rule, program, is_right, id=f"{control}-{code}-{kind}{number}")
     for (control, code), rule in RULES.items()
@@ -33,13 +33,13 @@ EXAMPLES = [
 """Each example of each rule, in the words of its control."""
 
 
-@pytest.mark.parametrize(("dialect", "rule", "program", "is_right"), EXAMPLES)
-def test_an_example_says_what_its_control_says(dialect, rule, program, is_right):
-    result = try_example(dialect, rule, program)
+@pytest.mark.parametrize(("control", "rule", "program", "is_right"), EXAMPLES)
+def test_an_example_says_what_its_control_says(control, rule, program, is_right):
+    result = try_example(control, rule, program)
     found = {each.code for each in result.diagnostics}
     assert (rule.code in found) is not is_right
     assert not (is_right and result.has_errors)
-    assert found <= {each.code for each in dialect.catalogue}
+    assert found <= {each.code for each in control.catalogue}
     for each in result.diagnostics:
         # Line 0 is the start point that an option states.
         line = program.split("\n")[each.span.line - 1] if each.span.line else "X" * each.span.end_column
@@ -81,15 +81,15 @@ def test_grades_are_those_of_the_sheet():
 
 
 def test_nothing_cites_a_page_that_has_not_been_seen():
-    for dialect in CONTROLS.values():
-        sources = [rule.source for rule in dialect.rules]
-        sources += [each.source for each in (*dialect.settings, *dialect.assumptions)]
-        sources += [each.source for each in dialect.modes.lexicon.addresses.values()]
-        sources += [each.source for each in dialect.modes.codes.values()]
+    for control in CONTROLS.values():
+        sources = [rule.source for rule in control.rules]
+        sources += [each.source for each in (*control.settings, *control.assumptions)]
+        sources += [each.source for each in control.modes.lexicon.addresses.values()]
+        sources += [each.source for each in control.modes.codes.values()]
         assert not [each for each in sources if "138" in each.place and "LX3" in each.manual]
 
 
 def test_every_event_has_a_row_in_every_control_that_it_can_happen_in():
     """A finding without a row would be a crash; events that only one control knows are in one table."""
     for kind in (FaultKind, ReadIssue, RefusalKind, NoteKind, ArcIssue):
-        assert not set(kind) - {rule.about for dialect in CONTROLS.values() for rule in dialect.rules}
+        assert not set(kind) - {rule.about for control in CONTROLS.values() for rule in control.rules}

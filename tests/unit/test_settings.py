@@ -51,10 +51,10 @@ def test_a_setting_that_there_is_not_is_refused(text):
 
 def test_the_catalogue_lists_every_assumption_and_every_setting_with_its_values():
     printed = CliRunner().invoke(main, ["rules"]).output
-    for dialect in CONTROLS.values():
-        for each in dialect.assumptions:
-            assert f"assumption {dialect.name}.{each.name}: {each.meaning} ({each.source})" in printed
+    for control in CONTROLS.values():
+        for each in control.assumptions:
+            assert f"assumption {control.name}.{each.name}: {each.meaning} ({each.source})" in printed
             assert each.source.evidence is Evidence.ASSUMED
-        for setting in dialect.settings:
+        for setting in control.settings:
             assert setting.default in setting.values
-            assert all(f"--setting {dialect.name}.{setting.name}={value}" in printed for value in setting.values)
+            assert all(f"--setting {control.name}.{setting.name}={value}" in printed for value in setting.values)

@@ -39,8 +39,8 @@ def ends(text: str, **settings: str) -> list[tuple[float, float]]:
 
 def followed(text: str):
     """The whole path of a program."""
-    dialect = CONTROLS[NAMED[0]]
-    return follow(run_program(parse(text), Request(dialect, Length.MM)), dialect, Length.MM, dialect.modes.axes)
+    control = CONTROLS[NAMED[0]]
+    return follow(run_program(parse(text), Request(control, Length.MM)), control, Length.MM, control.modes.axes)
 
 
 def near(*places: tuple[float, float]):

@@ -19,11 +19,11 @@ OF_BLOCKS = {each.slip.name: each for each in SEVERAL}
 def cases_of(example):
     """The blocks of an example on each control, with the state before them, and what is meant."""
     typed, meant = example.split(" for ")
-    for dialect in CONTROLS.values():
-        blocks = tuple(parse_block(text, at, dialect.modes.syntax) for at, text in enumerate(typed.split("|"), 1))
-        state = dialect.initial_state(Length.MM)
+    for control in CONTROLS.values():
+        blocks = tuple(parse_block(text, at, control.modes.syntax) for at, text in enumerate(typed.split("|"), 1))
+        state = control.initial_state(Length.MM)
         ahead = ((blocks[:1], state),) if len(blocks) > 3 else ()
-        yield Window(ahead, blocks[len(ahead) :], (), state, dialect, lambda *_: ()), meant
+        yield Window(ahead, blocks[len(ahead) :], (), state, control, lambda *_: ()), meant
 
 
 def edited(window, edits):
@@ -36,7 +36,7 @@ def edited(window, edits):
 def test_a_kind_of_word_undoes_its_example(name):
     kind, undone = OF_WORDS[name], []
     for window, meant in cases_of(kind.example):
-        found = window.dialect.find(window.own, 0, window.state, window.dialect.modes)
+        found = window.control.find(window.own, 0, window.state, window.control.modes)
         claim = found if isinstance(found, ParsedContour) else None
         marked = Marked(frozenset(word.span for block in window.own for word in block.words), frozenset(window.lines))
         drafts = [each for each in drafts_around(window, marked, claim, [kind]) if each.slips == (kind,)]

@@ -441,19 +441,19 @@ def reading(
     """
     names, like = names or {}, like or {}
 
-    def change(dialect: Control) -> Control:
-        if not isinstance(dialect.find, ChainFinder):
-            raise TypeError(f"{dialect.name} has no language")
-        language, rows = dialect.find.language, dict(dialect.modes.lexicon.addresses)
+    def change(control: Control) -> Control:
+        if not isinstance(control.find, ChainFinder):
+            raise TypeError(f"{control.name} has no language")
+        language, rows = control.find.language, dict(control.modes.lexicon.addresses)
         added = {**names, **like}
         named = {address: replace_fields(rows[name], address=address) for address, name in added.items()}
         rows = {address: row for address, row in rows.items() if address not in names.values()} | named
-        words = replace_fields(dialect.modes.lexicon, addresses=rows) if added else dialect.modes.lexicon
+        words = replace_fields(control.modes.lexicon, addresses=rows) if added else control.modes.lexicon
         known = language.allowed - {*names.values()} | {*added}
         language = replace_fields(language, lexicon=words, allowed=known, names={**language.names, **names})
         changed = {part: replace_fields(getattr(language, part), **fields) for part, fields in parts.items()}
         language = replace_fields(language, **changed)
-        return replace_fields(dialect, modes=replace_fields(dialect.modes, lexicon=words), find=ChainFinder(language))
+        return replace_fields(control, modes=replace_fields(control.modes, lexicon=words), find=ChainFinder(language))
 
     return change
 

@@ -136,10 +136,10 @@ MODES = Modes(
 def _with(address: str, **fields: Any) -> Callable[[Control], Control]:
     """The change of a control in which a word has these other fields."""
 
-    def change(dialect: Control) -> Control:
-        words = dialect.modes.lexicon
+    def change(control: Control) -> Control:
+        words = control.modes.lexicon
         rows = {**words.addresses, address: replace(words.addresses[address], **fields)}
-        return replace(dialect, modes=replace(dialect.modes, lexicon=replace(words, addresses=rows)))
+        return replace(control, modes=replace(control.modes, lexicon=replace(words, addresses=rows)))
 
     return change
 

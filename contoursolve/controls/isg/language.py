@@ -60,7 +60,7 @@ MACHINE = setting(
     "which plane is selected before the program says it",
     {"mill": "G17", "lathe": "G18"},
     BOOK.assumed("the initial state is a parameter"),
-    changes={"lathe": lambda dialect: replace_fields(dialect, plane=PLANES[18])},
+    changes={"lathe": lambda control: replace_fields(control, plane=PLANES[18])},
 )
 FIRST_MOTION = first_motion_setting(BOOK.assumed("as samples without G1 show"))
 SETTINGS = (MACHINE, PAIR_SENSE, CIRCLE, MODAL, FIRST_MOTION)

@@ -54,8 +54,8 @@ ONE_CORNER = "@one-corner"
 INCREMENTAL, HIGH_SPEED, TURNED = "@incremental", "@high-speed", "@turned"
 
 
-def _turning(dialect: Control) -> Control:
-    return replace_fields(dialect, plane=TURNED_PLANES[18], modes=turned(dialect.modes))
+def _turning(control: Control) -> Control:
+    return replace_fields(control, plane=TURNED_PLANES[18], modes=turned(control.modes))
 
 
 _NUMBER = number_setting(

@@ -55,10 +55,10 @@ def _too_big(default: str) -> Setting:
 def _main_def(default: str) -> Setting:
     """The scope of what the main program defines."""
 
-    def change(dialect: Control, *, shows_main: bool) -> Control:
-        made_by = cast("partial[MacroLanguage]", cast("MacroLanguage", dialect.modes.language).made_by)
+    def change(control: Control, *, shows_main: bool) -> Control:
+        made_by = cast("partial[MacroLanguage]", cast("MacroLanguage", control.modes.language).made_by)
         language = made_by.func(*made_by.args, shows_main=shows_main)
-        return replace(dialect, modes=replace(dialect.modes, language=language))
+        return replace(control, modes=replace(control.modes, language=language))
 
     values = {
         "program": "in the main program and in all that it calls",

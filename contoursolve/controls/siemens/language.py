@@ -44,12 +44,12 @@ STRICT_ANGLE, NO_STEPS, ALONG_ARC = "@strict-angle", "@no-steps", "@along-arc"
 
 
 def _counting(diameter: Diameter) -> Callable[[Control], Control]:
-    return lambda dialect: replace_fields(dialect, diameter=diameter)
+    return lambda control: replace_fields(control, diameter=diameter)
 
 
-def _turning(dialect: Control) -> Control:
-    diameter = Diameter.ON if dialect.diameter is Diameter.BY_PLANE else dialect.diameter
-    return replace_fields(dialect, plane=PLANES[18], diameter=diameter)
+def _turning(control: Control) -> Control:
+    diameter = Diameter.ON if control.diameter is Diameter.BY_PLANE else control.diameter
+    return replace_fields(control, plane=PLANES[18], diameter=diameter)
 
 
 MACHINE = setting(

@@ -32,7 +32,7 @@ class FormulaExpander(Expander):
     ) -> None:
         super().__init__(*args)
         self.target, self.scratch, self.policy, self.taken = target, scratch, policy, taken
-        self.writer = TargetWriter(target, self.dialect.plane, label)
+        self.writer = TargetWriter(target, self.control.plane, label)
         self.axes: dict[str, Affine | None] = {}
         """The axes whose place follows variables, mm; None where that cannot be told any more."""
         self.free: dict[str, Free] = {}
@@ -158,7 +158,7 @@ class FormulaExpander(Expander):
                 axes[axis] = value
         names = {name for each in axes.values() for name in each.factors}
         free = {**{name: self.free[name] for name in self.free if name in names}, **own}
-        return Reader(self.dialect, self.policy, tuple(step.blocks), macros, answer.claim.before, axes, free)
+        return Reader(self.control, self.policy, tuple(step.blocks), macros, answer.claim.before, axes, free)
 
     def _formulas(self, step: Step, answer: Answer) -> Iterator[str]:
         if answer.start.is_relative and not all(part.state.is_incremental for part in self._parts(answer)):

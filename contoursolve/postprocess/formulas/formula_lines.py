@@ -67,10 +67,10 @@ class FormulaLines(Lines):
     """The lines of a program on their way; `macros` are those that hold variables, by their numbers."""
 
     def __init__(
-        self, lines: Iterable[str], dialect: Control, *args: Any, lets: Mapping[str, float], **options: Any
+        self, lines: Iterable[str], control: Control, *args: Any, lets: Mapping[str, float], **options: Any
     ) -> None:
-        super().__init__(lines, dialect, *args, **options)
-        self.language, self.lets = dialect.modes.language, lets
+        super().__init__(lines, control, *args, **options)
+        self.language, self.lets = control.modes.language, lets
         self.macros: dict[int, MacroLine] = {}
         self.values: dict[str, Known] = {**lets}
         """The variables as far as the program has been read."""

@@ -44,9 +44,9 @@ class FormulaRequest(Struct, frozen=True, eq=False):
 
     def expander(self, *args: Any) -> FormulaExpander:
         """The pass over a program."""
-        dialect: Control = args[0]
+        control: Control = args[0]
         own = {"haas": "haas", "siemens": "sinumerik", "heidenhain": "klartext"}
-        name = own.get(dialect.name.partition("-")[0], "fanuc") if self.target == "same" else self.target
+        name = own.get(control.name.partition("-")[0], "fanuc") if self.target == "same" else self.target
         scratch = self.scratch or read_scratch(TARGETS[name].scratch)
         return FormulaExpander(
             *args,

@@ -40,7 +40,7 @@ class Reader(Struct, frozen=True, eq=False):
     """The blocks of a contour, the state before them, and the values that follow variables: of words, and of the
     coordinates of the start point, mm."""
 
-    dialect: Control
+    control: Control
     policy: Policy
     blocks: tuple[Block, ...]
     macros: Mapping[int, MacroLine]
@@ -67,10 +67,10 @@ class Reader(Struct, frozen=True, eq=False):
             self.macros[block.line].typed(block, known)[0] if block.line in self.macros else block
             for block in self.blocks
         ]
-        claim = self.dialect.find(blocks, 0, self.moved(known), self.dialect.modes)
+        claim = self.control.find(blocks, 0, self.moved(known), self.control.modes)
         if claim is None:
             raise FormulaError("with other values of its variables it is no contour")
-        return examine(claim, self.dialect, self.policy, depth=Depth.PATH)
+        return examine(claim, self.control, self.policy, depth=Depth.PATH)
 
     def follow(self, values: Values) -> dict[str, Affine]:
         """The stated values of the blocks as affine functions near some values, by name. Limits of the control's
@@ -163,7 +163,7 @@ def borders_of(reader: Reader, answer: Answer, stated: Mapping[str, Affine]) -> 
             word = block.words[index]
             if word.address in claim.lexicon.addresses:
                 one = claim.lexicon.factor(word, answer.unit, has_point=True)
-                numbers = sorted({Decimal(0), *limits_beside(reader.dialect.rules, claim, word)})
+                numbers = sorted({Decimal(0), *limits_beside(reader.control.rules, claim, word)})
                 found.append(CaseBoundary(Affine({slot.free.name: one}, Decimal(0)), tuple(numbers)))
     for name in claim.limits:
         value = less(stated[name], stated[f"limit:{name}"])
