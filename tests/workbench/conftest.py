@@ -21,7 +21,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def served(folder):
-    server = Served(folder)
+    server = Served(folder, is_sliced=True)
     yield server
     server.end()
 

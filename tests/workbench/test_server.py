@@ -242,11 +242,22 @@ def test_actions_of_a_window_run_in_their_order_and_64_of_them_wait(application)
     assert (view[0], view[1]["text"]) == (200, "(line 63)")
 
 
+# With a slice of 0, as on a busy machine, each request examines one block or contour.
+SLICED = """
+import sys
+from contoursolve.__main__ import main
+from contoursolve.workbench import open_view
+open_view.MOMENT = 0
+sys.exit(main())
+"""
+
+
 class Served:
     """A server process, and requests to it as a browser sends them."""
 
-    def __init__(self, *arguments, **environment):
-        command = [sys.executable, "-m", "contoursolve", "serve", *map(str, arguments), "--no-browser"]
+    def __init__(self, *arguments, is_sliced=False, **environment):
+        start = ("-c", SLICED) if is_sliced else ("-m", "contoursolve")
+        command = [sys.executable, *start, "serve", *map(str, arguments), "--no-browser"]
         self.process = subprocess.Popen(
             command,
             stdout=subprocess.PIPE,

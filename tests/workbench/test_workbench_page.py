@@ -1,11 +1,14 @@
 """The page of the workbench in a real browser, on a real server process. Nothing leaves the machine."""
 
+import json
 import re
 
 import pytest
+from click.testing import CliRunner
 from served_page import SCREENS, said
 from test_server import Served
 
+from contoursolve.cli import main
 from contoursolve.controls import CONTROLS
 from contoursolve.workbench import Desk
 from contoursolve.workbench.desk import MOST_PROGRAMS
@@ -127,6 +130,71 @@ def test_by_keyboard_alone_a_finding_is_mended_at_its_word(opened, folder) -> No
     page.keyboard.press("Enter")
     wait_for_text(page, "G111 X100. A180. K-30. B120. P6.")
     page.locator(".findings h2", has_text="No findings").wait_for()
+
+
+STUB = """%
+O2201 (STUB SHAFT)
+G21 G40 G99
+T0101
+G96 S180 M03
+G00 X64. Z3.
+G00 G42 X16.
+G01 Z0. F0.15
+X20. ,C1.
+Z-25. R3.
+X30. ,C1.
+Z-60. ,R8.
+X50. ,C1.
+Z-75
+X56. Z-80. ,A160.
+X62.
+M30
+%
+"""
+HEADINGS = """() => {
+  const heading = document.querySelector(".findings h2");
+  window.said = [];
+  new MutationObserver(() => said.push(heading.textContent)).observe(heading, { childList: true });
+}"""
+
+
+def checked(text, control, folder) -> list[tuple[str, str]]:
+    """Severity and message of each finding, as the command line has them."""
+    (folder / "checked").write_text(text)
+    command = ["check", "--control", control, "--format", "json", str(folder / "checked")]
+    found = json.loads(CliRunner().invoke(main, command).output)["diagnostics"]
+    return [(each["severity"], each["message"]) for each in found]
+
+
+def test_nothing_is_called_right_before_all_lines_are_examined(opened, folder, tmp_path) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    (folder / "stub.nc").write_text(STUB)
+    page = opened("stub.nc")
+    page.evaluate(HEADINGS)
+    page.get_by_label("Control", exact=True).select_option("fanuc-lathe")
+    rows = page.locator(".view.program .findings li")
+
+    def settles(text, control) -> None:
+        """The page comes to what the command line finds, and never said before that there is nothing."""
+        wanted = checked(text, control, tmp_path)
+        kinds = [kind for kind, _ in wanted]
+        told = ", ".join(f"{n} {name}{'s' * (n > 1)}" for name in ("error", "warning") if (n := kinds.count(name)))
+        expect(page.locator(".findings h2")).to_have_text(told or "No findings")
+        expect(rows.locator(".go > span:last-child")).to_have_text([message for _, message in wanted])
+        seen = page.evaluate("window.said.splice(0)")
+        assert "No findings" not in seen[: None if wanted else -1]
+        assert any(re.search(r"(?i)still checking, \d+ of \d+ lines", each) for each in seen)
+
+    settles(STUB, "fanuc-lathe")
+    rows.get_by_role("button", name="write Z-75. for Z-75").first.click()
+    text = STUB.replace("Z-75\n", "Z-75.\n")
+    settles(text, "fanuc-lathe")
+    for control in ("haas-lathe", "fanuc-lathe"):
+        page.get_by_label("Control", exact=True).select_option(control)
+        settles(text, control)
+    rows.get_by_role("button", name="delete ,A160.").first.click()
+    settles(text.replace(" ,A160.", ""), "fanuc-lathe")
 
 
 def test_a_file_that_another_program_changed_is_replaced_only_when_its_user_says_so(opened, folder) -> None:

@@ -5,12 +5,16 @@ import { fixText, type Placed } from "./editor";
 const MOST = 100; // that are shown at first
 const KINDS = { error: "Error", warning: "Warning", info: "Note" };
 
-// `left` were not sent, `progress` says how far the program is examined, `here` are numbers of those at the cursor.
-// A program whose control is not known is `unread`, for this reason.
-export type Told = { findings: Placed[]; unread: string; left: number; progress: string; lineOf: (at: number) => number; here: Set<number> };
+// `left` were not sent; so many lines of all are `examined`, and nobody goes on where it `isLeft`; `here` are numbers of
+// those at the cursor. A program whose control is not known is `unread`, for this reason.
+export type Told = {
+  findings: Placed[]; unread: string; left: number;
+  examined: number; lines: number; isLeft: boolean;
+  lineOf: (at: number) => number; here: Set<number>;
+};
 
 export function findingsList(go: (finding: number) => void, fix: (finding: number, fix: number) => void) {
-  let told: Told = { findings: [], unread: "", left: 0, progress: "", lineOf: () => 1, here: new Set() };
+  let told: Told = { findings: [], unread: "", left: 0, examined: 0, lines: 1, isLeft: false, lineOf: () => 1, here: new Set() };
   let most = MOST;
   const reason = make("p", {});
   const list = make("ol", {});
@@ -52,7 +56,8 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
       const isSame = before.findings.length === now.findings.length && now.findings.every((each, place) => each.finding === before.findings[place]?.finding);
       if (before.findings[0]?.finding.code !== now.findings[0]?.finding.code) most = MOST;
       if (!isSame) render();
-      const said = [summary(now), now.progress].filter(Boolean).join(". ");
+      const said = summary(now);
+      title.setAttribute("aria-busy", String(now.examined < now.lines));
       if (title.textContent !== said) title.textContent = said;
       reason.textContent = now.unread && `${now.unread}\nChoose the control above.`;
       reason.hidden = !now.unread;
@@ -63,9 +68,13 @@ export function findingsList(go: (finding: number) => void, fix: (finding: numbe
   };
 }
 
-function summary({ findings, unread, left }: Told): string {
-  if (unread) return "Not checked";
+// That there are none is said of a program all of whose lines are examined, and of no other.
+function summary({ findings, unread, left, examined, lines, isLeft }: Told): string {
+  const isWaiting = examined < lines;
+  if (unread && !isWaiting) return "Not checked";
   const counts = Object.entries(KINDS).map(([kind, name]) => [name.toLowerCase(), findings.filter((each) => each.finding.severity === kind).length] as const);
-  const told = counts.filter(([, count]) => count).map(([name, count]) => `${count} ${name}${count === 1 ? "" : "s"}`);
-  return (told.join(", ") || "No findings") + (left ? `, and ${left} more when these are mended` : "");
+  const told = counts.filter(([, count]) => count).map(([name, count]) => `${count} ${name}${count === 1 ? "" : "s"}`).join(", ");
+  if (!isWaiting) return (told || "No findings") + (left ? `, and ${left} more when these are mended` : "");
+  const rest = isLeft ? `not checked from line ${examined + 1} on` : `still checking, ${examined} of ${lines} lines`;
+  return told ? `${told} so far; ${rest}` : `${rest[0]!.toUpperCase()}${rest.slice(1)}`;
 }

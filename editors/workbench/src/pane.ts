@@ -80,7 +80,7 @@ export class ProgramPane {
   private get here() { return contourAt(this.program!.contours, this.line.number); }
 
   focus = (): void => this.editor.focus();
-  setControl = (control: string): void => void this.program?.ask<View>(() => ({ do: "control", control: control || null }));
+  setControl = (control: string): void => void this.program?.setControl(control);
 
   make(view: View): Program {
     const heard = { selected: () => this.selected(), fix: (finding: number, fix: number) => void this.fix(finding, fix) };
@@ -141,11 +141,11 @@ export class ProgramPane {
     const { state } = program;
     const { findings } = marksOf(state);
     const here = new Set(findings.flatMap((each, number) => (touches(each, state.selection.main.head, state) ? [number] : [])));
-    const { examined, lines, more_findings, control, trouble_control } = program.view;
+    const { more_findings, control, trouble_control } = program.view;
+    const { examined, lines, isLeft } = program;
     const unread = control ? "" : trouble_control;
-    const progress = examined < lines ? `${examined} of ${lines} lines are examined` : "";
     const lineOf = (place: number) => state.doc.lineAt(Math.min(place, state.doc.length)).number;
-    this.findings.show({ findings, unread, left: more_findings ?? 0, progress, lineOf, here });
+    this.findings.show({ findings, unread, left: more_findings ?? 0, examined, lines, isLeft, lineOf, here });
     this.drawing.list(program.contours, unread !== "");
     this.drawing.light(this.here?.line ?? null);
     this.lightRow();
@@ -195,7 +195,7 @@ export class ProgramPane {
 
   private async draw(program: Program): Promise<void> {
     const beside = this.besides.get(program)!;
-    if (program.view.examined < program.view.lines) return;
+    if (program.examined < program.lines) return;
     beside.of.drawing = program.version;
     const begin = performance.now();
     const drawn = await program.ask<{ svg: string | null }>(() => ({ do: "drawing" }));

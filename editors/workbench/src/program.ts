@@ -18,12 +18,15 @@ export class Program implements Work {
   findings: Finding[] = []; // as they came last
   contours: ContourRow[] = [];
   state: EditorState;
+  isLeft = false; // whether nobody goes on examining it, as was said at the top
   saved: Text | null; // null where no file has it
   private saving: Text | null = null; // what is being saved
   private editor: EditorView | null = null;
   private acknowledged: Text; // the text that the Desk has
   private pending: ChangeSet | null = null; // since then
   private isWhole = false; // whether the Desk needs the whole text, for it may have missed something
+  private isOther = false; // whether it is about to be read for another control
+  private isGoingOn = false; // whether a question is under way that examines further
   private isDragged = false; // whether the last step of undo is a drag that goes on
   private last: Promise<unknown> = Promise.resolve();
   private timer = 0;
@@ -39,7 +42,6 @@ export class Program implements Work {
     this.acknowledged = this.state.doc;
     this.saved = view.base && !view.has_changes ? this.state.doc : null;
     this.adopt(view);
-    if (view.examined < view.lines) void this.ask(() => null);
   }
 
   get name() { return this.view.name; }
@@ -49,7 +51,25 @@ export class Program implements Work {
   /** Of what is made of the text as it is, read for its control. */
   get version() { return [this.view.id, this.view.seq, this.view.control?.name, this.pending ? "typed" : ""].join(" "); }
   get isChanged() { return this.saved === null || !this.state.doc.eq(this.saved); }
+  get lines() { return this.state.doc.lines; }
+  /** The lines of the text as it stands here, from the first one on, of which all is told. */
+  get examined(): number {
+    const { examined, lines } = this.view;
+    let first = this.isWhole || this.isOther ? 0 : examined < lines ? examined : this.lines;
+    this.pending?.iterChangedRanges((_from, _to, from) => (first = Math.min(first, this.state.doc.lineAt(from).number - 1)));
+    return Math.min(first, this.lines);
+  }
 
+
+  // Until it is read for this control, nothing is told of it.
+  async setControl(control: string): Promise<void> {
+    this.isOther = true;
+    this.shown(this, null);
+    await orTrouble(this.answer<View>(() => ({ do: "control", control: control || null })), (why) => {
+      this.isOther = false;
+      this.shown(this, why);
+    });
+  }
   refusal = () => Promise.resolve("");
   again = () => this.ask(() => ({ do: "view" }));
   close = () => this.transport.ask({ do: "close", program: this.view.id }).catch(() => null);
@@ -102,10 +122,14 @@ export class Program implements Work {
   }
 
   private async asked<Reply extends object>(question: () => Question | null, isHeld: boolean): Promise<Reply | null> {
-    await this.send();
+    await this.send().then(() => (this.isLeft = false), (why) => {
+      this.isLeft = true;
+      throw why;
+    });
     const what = question();
     const reply = what && (await this.tell<Reply & { edits?: Change[] } & Partial<View>>(what));
     const isAct = what?.["do"] === "act";
+    if (what?.["do"] === "control") this.isOther = false;
     if (reply?.edits?.length) this.take(reply.edits, isAct, isHeld);
     if (isAct && !isHeld) this.isDragged = false;
     if (reply?.seq !== undefined && reply.counts) this.adopt(reply as View);
@@ -128,6 +152,7 @@ export class Program implements Work {
   // Bring the Desk's text up to what stands here, and let it examine all of it.
   private async send(): Promise<void> {
     clearTimeout(this.timer);
+    this.isGoingOn = false;
     const under = this.pending;
     if (under || this.isWhole) {
       const text = this.whole();
@@ -142,10 +167,7 @@ export class Program implements Work {
       this.isWhole = false;
     }
     // What is typed meanwhile goes first.
-    if (this.view.examined < this.view.lines && !this.pending) {
-      this.adopt(await this.tell<View>({ do: "go_on" }));
-      if (this.view.examined < this.view.lines) void this.ask(() => null);
-    }
+    if (this.view.examined < this.view.lines && !this.pending) this.adopt(await this.tell<View>({ do: "go_on" }));
   }
 
   // The text as it is now, with which the Desk has all.
@@ -179,9 +201,14 @@ export class Program implements Work {
     this.update({ effects: markEffect.of(this.pending ? moveMarks(marks, this.pending) : marks) });
   }
 
-  // The findings are about the text that the Desk has; what was typed since moves them.
+  // The findings are about the text that the Desk has; what was typed since moves them. As long as lines wait, whatever
+  // was asked, the Desk is asked to go on.
   private adopt(view: View): void {
     this.view = view;
+    if (view.examined < view.lines && !this.isGoingOn) {
+      this.isGoingOn = true;
+      void this.ask(() => null);
+    }
     this.contours = view.contours ?? this.contours;
     if (!view.findings && !view.contours) return;
     this.findings = view.findings ?? this.findings;
