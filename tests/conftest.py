@@ -56,14 +56,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Cases are slow that the sample by time leaves out."""
-    quick = sampling.quick_cases(sampling.read_costs())
+    slow = sampling.left_out(sampling.read_costs())
     for item in items:
         marks = {mark.name for mark in item.iter_markers()}
         if not marks & SLOW:
             is_sampled = isinstance(item, pytest.Function) and "boundary" not in marks
             item.stash[sampling.KIND] = sampling.SAMPLED if is_sampled else sampling.ALWAYS
             file, name = sampling.place_of(item)
-            if is_sampled and name not in quick.get(file, {}).get(sampling.test_of(name), [name]):
+            if name in slow.get(file, ()):
                 item.add_marker("slow")
 
 

@@ -113,7 +113,7 @@ def lookup(profile: Profile, scalars: dict[str, float]) -> Values:
     givens = profile.givens.values()
     return Values(
         {**start, **scalars},
-        {given.name: float(given.value) for given in givens if given.unit is Unit.MM},
+        {given.name: float(given.value) for given in givens},
         {given.name: direction(given.value) for given in givens if given.unit is Unit.DEGREE},
         headed_lines(profile.figure) if profile.is_extended else {},
     )

@@ -204,6 +204,27 @@ def test_the_moves_to_a_contour_and_away_go_around_it(
 
 
 @pytest.mark.parametrize(
+    ("blocks", "told"),
+    [
+        (("G40 G00 X60.", "M30"), None),
+        (("G40 G00 X60.", "G28 U0 W0", "M30"), None),
+        (("M30",), "still-on: G42 is still in force at program line 8"),
+        (("G00 X60.", "M30"), "still-on: G42 is still in force at program line 9"),
+        (("T0202", "G40 G00 X60.", "M30"), "still-on: G42 is still in force at program line 8"),
+        (("G00 X60.", "T0202", "G40", "M30"), "still-on: G42 is still in force at program line 9"),
+        (("G28 U0 W0", "G40", "M30"), "still-on: G42 is still in force at program line 8"),
+        (("G28 U0 W0", "G00 X60.", "G40", "M30"), "interrupted: program line 8 (G28: reference point return)"),
+    ],
+)
+def test_compensation_that_does_not_end_behind_a_contour_is_told(blocks: tuple[str, ...], told: str | None):
+    head = ("G21 G40 G18", "T0101", "G00 X20. Z2.", "G42 G01 Z0. F0.1", "X30. Z-10.", "Z-30.", "X40.")
+    found = data("check", *LATHE, *NOSE, "-", stdin="\n".join((*head, *blocks)))["diagnostics"]
+    ends = [each for each in found if each["code"] in ("tool-still-on", "tool-interrupted")]
+    assert len(ends) == bool(told)
+    assert told is None or f"{ends[0]['code']}: {ends[0]['message']}".startswith(f"tool-{told}")
+
+
+@pytest.mark.parametrize(
     "blocks",
     [
         ("G00 X62. Z0.", "G01 X-1.6"),

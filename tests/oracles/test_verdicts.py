@@ -14,7 +14,7 @@ from contoursolve import geometry
 from contoursolve.controls import CONTROLS, write_tables
 from contoursolve.geometry import build_system
 from contoursolve.reading import lay_out, stated_sets
-from contoursolve.solving import derive
+from contoursolve.solving import circuits_for_all_values, derive, derive_identity
 
 TEXT = pkgutil.get_data("contoursolve.solving", "verdicts.json").decode()
 TABLE = json.loads(TEXT)
@@ -46,6 +46,16 @@ def test_shipped_table_is_what_sympy_derives_today():
     assert systems.keys() == TABLE.keys()
     for key in [*systems][::4]:  # all of them take minutes
         assert json.loads(json.dumps(asdict(derive(systems[key])))) == TABLE[key], key
+
+
+def test_shipped_formulas_of_g111_are_what_sympy_derives_today():
+    form = CONTROLS["yasnac-lx3"].forms[0]
+    shipped = json.loads(pkgutil.get_data("contoursolve.solving", "identities.json"))
+    layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset())
+    system = build_system(layout.figure, layout.facts)
+    for each in circuits_for_all_values(system).found[:2]:  # all of them take seconds
+        names = " ".join(sorted(fact.given for fact in each.facts if fact.given))
+        assert derive_identity(system, each.facts) == shipped[f"{form.name}: {names}"]
 
 
 @pytest.mark.parametrize(

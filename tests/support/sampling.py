@@ -7,6 +7,8 @@ import json
 import os
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
+from itertools import accumulate
+from math import sqrt
 from pathlib import Path
 from zlib import crc32
 
@@ -14,10 +16,13 @@ import pytest
 
 FILE = Path(__file__).parents[1] / "durations.json"
 
-EACH = 2.0
-"""Seconds of processor time: a test that takes no longer runs with all of its cases, if the whole allows it."""
+FIRST = 1 / 3
+"""What counts of the cost of the first case of a test."""
 
-WHOLE = 110.0
+DEAR = 0.3
+"""Seconds of processor time: a case at a boundary that takes longer is drawn like all others."""
+
+WHOLE = 130.0
 """Seconds of processor time that all cases of the default run take, besides starting and collecting."""
 
 STEPS = (0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
@@ -49,48 +54,36 @@ def read_costs() -> dict[str, Costs]:
     return json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {ALWAYS: {}, SAMPLED: {}}
 
 
-def quick_cases(costs: Mapping[str, Costs]) -> dict[str, dict[str, set[str]]]:
-    """The cases that run by default, by file and test. A case that was never measured runs, too.
+def left_out(costs: Mapping[str, Costs]) -> dict[str, set[str]]:
+    """The cases that do not run by default, by file. A case that was never measured runs.
 
-    Each test has the same time, `EACH` or what the whole allows: of its cases those run that fit into it, the cheapest
-    first, and of equal ones by a fixed draw. The cheapest of the others fill what is left of the whole.
+    Those run first that cost least, and of equal ones by a fixed draw, as long as the whole allows it. Of a test, the
+    first case counts a part of its cost alone, so that few tests run none, and each further one counts more.
     """
-    tests = {
-        (file, test): sorted((cost, crc32(name.encode()), name) for name, cost in cases.items())
-        for file, tests in costs[SAMPLED].items()
-        for test, cases in tests.items()
-    }
-    whole = WHOLE - sum(sum(cases.values()) for tests in costs[ALWAYS].values() for cases in tests.values())
-    shares = (EACH * part / 40 for part in range(40, -1, -1))
-    most = next(each for each in shares if sum(_spent(cases, each) for cases in tests.values()) <= max(whole, 0))
-    found: dict[str, dict[str, set[str]]] = defaultdict(dict)
-    left = []
-    for (file, test), cases in tests.items():
-        taken = _fitting(cases, most)
-        found[file][test] = {name for _, name in taken}
-        whole -= _spent(cases, most)
-        left += [(*case, file, test) for case in cases[len(taken) :]]
-    for cost, _, name, file, test in sorted(left):
-        whole -= cost
-        if whole < 0:
-            break
-        found[file][test].add(name)
+    whole, tests = WHOLE, defaultdict[tuple[str, str], list[tuple[float, int, str]]](list)
+    for kind, file, name, cost in _all_cases(costs):
+        if kind == ALWAYS and cost <= DEAR:
+            whole -= cost
+        else:
+            tests[file, test_of(name)].append((cost, crc32(name.encode()), name))
+    order = sorted(
+        (case[0] * (sqrt(place) or FIRST), *case, file)
+        for (file, _), cases in tests.items()
+        for place, case in enumerate(sorted(cases))
+    )
+    found = defaultdict[str, set[str]](set)
+    for spent, (*_, name, file) in zip(accumulate(cost for _, cost, *_ in order), order, strict=True):
+        if spent > whole:
+            found[file].add(name)
     return found
 
 
-def _fitting(cases: list[tuple[float, int, str]], seconds: float) -> list[tuple[float, str]]:
-    """The first cases that fit into a time, each with what is spent by then."""
-    found, spent = list[tuple[float, str]](), 0.0
-    for cost, _, name in cases:
-        spent += cost
-        if spent > seconds:
-            break
-        found.append((spent, name))
-    return found
-
-
-def _spent(cases: list[tuple[float, int, str]], seconds: float) -> float:
-    return max((spent for spent, _ in _fitting(cases, seconds)), default=0.0)
+def _all_cases(costs: Mapping[str, Costs]) -> Iterator[tuple[str, str, str, float]]:
+    """The kind, the file, the name and the seconds of each case that was measured."""
+    for kind, files in costs.items():
+        for file, tests in files.items():
+            for cases in tests.values():
+                yield from ((kind, file, name, cost) for name, cost in cases.items())
 
 
 class Recorder:

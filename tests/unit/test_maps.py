@@ -31,6 +31,7 @@ from contoursolve.pictures import (
     draw_sweep,
 )
 from contoursolve.pictures.overview import compose_fan
+from contoursolve.pictures.page import Dot
 from contoursolve.pictures.scene import Mark
 from contoursolve.solving import StatusCode
 
@@ -254,6 +255,9 @@ def assert_names_stand_in_their_fields(picture, name):
         solved = solved_at(name, numpy.stack(grid, axis=-1)).has_contour
         if text.runs[0].role is not Role.GIVEN:
             assert solved.all() if text.words == "solved" else not solved.any(), text
+        else:  # beside the dot of what the block has, above it or below
+            ((x, y),) = (each.at for each in picture.sheet.drawing if isinstance(each, Dot) and each.role is Role.GIVEN)
+            assert 0 < max(left - x, x - right) < 10 > max(top - y, y - bottom) > 0
 
 
 def test_a_map_of_many_even_values_has_even_axes_and_counts_all_of_them():

@@ -164,3 +164,23 @@ def test_a_sketch_solves_itself_and_is_kept_in_a_file(tmp_path: Path):
         assert contoursolve.read_sketch((tmp_path / name).read_text(encoding="utf-8")).solve().is_finished
     with pytest.raises(ValueError, match="takes an element"):
         ContourSketch("milled").system()
+
+
+@pytest.mark.parametrize("begin", [10, -10])
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ("X-6. Z-20.",),
+        ("X4. Z-9. ,R0.5", "X-10. Z-20."),
+        ("X-2. Z-9. ,R0.5", "X-12. Z-12. ,R0.5", "X8. Z-20. ,R0.5", "X-30. Z-25."),
+        ("X2. Z-9. ,R0.5", "X12. Z-12. ,R0.5", "X-8. Z-20. ,R0.5", "X30. Z-25."),
+    ],
+)
+def test_a_crossing_is_the_farthest_place_of_the_first_element_beyond_the_spindle_axis(begin: int, lines: tuple[str]):
+    text = "\n".join((f"G00 X{begin}. Z0.", f"G01 X{begin / 2} Z-2. ,R0.5", *lines))
+    (answer,) = contoursolve.solve(text, control="fanuc-lathe").answers
+    ends = [(each.name, max(each.start, each.end, key=lambda at: -at[1] * begin)) for each in answer.contour.elements]
+    beyond = [(at, name) for name, at in ends if at[1] * begin < 0]
+    found = answer.contour.crossing
+    assert (found and (found.at, found.element.name)) == (beyond[0] if beyond else None)
+    assert ("axis-crossed" in {each.code for each in answer.diagnostics}) == bool(beyond)

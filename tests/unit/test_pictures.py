@@ -377,9 +377,11 @@ def test_states_are_told_apart_without_colour_and_several_pictures_stand_in_one_
 def test_text_of_a_program_is_escaped():
     text = f"G111 X100. A180. K-30. B120. P5. {HOSTILE}"
     (answer,) = contoursolve.solve(text, start=START, facts=["line 2 passes through (Z-47.3205 X100.)"]).answers
-    picture = draw_answer(answer, title="<b>&\"'\x00\udcff")  # a file's name may be no Unicode
+    # A file's name may be no Unicode; what XML has no character for is shown as one, and nothing beside it.
+    known, unknown = "\t\ud7ff\ue000\ufffd\U00010000\U0010ffff", "\x00\x08\x0b\x1f\ud800\udfff\ufffe\uffff"
+    picture = draw_answer(answer, title=f"<b>&\"'{known}{unknown}")
     tree = ElementTree.fromstring(picture.svg)
-    assert tree[0].text == "<b>&\"'��"
+    assert tree[0].text == f"<b>&\"'{known}{len(unknown) * chr(0xFFFD)}"
     tags = "svg title desc defs clipPath rect g path polygon circle text tspan"
     assert {each.tag for each in tree.iter()} <= {f"{SVG}{tag}" for tag in tags.split()}
     assert picture.png(50).startswith(b"\x89PNG")

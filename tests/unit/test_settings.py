@@ -3,6 +3,7 @@
 import pytest
 from click.testing import CliRunner
 
+import contoursolve
 from contoursolve.cli import main
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import Evidence
@@ -58,3 +59,10 @@ def test_the_catalogue_lists_every_assumption_and_every_setting_with_its_values(
         for setting in control.settings:
             assert setting.default in setting.values
             assert all(f"--setting {control.name}.{setting.name}={value}" in printed for value in setting.values)
+
+
+@pytest.mark.parametrize("control", ["nct-99m", "mitsubishi"])
+@pytest.mark.parametrize("block", ["G3 X40 Y0 I20", "G3 X40 Y0 I20 J0", "G3 X40 Y0 R20", "G1 X40 Y10"])
+def test_an_assumption_is_named_where_a_block_needs_it_and_nowhere_else(control, block):
+    (answer,) = contoursolve.solve(f"G17 G0 X0 Y0\n{block} ,R1\nG1 X60 Y30", control=control).answers
+    assert [each.name for each in answer.assumptions] == ["one-of-center"] * block.endswith("I20")

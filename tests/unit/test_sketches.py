@@ -84,6 +84,10 @@ def test_a_contradiction_is_told_with_its_amount(name, number, fields, status, c
     if off is not None:
         assert off == pytest.approx(max(each or 0 for each in contradicting.values()), abs=1e-3)
     assert not any("program line" in each.message + each.help for each in found.findings)
+    if found.answer is not None:
+        shown = re.sub("<desc>.*?</desc>", "", contoursolve.draw(found).svg)
+        measured = [each for each in found.elements if each.segment is not None and each.off_mm is not None]
+        assert bool(re.search(r">off\b", shown)) == bool(measured)
 
 
 def test_fixes_are_changes_of_fields():

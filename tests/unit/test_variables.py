@@ -40,6 +40,12 @@ def test_two_variables_are_named_with_the_reason_of_each():
     assert notes(START + "#100=#5041\n#101=5.\n" + BLOCK)[-2:] == ("#101 is 5. here", "#100: #5041 is the machine's")
 
 
+def test_what_nobody_knows_any_more_behind_a_call_is_known_if_it_was_stated():
+    text = f"{START}#100=60.\nG65 P9000\n{BLOCK.replace('#101', '5.')}"
+    codes = [{each.code for each in contoursolve.check(text, variables=given)} for given in ({}, {"#100": 50.0})]
+    assert ["value-variable" in each for each in codes] == [True, False]
+
+
 @given(value=st.floats(30.0, 300.0).map(lambda each: round(each, 3)))
 def test_what_is_said_of_a_value_holds_for_it(value):
     text = START + BLOCK.replace("#101", "5.")

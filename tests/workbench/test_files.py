@@ -163,6 +163,8 @@ def test_what_is_no_program_is_not_opened(tmp_path):
     for name in ("folder.nc", "lost.nc"):
         assert page.ask("open", name=name)["trouble"] == f"{name}: no such file in the folder {tmp_path.name}"
     assert [each["name"] for each in page.ask("files")["files"]] == ["a.nc", "big.nc"]
+    told = [(each["folder"], each["may_write"]) for each in (page.ask("hello"), Page(Desk()).ask("hello"))]
+    assert told == [(tmp_path.name, True), ("", False)]
     assert Page(Desk()).ask("files")["trouble"] == Page(Desk()).ask("open", name="a.nc")["trouble"] == NO_FOLDER
 
 

@@ -339,7 +339,7 @@ def _circumstances(
     holds = {
         FEED: member.block.find("F") is not None,
         NEGATIVE_RADIUS: member.element.is_over and is_negative,
-        ONE_CENTER: member.element.turn is not None and not member.element.is_over and centers == 1,
+        ONE_CENTER: centers == 1,
         ALONE: member.is_alone,
         OTHER_PLANE: replace(plane, diameters=first.plane.diameters) != first.plane,
         OTHER_ZERO: member.here.axes is not first.axes

@@ -349,13 +349,13 @@ def _lacking(chain: ChainBlocks, number: int, elements: Sequence[FkElement]) -> 
     member, element, before = chain.members[number - 1], elements[-1], chain.members[: number - 1]
     own, tool = member.own, member.here.memory.get(TOOL_AXIS)
     yield from (wrong + name for name, wrong in _referred(chain, number) if isinstance(wrong, str))
-    is_touching, is_bent = member.function in TANGENT, member.function in TANGENT[2:]
+    is_bent = member.function in TANGENT[2:]
     is_doubtful = any(_doubts(member))
     is_turned = number > 1 and member.function == "FCT" and element.turn is not elements[-2].turn
     holds = {
         NO_SENSE: not element.is_line and not is_bent and not sign_of(member.block, "DR"),
         NO_POLE: own.keys() & POLAR and not member.pole and not is_doubtful,
-        NO_BEFORE: number == 1 and (is_touching or ("IAN" in own and "RAN" not in own)),
+        NO_BEFORE: number == 1,
         NO_CENTER: member.function in OF_CENTER and member.center_at is None and not is_doubtful,
         FULL: member.is_full,
         NO_RADIUS: member.function == "CR" and "R" not in own,

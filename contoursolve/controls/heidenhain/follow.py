@@ -49,7 +49,6 @@ JOINT = "joint"
 first of its chain may join."""
 DEPARTED = "the tool departs from the contour"
 
-_UNMOVED = ("RND", "CHF", "FSELECT", "STOP")
 _DECIMALS = Decimal("1e-9")
 
 
@@ -61,15 +60,13 @@ def follow(state: State, block: Block, modes: Modes) -> State:
     state = keep_joint(state, block, function)
     if block.faults:
         return state.lose(modes.axes, FAULTY, block.span)
-    if not function or function in _UNMOVED:
-        moved = state
-    elif function in (CENTER, POLE):
+    if function in (CENTER, POLE):
         return set_pole(state, block, function, modes)
-    elif function.startswith("DEP"):
+    if function.startswith("DEP"):
         return state.lose(state.plane.axes, DEPARTED, block.span)
-    elif function in FREE and not begins_chain(function, block, state.plane.axes):
+    if function in FREE and not begins_chain(function, block, state.plane.axes):
         return state.lose(state.plane.axes, "a free contour leads there", block.span)
-    elif any(block.find(name) for name in ("PR", "PA", "IPR", "IPA")):
+    if any(block.find(name) for name in ("PR", "PA", "IPR", "IPA")):
         moved = _polar(state, block, modes)
     else:
         moved = state.move(positions(state, axis_words(block, modes), modes, block.is_skippable))

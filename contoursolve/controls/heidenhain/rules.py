@@ -150,7 +150,7 @@ def _rows(words: PlaneWords) -> tuple[Rule, ...]:
             some(NO_POLE) & some(*sorted(POLAR)), (_POLAR, ("2 FPOL X+10 Y+0\n", "2 CC X+10 Y+0\n")), _FK),
         row("heidenhain-tangent-first", "it begins in the direction of the element before, which is not known here",
             "write FL or FC with AN, or let the move before it begin at a known point",
-            BOOK.derived("tangential connection"), some(NO_BEFORE) & some("IAN", TANGENCY),
+            BOOK.derived("tangential connection"), some(NO_BEFORE) & (some(TANGENCY) | (some("IAN") & ~some("RAN"))),
             (_TANGENT, ("1 L X+0 Y+0\n2 FL X+30 Y+0\n", "1 CC X+0\n2 APPR LCT X+30 Y+0 R5\n")), (LINE, ARC, PLAIN)),
         row("heidenhain-closes-nothing",
             "CLSD- ends a contour that CLSD+ in an earlier block begins, and there is none",

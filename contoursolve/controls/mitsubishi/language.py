@@ -30,7 +30,6 @@ from contoursolve.controls.chain.language import (
     ONE_CENTER,
     OPEN_ARC,
     OPEN_ARC_END,
-    OVER_CIRCLE,
     WITHOUT_POINT,
     Premise,
 )
@@ -178,7 +177,7 @@ _ASSUMPTIONS = (
                BOOK.assumed("not described"), (LINE_CIRCLE, CIRCLE_LINE),
                some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H")),
     Assumption("one-of-center", "of the two of I, J and K that belong to the plane, one that is left out is 0",
-               BOOK.assumed("not described"), (ARC, OVER_CIRCLE), some(ONE_CENTER)),
+               BOOK.assumed("not described"), (ARC,), some(ONE_CENTER)),
     Assumption("radius-of-contact", "a positive R is the arc of at most 180 deg, a negative one the other",
                BOOK.assumed("not described"), (LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE), some("1:R", "2:R")),
 )  # fmt: skip
