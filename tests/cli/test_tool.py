@@ -1,6 +1,7 @@
 """The tool on the command line: how it is stated, and what is said of it."""
 
 import json
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -255,6 +256,17 @@ def test_two_letters_beside_g40_are_a_wall_and_no_corners(
     told = call("check", *words, tmp_path / "a.nc").stdout
     assert told.count("error[") == 1
     assert "beside G40, the direction of a wall) interrupts the contour" in told
+
+
+@pytest.mark.parametrize(("code", "wrong"), [("G41", 1), ("G42", -1)])
+def test_kont_goes_around_a_contour_where_the_way_begins_or_ends_on_its_other_side(code: str, wrong: int):
+    starts = {f"X{off - 20} Y{-off - 20}": off * wrong for off in (-20, 0, 20)} | {"X-20": 1, "Y-20": 1}  # not known
+    for (start, begin), end, word in product(starts.items(), (-20, 0, 20), ("KONT", "NORM")):
+        line = ("X50 Y50", f"G40 X{80 + end} Y{80 - end}", "M30")
+        blocks = (f"G17 G90 {word}", f"G0 {start}", f"{code} D1 G1 X0 Y0 F500", *line)
+        found = data("check", "--control", "siemens-840d", "--tool", "R5", "-", stdin="\n".join(blocks))["diagnostics"]
+        is_around = word == "KONT" and max(begin, end * wrong) > 0
+        assert ("tool-not-followed" in {each["code"] for each in found}) == is_around, (start, end, word)
 
 
 def test_a_closed_contour_that_begins_in_an_inside_corner(tmp_path: Path):

@@ -187,6 +187,19 @@ def test_a_move_in_depth_under_compensation_is_the_same_path(tmp_path: Path):
     assert done.exit_code == 0, done.output
 
 
+@pytest.mark.parametrize(
+    ("way", "depths"),
+    [
+        ("Y-30 F500\nZ30\nX50\nY30 X48\nZ-30\nY-40", ["60", "50", "48"]),
+        ("G91 Y10 F500\nZ50\nX-10\nY60 X-2\nZ-60\nY-70\nG90", ["60", "-10", "-2"]),
+    ],
+)
+def test_a_depth_outside_the_plane_stays_the_diameter_that_it_was(way: str, depths: list[str]):
+    text = f"G19 G90 DIAMON\nG0 Y-40 Z-20 X60\nG41 D1 G1 {way}\nG40 Y-60\nM30\n"
+    found = call("expand", "--control", "siemens-840d", "--tool", "R5", "-", stdin=text).stdout
+    assert re.findall(r"^[^;\n]*X(\S+)$", found, re.MULTILINE) == depths
+
+
 CALLED = """\
 O1000
 G21 G17 G40 G90
