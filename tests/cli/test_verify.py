@@ -103,6 +103,16 @@ def test_what_is_tampered_with_is_caught_for_every_control(control):
             assert verify(*documents).verdict is ReceiptVerdict.FAILED
 
 
+@pytest.mark.parametrize("off", [0.0, 0.5])
+def test_a_residual_is_what_is_wrong_and_noise_is_none(off):
+    text = LATHE + "G111 X100. A180. K-30. B120. P5. Q5."
+    result = json.loads(solution(text))
+    result["contours"][0]["points"]["V1"][0] += off
+    receipt = verify(Document("program", text.encode()), Document("result", json.dumps(result).encode()))
+    (checks,) = (contour.checks for contour in receipt.contours)
+    assert max(each.residual for each in checks if each.limit) == pytest.approx(off, abs=0)
+
+
 WORKED = [
     path for folder in (PROGRAMS, PAGES) for path in sorted(folder.iterdir()) if path.suffix not in (".toml", ".dxf")
 ]
