@@ -131,6 +131,12 @@ def test_what_contradicts_itself_beside_a_cut_circle_is_told_for_the_cut():
     assert [(each.code, " by " in each.message) for each in answer.diagnostics] == [("words-conflict", True)]
 
 
+def test_an_arc_that_goes_on_around_a_stated_centre_touches_by_itself():
+    blocks = ("FC DR+ R20 CCX+0 CCY+0 X+0 Y+20", "FCT DR+ R20 CCX+0 CCY+0 X-20 Y+0")
+    answer = solved(chain(*blocks, before="L X+20 Y+0 RL"))
+    assert (answer.status.value, [*answer.diagnostics]) == ("solved", [])
+
+
 @pytest.mark.parametrize("corner", ["RND R5", "CHF 5"])
 @pytest.mark.parametrize("head", ["", "TOOL CALL 4 Z S3200\n", "L X+0 Y+0\nTOOL CALL 4 Z S3200\n"])
 def test_a_corner_before_any_element_is_refused(head, corner):
