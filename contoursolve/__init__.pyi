@@ -8,6 +8,10 @@ from .api import (
     solve as solve,
     system as system,
 )
+from .comparing import (
+    diff as diff,
+    verify as verify,
+)
 from .comparison import (
     Comparison as Comparison,
     Receipt as Receipt,
@@ -54,10 +58,6 @@ from .outcomes import (
     explain as explain,
     export as export,
     report as report,
-)
-from .output import (
-    systems_to_json as systems_to_json,
-    to_smt as to_smt,
 )
 from .pictures import (
     Picture as Picture,

@@ -173,10 +173,10 @@ def system(
 
 def _follow(program: str | Path | Program, name: str, options: SolveOptions) -> Run:
     """A text, a file or a program that was parsed before, as a stream."""
-    return follow_options(*_read(program, name, options))
+    return follow_options(*read_source(program, name, options))
 
 
-def _read(program: str | Path | Program, name: str, options: SolveOptions) -> tuple[Program, SolveOptions]:
+def read_source(program: str | Path | Program, name: str, options: SolveOptions) -> tuple[Program, SolveOptions]:
     """The blocks of a program; of a file with the settings that are found beside it."""
     if isinstance(program, Program):
         return program, options
@@ -192,20 +192,24 @@ def _parsed(text: str, name: str) -> Program:
     """The blocks of a text that is no name of a file."""
     if not isinstance(text, str):
         raise TypeError(f"the program is a text (str), a Path or a Program, not {type(text).__name__}")
-    _check_is_no_name(text, f"Path({text!r})")
+    _check_is_no_name(text)
     return gcode.parse(text, name)
 
 
-def _check_is_no_name(text: str, instead: str) -> None:
-    """Raise ValueError for the name of a file in the place of its text, with what to say instead."""
+def _check_is_no_name(text: str) -> None:
+    """Raise ValueError for the name of a file in the place of its text."""
     if _FILE.fullmatch(text):
-        raise ValueError(f"{text} is the name of a file, not its text: say {instead}")
+        raise ValueError(f"{text} is the name of a file, not its text: say Path({text!r})")
 
 
-def _check_text(text: str) -> None:
-    """Raise TypeError or ValueError for what is no text of a program."""
-    check_type("text", text, str, "the text of a program (str)")
-    _check_is_no_name(text, f"Path({text!r}).read_text()")
+def _text(text: str | Path, name: str, options: SolveOptions) -> tuple[str, str, SolveOptions]:
+    """The text of a program with what it is called, as `read_source`. Raises TypeError, ValueError."""
+    if isinstance(text, Path):
+        program, options = read_source(text, name, options)
+        return program.text, program.name, options
+    check_type("text", text, str, "the text of a program (str), or a Path")
+    _check_is_no_name(text)
+    return text, name, options
 
 
 _FILE = re.compile(rf"[^\n]*(?:{'|'.join(map(re.escape, (*gcode.ENDINGS, '.txt')))})", re.IGNORECASE)
@@ -249,7 +253,7 @@ def fix(
     """
     from contoursolve.program import examined_result, likely_fixes, mend, safe_fixes  # noqa: PLC0415 - only this mends
 
-    first, asked = _read(program, name, SolveOptions(**options, depth=_FINDINGS))
+    first, asked = read_source(program, name, SolveOptions(**options, depth=_FINDINGS))
     return mend(
         first.text,
         lambda now: examined_result(now, follow_options(gcode.parse(now, first.name), asked).collect()),
@@ -287,7 +291,7 @@ _MANY = 64
 
 @takes(ProgramKeywords)
 def expand(
-    text: str,
+    text: str | Path,
     *,
     post: postprocess.PostName | postprocess.Post = "same",
     arcs: postprocess.ArcsName = "center",
@@ -308,7 +312,7 @@ def expand(
     written in G codes.
 
     Args:
-        text: the program, with its line ends.
+        text: the program, with its line ends, or the `Path` of its file, with the settings as for `solve`.
         post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`, or one of your own.
         arcs: `center` (I J K) or `radius` (R).
         decimals: decimals of an end point; the target's own without. Centres and radii have at least those.
@@ -331,7 +335,7 @@ def expand(
     G01 X50. Z-32.887
     G01 X100. Z-47.321
     """
-    _check_text(text)
+    text, name, told = _text(text, name, SolveOptions(**options))
     # Only this function needs them.
     from contoursolve.postprocess import (  # noqa: PLC0415
         Arcs,
@@ -344,7 +348,6 @@ def expand(
 
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
-    told = SolveOptions(**options)
     asked = told.request(name)
     writer = None
     if formulas:
@@ -365,7 +368,7 @@ def expand(
 
 @takes(ReadingKeywords)
 def convert(
-    text: str,
+    text: str | Path,
     to: ControlName | Control,
     *,
     comments: bool = True,
@@ -377,7 +380,7 @@ def convert(
     All else stays as it was.
 
     Args:
-        text: the program, with its line ends.
+        text: the program, with its line ends, or the `Path` of its file, with the settings as for `solve`.
         to: the other control, such as `fanuc-lathe`, or its tables.
         comments: whether the original blocks are kept as comments.
         control: and all others as for `solve`, with the same errors.
@@ -393,7 +396,7 @@ def convert(
     G01 X40. Z-30. ,R5.
     G01 X100. ,A120.
     """
-    _check_text(text)
+    text, name, told = _text(text, name, SolveOptions(**options))
     # Only this function needs them.
     from contoursolve.comparison import compare, follow  # noqa: PLC0415
     from contoursolve.postprocess import (  # noqa: PLC0415
@@ -404,7 +407,6 @@ def convert(
         post_of,
     )
 
-    told = SolveOptions(**options)
     target = to if isinstance(to, Control) else configure(find_control(to), told.settings)
     if language_of(target) is None:
         raise ConversionError(

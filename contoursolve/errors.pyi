@@ -1,5 +1,6 @@
 from .comparison import (
     CannotVerifyError as CannotVerifyError,
+    NotComparedError as NotComparedError,
 )
 from .diagnostics import (
     MissingExtraError as MissingExtraError,

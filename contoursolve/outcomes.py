@@ -9,9 +9,9 @@ from typing import Any
 # What these rooms hold is imported when it is asked for, by `help` and `typing.get_type_hints`, too.
 from contoursolve import families, output, pictures, sketches
 from contoursolve.controls import CONTROLS
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, EquationSystem
 from contoursolve.diagnostics import UserError, check_type, choice_of, did_you_mean, importing
-from contoursolve.gcode import CannotWriteError, write_whole
+from contoursolve.gcode import write_whole
 from contoursolve.pictures import Picture, Theme
 from contoursolve.program import Result, find_control
 from contoursolve.reading import Control
@@ -81,6 +81,7 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
 
     * `.dxf`: the solved contours of a `Result` for CAD, with the path of its tool; needs `contoursolve[dxf]`.
     * `.json`: a `Result`, as `contoursolve solve --format json` prints it.
+    * `.json`, `.smt2`: an `EquationSystem`, or several in a list, with their verdicts, or for a solver such as z3.
     * `.csv`, `.parquet`: the rows of a `Family`; Parquet needs `contoursolve[family]`.
     * `.html`: the page of a `Result` (see `report`), or the map of a `Family` over two words or of a `FeasibleRegion`:
       pointer and arrow keys choose values, and their contour is drawn. `result` colours the map, as for `draw`. It
@@ -90,7 +91,12 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
     file of this ending, or nothing to write. It does so for a `tool` or a `result` that the file has no use for. Raises
     MissingExtraError without a package, and UserError where the file cannot be written.
     """
+    check_type("path", path, str | Path)
     target, ending = Path(path), Path(path).suffix.lower()
+    if isinstance(record, list | tuple) and record and all(isinstance(each, EquationSystem) for each in record):
+        several, record = record, record[0]
+    else:
+        several = (record,)
     kinds = _FILES.get(ending)
     if kinds is None:
         raise ValueError(f"{target}: a file ends in {', '.join(_FILES)}; a picture has save()")
@@ -106,18 +112,19 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
         raise ValueError(f"{target}: the file of a {type(record).__name__} has no tool; leave out tool")
     tool = record.tool if tool is None and isinstance(record, Result) else tool
     if isinstance(record, families.Family) and ending != ".html":
-        write = record.to_csv if ending == ".csv" else record.to_parquet
-        try:
-            write(target)
-        except OSError as error:
-            raise CannotWriteError(f"{target} cannot be written: {error.strerror or error}") from error
+        (record.to_csv if ending == ".csv" else record.to_parquet)(target)
+        return
+    if isinstance(record, EquationSystem):
+        text = output.to_smt(several) if ending == ".smt2" else output.systems_to_json(several)
+        write_whole(target, (text.encode(),), keeps_backup=False)
         return
     write_whole(target, (_bytes_of(record, ending, tool, result),), keeps_backup=False)
 
 
 _FILES: dict[str, tuple[type, ...]] = {
     ".dxf": (Result,),
-    ".json": (Result,),
+    ".json": (Result, EquationSystem),
+    ".smt2": (EquationSystem,),
     ".csv": (families.Family,),
     ".parquet": (families.Family,),
     ".html": (Result, families.Family, families.FeasibleRegion),

@@ -1,16 +1,14 @@
 """The command that compares two programs."""
 
-from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-from contoursolve.api import read_program
 from contoursolve.cli.options import (
     FILE,
     FOUND_ERRORS,
-    CouldNotRunError,
     check_toolless,
     control_option,
     format_option,
@@ -19,24 +17,18 @@ from contoursolve.cli.options import (
     path_option,
     print_findings,
     rules_option,
-    settings_of,
     settings_option,
     tool_options,
     units_option,
 )
 from contoursolve.cli.pictures import bytes_of, check_picture, theme_option
 from contoursolve.cli.printing import print_lines, say
-from contoursolve.controls import CONTROLS, PLAIN
-from contoursolve.gcode import Program, write_whole
+from contoursolve.comparing import ANY_CONTROL, compare_programs
+from contoursolve.gcode import write_whole
 from contoursolve.geometry import Length
 from contoursolve.pictures import Theme
-from contoursolve.program import CONTROL, Request, Result, SolveOptions, choose_alike, configure, run
-from contoursolve.reading import Control, ReadIssue
-
-if TYPE_CHECKING:
-    from contoursolve.comparison import ToolPath
-
-_ANY_CONTROL = (*CONTROLS, *PLAIN)
+from contoursolve.program import SolveOptions, read_setting
+from contoursolve.reading import Control
 
 
 @click.command(short_help="Tell whether two programs describe the same path.")
@@ -50,11 +42,11 @@ _ANY_CONTROL = (*CONTROLS, *PLAIN)
     metavar="MM",
     help="How far apart the paths may be, in mm.",
 )
-@control_option("The control of OLD. Without it, found from OLD where that is clear.", names=_ANY_CONTROL)
+@control_option("The control of OLD. Without it, found from OLD where that is clear.", names=ANY_CONTROL)
 @control_option(
     "The control of NEW. Without it, that named for OLD, unless NEW has words of another; or found from NEW.",
     "--new-control",
-    _ANY_CONTROL,
+    ANY_CONTROL,
 )
 @let_option
 @path_option
@@ -118,7 +110,7 @@ def diff(
     contoursolve diff shaft.nc by_hand.nc --tool R0.8 --tip 3
     contoursolve diff shaft.nc shaft_b.nc --plot differences.svg
     """
-    from contoursolve.comparison import compare, follow  # noqa: PLC0415 - only here
+    from contoursolve.comparison import NotComparedError  # noqa: PLC0415 - only here
     from contoursolve.output import differences  # noqa: PLC0415 - only here
 
     if old == new == "-":
@@ -127,30 +119,29 @@ def diff(
         check_toolless(stated)
     if picture is not None:
         check_picture(picture, is_forced=is_forced)
-    sides: list[tuple[Result, Control, Request]] = []
-    for path, own, unit in ((old, control, units), (new, new_control, new_units or units)):
-        program = read_program(path)
-        before = sides[0][1] if sides else None
-        is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
-        chosen = _control_of(program, own or (before if is_kept else None), before, assignments, folders)
-        told = SolveOptions(units=unit, rules=rules, variables=variables, folders=folders, strict=True)
-        asked = told.request(program.name, chosen)
-        sides.append((run(program, asked), chosen, asked))
-    results = [result for result, _, _ in sides]
-    if any(map(_has_no_path, results)):
+    settings = dict(map(read_setting, assignments))
+    told = SolveOptions(
+        control=control, units=units, rules=rules, settings=settings, variables=variables, folders=folders
+    )
+    try:
+        comparison = compare_programs(
+            Path(old),
+            Path(new),
+            told,
+            partial(naming, options="--control or --new-control"),
+            tolerance=tolerance,
+            new_control=new_control,
+            new_units=new_units,
+            tool={"tool": tool, **stated},
+        )
+    except NotComparedError as error:
         if format_ == "json":
-            click.echo(differences.refusal_to_json(results))
+            click.echo(differences.refusal_to_json(error.results))
         else:
-            for (result, chosen, asked), path in zip(sides, (old, new), strict=True):
-                print_findings(result, path, control=chosen, units=asked.unit.value)
+            for result, asked, path in zip(error.results, error.asked, (old, new), strict=True):
+                print_findings(result, path, control=asked.control, units=asked.unit.value)
             say("not compared: a program that has errors has no path")
         context.exit(FOUND_ERRORS)
-    axes = tuple(sorted({axis for _, chosen, _ in sides for axis in chosen.modes.axes}))
-    finishes = tool is not None
-    one, other = (follow(result, chosen, asked.unit, axes, finishes=finishes) for result, chosen, asked in sides)
-    if tool is not None:
-        one, other = _beside_tool(sides, (one, other), tool, stated)
-    comparison = compare(one, other, tolerance)
     if format_ == "json":
         click.echo(differences.to_json(comparison))
     else:
@@ -162,69 +153,3 @@ def diff(
         write_whole(picture, [drawn], keeps_backup=False)
         say(f"{picture} written", err=True)
     context.exit(0 if comparison.is_equal else FOUND_ERRORS)
-
-
-def _beside_tool(
-    sides: Sequence[tuple[Result, Control, Request]],
-    paths: "Sequence[ToolPath]",
-    tool: str,
-    stated: dict[str, Any],
-) -> "list[ToolPath]":
-    """The paths of the tool beside contours, and those that are paths of it already. Raises CouldNotRunError."""
-    from contoursolve.tool_radius import is_compensated, look_at_tool, path_of_tool, wanted_tool  # noqa: PLC0415
-
-    found: list[ToolPath] = []
-    for (result, _, asked), path in zip(sides, paths, strict=True):
-        own = stated if not found else {**stated, "side": None}
-        if not is_compensated(path) and own["side"] is None:
-            found.append(path)
-            continue
-        name = result.program.name
-        with naming(name):
-            report = look_at_tool(result, asked, wanted_tool(name, tool, **own), path.axes)
-        error = next((each for each in report.findings if each.is_error), None)
-        if error is not None:
-            told = f"{error.message}; contoursolve check {name} --tool {tool} tells more"
-            raise CouldNotRunError(f"{name}: program line {error.span.line}: {told}")
-        found.append(path_of_tool(report))
-    if all(one is other for one, other in zip(found, paths, strict=True)):
-        raise CouldNotRunError("neither program has G41 or G42 (RL or RR); say --side left or right of OLD")
-    return found
-
-
-def _reads_what_shows_others(control: Control, program: Program) -> bool:
-    """Whether a control has every word by which a program shows another one, so that it need not be for that one."""
-    others = [other for other in CONTROLS.values() if other.name != control.name]
-    shown = [word for other in others for block in program.blocks for word in other.signs(block)]
-    addresses, codes = control.modes.lexicon.addresses, control.modes.codes
-    return all(word.number in codes if word.address == "G" else word.address in addresses for word in shown)
-
-
-def _control_of(
-    program: Program,
-    control: str | Control | None,
-    otherwise: Control | None,
-    assignments: Sequence[str],
-    folders: Sequence[str],
-) -> Control:
-    """The control of a program: the one that is named, or that it shows, or another."""
-    with naming(program.name, "--control or --new-control"):
-        settings = settings_of(program, assignments)
-        name = control or settings.get(CONTROL)
-        named = {**CONTROLS, **PLAIN}[name] if isinstance(name, str) else name
-        shown = (
-            None
-            if named
-            else choose_alike(None, program, SolveOptions(folders=folders).request(program.name), settings)
-        )
-        chosen = named or shown or otherwise
-        if chosen is not None:
-            return shown or configure(chosen, settings)
-    choices = "|".join(_ANY_CONTROL)
-    raise CouldNotRunError(f"{program.name}: no block shows the control; say which with --control {choices}")
-
-
-def _has_no_path(result: Result) -> bool:
-    """Whether a program has errors; that it has no contour is none here."""
-    errors = (each for each in result.diagnostics if each.is_error)
-    return any(each.about is not ReadIssue.NO_CONTOUR for each in errors)

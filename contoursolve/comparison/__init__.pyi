@@ -9,6 +9,7 @@ from .claims import (
 )
 from .compare import (
     Comparison as Comparison,
+    NotComparedError as NotComparedError,
     changes_beside as changes_beside,
     compare as compare,
 )

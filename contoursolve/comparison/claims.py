@@ -11,7 +11,7 @@ import msgspec
 from msgspec import Meta, Struct, field
 
 from contoursolve import gcode
-from contoursolve.diagnostics import UserError, hash_of
+from contoursolve.diagnostics import Shown, UserError, hash_of
 from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError, decode
 from contoursolve.geometry import Length
 
@@ -297,7 +297,7 @@ class ContourReceipt(Struct, frozen=True):
         return [each for each in self.told if each.passed is None]
 
 
-class Receipt(Struct, frozen=True):
+class Receipt(Shown, Struct, frozen=True):
     """The verdict on a result, with the bytes that it is about.
 
     Attributes:

@@ -1,9 +1,10 @@
 """Compares two paths: every difference with its words, the largest first; and what changed besides."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import chain
 from math import inf
+from typing import Any
 
 from msgspec import Struct
 
@@ -21,10 +22,31 @@ from contoursolve.comparison.words import (
     mode_words,
     news_of,
 )
+from contoursolve.diagnostics import Shown, UserError
 from contoursolve.gcode import Block
+from contoursolve.program import Request, Result
 
 
-class Comparison(Struct, frozen=True):
+class NotComparedError(UserError):
+    """A program that has errors, so that it has no path; the message has the first one of each program.
+
+    `results` are both programs as they were solved, `asked` how they were read.
+    """
+
+    def __init__(self, results: Sequence[Result], asked: Sequence[Request]) -> None:
+        self.results, self.asked = tuple(results), tuple(asked)
+        told: list[str] = []
+        for each in results:
+            error = next((one for one in each.diagnostics if one.is_error), None)
+            if error is not None:
+                told.append(f"{each.program.name}, program line {error.span.line}: {error.message}")
+        super().__init__("not compared: a program that has errors has no path\n" + "\n".join(told))
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.results, self.asked)
+
+
+class Comparison(Shown, Struct, frozen=True):
     """Two paths, and all their differences.
 
     Attributes:

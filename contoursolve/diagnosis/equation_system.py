@@ -28,7 +28,7 @@ from contoursolve.diagnosis.reasons import freedom_reasons
 from contoursolve.diagnosis.smallest_sets import smallest_sets
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
-from contoursolve.diagnostics import LateModule, Shown, Span
+from contoursolve.diagnostics import LateModule, Shown, Span, from_above
 from contoursolve.gcode import FACT, Word, words_called
 from contoursolve.geometry import (
     Corner,
@@ -419,7 +419,7 @@ class EquationSystem(Shown):
         found = self._read_by.profile(claim, self._left_out)
         return EquationSystem(claim, found, self._read_by, self._left_out)
 
-    def function(self, name: str = "contour") -> "named_function.Function":
+    def function(self, name: str = "contour", *, solution: str | None = None) -> "named_function.Function":
         """The contour as a function of CasADi, for `map`, `jacobian`, `nlpsol` and whatever else that has.
 
         Inputs are the start point and the words with a value, a scalar each, by the names of their symbols and as they
@@ -438,14 +438,20 @@ class EquationSystem(Shown):
         It follows the solution that the control takes at the values of the words, in closed form where there is one,
         else by Newton's method from there on. It checks nothing: a contour is right where `room` is not negative,
         `residuals` are zero and no line runs backwards. The side to which an arc bends that only touches the element
-        before stays, too, although the control may then read it otherwise. Raises ValueError where there is no contour
-        to follow.
+        before stays, too, although the control may then read it otherwise. With `solution`, such as `"P1 nearer"`,
+        it follows the solution of that name in `solve().paths` instead, also where no word of the block chooses one.
+
+        Raises ValueError where there is no contour to follow, or no solution of that name.
         """
         if not isinstance(name, str):
             raise TypeError(f"a function takes all words, and no names but its own: function()(B=120), not {name!r}")
+        if solution is not None:
+            return self._along(solution).function(name)
         chosen = self._chosen
         if chosen is None:
             why = f"still open: {join(list(map(str, self.free)))}" if self.free else "subs(B=150) writes others"
+            if not self.free and (names := [each.name for each in self.solve().paths]):
+                why = f"of several, name one: solution={' or '.join(map(repr, names))}"
             raise ValueError(f"there is no contour at the values of the words that a function could follow; {why}")
         inputs, typed = self._inputs()
         known = self.inputs, chosen.scalars
@@ -509,6 +515,37 @@ class EquationSystem(Shown):
             cosine, sine, _ = line_scalars(line)
             values[symbolic.symbol(self._names[line])] = angle(at[sine], at[cosine])
         return [symbolic.casadi_of(each.expression, values) for each in self.conditions]
+
+    def to_json(self) -> str:
+        """The system with its verdicts as JSON, as `export([system], "name.json")` writes it of several.
+
+        Formulas are as Python and sympy write them; numbers of words are exact texts, such as `"2*pi/3"`. Lengths are
+        mm, X of a lathe counts as radius, angles are radians. `docs/systems.schema.json` is the schema.
+        """
+        text: str = from_above("systems_to_json", self)
+        return text
+
+    def to_smt(self) -> str:
+        """The system for a solver of SMT-LIB, such as z3 or cvc5: whether the values of the words leave any solution.
+
+        Its logic is QF_NRA. Each equation is named by its word, so that `(get-unsat-core)` tells the words that
+        contradict each other. `unsat` is a proof that nothing satisfies all words as they are typed; words that repeat
+        others, but are rounded, contradict them. `export([system], "name.smt2")` writes several. Raises ValueError for
+        an equation that is no polynomial.
+        """
+        text: str = from_above("to_smt", self)
+        return text
+
+    def _along(self, name: str) -> "EquationSystem":
+        """The system with a solution, by its name, as the one that is meant."""
+        every = self.solve()
+        found = next((each for each in every.paths if each.name == name), None)
+        if found is None:
+            have = ", ".join(repr(each.name) for each in every.paths) or "none"
+            raise ValueError(f"no solution is called {name!r}; there are {have}")
+        meant = EquationSystem(*self._made_of())
+        meant._chosen = Chosen(found.solution, found.scalars, found.sides)
+        return meant
 
     def _without(self, words: Iterable[str]) -> "EquationSystem":
         names = self._left_out.union(given.name for key in words for given in self._named(key))

@@ -20,7 +20,7 @@ from contoursolve.families.free_words import kind_of
 from contoursolve.families.results import ResultNames, lengths_of
 from contoursolve.families.versions import versions
 from contoursolve.families.word_values import TOOL, Ranges, are_same
-from contoursolve.gcode import Word
+from contoursolve.gcode import Word, open_whole, write_whole
 from contoursolve.geometry import Unit
 from contoursolve.reading import Premises
 from contoursolve.solving import REASONS, Contour, Status, StatusCode
@@ -283,13 +283,15 @@ class Family(Shown):
         )
 
     def to_parquet(self, path: str | Path) -> None:
-        """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
-        write_parquet(path, [self._table()], self.measures(), self.origin)
+        """Write that table to a Parquet file; errors as for `to_csv`. Raises MissingExtraError without pyarrow."""
+        with open_whole(Path(path)) as whole:
+            write_parquet(whole.file, [self._table()], self.measures(), self.origin)
 
     def to_csv(self, path: str | Path) -> None:
-        """Write that table as comma-separated values, the names first; status and reason in words, nothing for NaN."""
-        with Path(path).open("w", encoding="utf-8", newline="\n") as file:
-            file.writelines(csv_lines([self._table()]))
+        """Write that table as comma-separated values, the names first; status and reason in words, nothing for NaN.
+        Raises CannotWriteError where there can be no such file; one that is there stays as it is until all is
+        written."""
+        write_whole(Path(path), (line.encode() for line in csv_lines([self._table()])), keeps_backup=False)
 
     def to_xarray(self) -> "xarray.Dataset":
         """An xarray.Dataset whose dimensions are the free words, or `row`; every variable has its `units` as an

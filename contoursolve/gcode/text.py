@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from contoursolve.diagnostics import UserError
+from contoursolve.diagnostics import UserError, did_you_mean
 from contoursolve.gcode.late_pattern import late_pattern
 
 STANDARD_INPUT = "-"
@@ -27,13 +27,35 @@ def opening(path: str, wanted: str) -> Iterator[None]:
         yield
     except FileNotFoundError:
         # What leads nowhere may be a block.
-        advice = f'; a block is given by --block "{path}"' if _BLOCK.match(path) else ""
+        advice = f'; a block is given by --block "{path}"' if _BLOCK.match(path) else _where_it_may_be(Path(path))
         raise UnreadableProgramError(f"{path}: no such file{advice}") from None
     except (OSError, ValueError) as error:
         if _is_folder(path):  # Windows answers "permission denied" for a directory
             raise UnreadableProgramError(f"{path} is a directory, not {wanted}") from None
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
         raise UnreadableProgramError(f"{path} cannot be read: {reason}") from None
+
+
+def _where_it_may_be(path: Path) -> str:
+    """What to do where a file is missing: its folder, if there is none, or the files there with such an ending."""
+    try:
+        if not path.parent.is_dir():
+            return f"; there is no folder {path.parent}"
+        names = sorted(each.name for each in path.parent.iterdir() if each.suffix == path.suffix and each.is_file())
+    except (OSError, ValueError):  # a folder that cannot be read, a name with a NUL
+        return ""
+    hint = did_you_mean(path.name, names).strip()
+    if hint:
+        return f"; {hint}"
+    where = "this folder" if path.parent == Path() else str(path.parent)
+    if not names:
+        return f"; {where} has no file that ends in {path.suffix}" if path.suffix else ""
+    rest = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return f"; {where} has {', '.join(names[:_SHOWN])}{rest}"
+
+
+_SHOWN = 4
+"""Names of files that an error lists."""
 
 
 def _is_folder(path: str) -> bool:

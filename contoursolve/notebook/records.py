@@ -5,6 +5,7 @@ from itertools import islice
 from math import isnan
 from typing import Any
 
+from contoursolve.comparison import Comparison, Receipt
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count, join, states_in
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
@@ -30,6 +31,7 @@ from contoursolve.output import (
     plain,
     printable,
     range_lines,
+    receipt_lines,
     region_lines,
     rule_lines,
     tolerances_lines,
@@ -222,6 +224,12 @@ def _derivation(derivation: Derivation) -> Iterator[str]:
     yield from derivation_lines(derivation)
 
 
+def _comparison(comparison: Comparison) -> Iterator[str]:
+    from contoursolve.output import differences  # noqa: PLC0415 - few compare
+
+    return differences.comparison_lines(comparison)
+
+
 _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Result: _result,
     Answer: _answer,
@@ -242,4 +250,6 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     EquationSystem: _system,
     Derivation: _derivation,
     Exercise: exercise_lines,
+    Comparison: _comparison,
+    Receipt: receipt_lines,
 }

@@ -7,6 +7,7 @@ import htpy as h
 from markupsafe import Markup
 from msgspec.structs import replace
 
+from contoursolve.comparison import Comparison
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import (
@@ -239,7 +240,12 @@ def _exercise(made: Exercise) -> Iterator[h.Node]:
     yield h.ul[(h.li[f"{letter}: {choice.value:.3f}"] for letter, choice in made.letters)]
     wrong = [(letter, f"{choice.value:.3f}", choice.why) for letter, choice in made.letters if choice.why]
     told = table("Why the others come out", ("answer", "value", "because"), wrong, numbers=(1,))
-    yield h.details[h.summary["SystemSolution"], h.p[f"{made.right} is right."], _derivation(made.solution), told]
+    yield h.details[h.summary["Solution"], h.p[f"{made.right} is right."], _derivation(made.solution), told]
+
+
+def _comparison(comparison: Comparison) -> Iterator[h.Node]:
+    yield figure(comparison)
+    yield from _text(comparison)
 
 
 _PARTS: dict[type, Callable[[Any], h.Node]] = {
@@ -263,4 +269,5 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     EquationSystem: _system,
     Derivation: _derivation,
     Exercise: _exercise,
+    Comparison: _comparison,
 }

@@ -22,6 +22,7 @@ from contoursolve.program.recognise import begins_for_another
 from contoursolve.program.request import Request
 from contoursolve.program.running import KeptSteps, Running, lines_alone, steps_as_run, steps_written_out
 from contoursolve.program.solve_queue import Step, Together
+from contoursolve.program.start_point import check_places
 from contoursolve.program.told_outside import Outside
 from contoursolve.reading import Control, ReadIssue, contours_of, state_facts
 
@@ -181,6 +182,7 @@ class Run:
         control = asked.control
         if control is not None:
             program = spelled(program, control.modes.syntax)
+            check_places(asked)
         program, facts = attach(program, asked)
         self._beside: tuple[Diagnostic, ...] = ()
         if control is not None and (asked.named or has_named(program.text)):

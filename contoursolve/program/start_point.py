@@ -2,7 +2,7 @@
 
 from msgspec import Struct
 
-from contoursolve.diagnosis import Context, explain_start_diameter, explain_start_units
+from contoursolve.diagnosis import Context, explain_start_diameter, explain_start_units, join
 from contoursolve.diagnostics import Diagnostic, UserError
 from contoursolve.geometry import Length
 from contoursolve.program.outside_contours import findings_of_block
@@ -61,6 +61,25 @@ def _code_of_x(state: State, control: Control | None) -> str:
     """The code by which X is what it is in a state."""
     codes = control.modes.codes.values() if control else ()
     return next((code.text for code in codes if code.diameter is state.diameter), state.plane.code)
+
+
+def check_places(asked: Request) -> None:
+    """Raise StartError where a start without any code has words that are no places, and would mean nothing."""
+    control, start = asked.control, asked.start
+    if control is None or start is None:
+        return
+    addresses = control.modes.lexicon.addresses
+    words = [word for block in start.blocks for word in block.words]
+    idle = [word for word in words if word.address in addresses and not addresses[word.address].axis]
+    idle = [word for word in idle if word.address not in _MACHINE]
+    if idle and all(word.address in addresses or word.address in _MACHINE for word in words):
+        axes = join([name for name, each in addresses.items() if each.axis and each.axis == name])
+        told = f"{join([word.text for word in idle])} states no place"
+        raise StartError(f'the start "{start.text}": {told}; the axes of {control.name} are {axes}')
+
+
+_MACHINE = ("F", "S", "T", "M", "N", "D", "H")
+"""Addresses that stand beside a position, and state none."""
 
 
 def check_start(asked: Request) -> None:

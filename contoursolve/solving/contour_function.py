@@ -5,13 +5,16 @@ from math import radians
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.geometry import (
     FIRST,
     SECOND,
+    Choice,
     CornerShape,
     Fact,
     Profile,
+    Side,
     System,
     Unit,
     Values,
@@ -32,12 +35,14 @@ from contoursolve.numeric import (
     sine,
     symbol,
 )
+from contoursolve.solving.affine import values_at
 from contoursolve.solving.compile import compile_path, compile_system
-from contoursolve.solving.construction import is_closed
+from contoursolve.solving.construction import is_closed, points_with_two_solutions
 from contoursolve.solving.corners import CornerPath, Pair
 from contoursolve.solving.determinacy import basis_of
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
+from contoursolve.solving.sides import BOTH, sides_of
 
 _RADIANS = radians(1)
 """Of one degree."""
@@ -65,6 +70,7 @@ def build_function(
     system, (base, scalars) = assemble(profile), followed
     stated = [base[each] for each in inputs]
     if is_closed(system):
+        profile = _choosing(profile, system, scalars)
         unknowns = _closed(profile, system, typed)
         return closed_function(name, inputs, stated, _outputs(profile, system, typed, unknowns, conditions))
     unknowns = {each: symbol(each) for each in system.unknowns}
@@ -74,6 +80,21 @@ def build_function(
     sought = [unknowns[each] for each in system.unknowns]
     begin = stated, [scalars[each] for each in system.unknowns]
     return implicit_function(name, inputs, sought, residuals, begin, outputs)
+
+
+def _choosing(profile: Profile, system: System, scalars: Mapping[str, float]) -> Profile:
+    """The profile with a choice wherever a step has two places: the side on which the solution that is followed lies,
+    where that is not the one that the profile chooses."""
+    points = points_with_two_solutions(system)
+    sides = sides_of(system, values_at(profile, system.facts, scalars), frozenset(points)) if points else {}
+    chosen = {each.point: each for each in profile.choices}
+    for point in points:
+        side = sides.get(point, BOTH)
+        if side != BOTH and (point not in chosen or chosen[point].side.value != side):
+            chosen[point] = Choice(point, Side(side), "")
+        elif point not in chosen:  # the two places are one
+            chosen[point] = Choice(point, Side.FARTHER, "")
+    return replace(profile, choices=tuple(chosen.values()))
 
 
 def _stated(

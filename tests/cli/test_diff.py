@@ -11,6 +11,7 @@ from calling import call
 from examples import law
 from hypothesis import strategies as st
 
+import contoursolve
 from contoursolve.comparison import follow
 from contoursolve.controls import PLAIN as PLAIN_CONTROLS
 from contoursolve.gcode import parse
@@ -504,3 +505,18 @@ def test_plain_g_code_is_followed_as_linuxcnc_runs_it(program, tmp_path):
 def steps_of(file):
     control = PLAIN_CONTROLS["linuxcnc"]
     return follow(run(parse(file.read_text()), Request(control)), control, Length.MM, ("X", "Y", "Z")).steps
+
+
+def test_python_compares_as_the_command_does(tmp_path):
+    """Texts and files; what has no path is an error with the findings."""
+    old, new = (tmp_path / name for name in ("old.nc", "new.nc"))
+    old.write_text(SHAFT)
+    new.write_text(replaced(SHAFT, **{**SHAFT_BY_HAND, "N830": "G01 Z-144.\nX92. Z-145.1\nU6."}))
+    found = contoursolve.diff(old, new)
+    assert (str(found), found.is_equal) == (invoke(old, new)[1].rstrip(), False)
+    assert contoursolve.diff(SHAFT, contoursolve.parse(old)).is_equal
+    assert "<figure>" in found._repr_mimebundle_()["text/html"]
+    with pytest.raises(contoursolve.errors.NotComparedError, match=r"<old>, program line 2: the first straight needs"):
+        contoursolve.diff("G00 X40. Z0.\nG111 X100. A180. B120.", SHAFT)
+    with pytest.raises(contoursolve.errors.UnknownControlError, match="<new>: no block shows the control; say which"):
+        contoursolve.diff(SHAFT, "G01 X1.", control=None, new_control=None, start=None)

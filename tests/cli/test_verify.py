@@ -30,6 +30,7 @@ from verifying import (
     with_contour,
 )
 
+import contoursolve
 from contoursolve.comparison import CannotVerifyError, Document, ReceiptVerdict, verify
 from contoursolve.controls import CONTROLS
 
@@ -198,6 +199,18 @@ def test_a_half_circle_and_a_touching_line_are_fixed(desk):
         result = desk.solve(text)
         receipt = desk.receipt(result)
         assert failures(receipt) == []
+
+
+def test_python_takes_a_result_its_text_or_its_file(tmp_path):
+    text, start = "G111 X100. A180. K-30. B120. P5.", "X40. Z0."
+    result = contoursolve.solve(text, start=start)
+    contoursolve.export(result, tmp_path / "block.json")
+    for claimed in (result, (tmp_path / "block.json").read_text(), tmp_path / "block.json"):
+        receipt = contoursolve.verify(text, claimed, start=start)
+        assert (receipt.verdict, "(1 verified)" in str(receipt)) == (ReceiptVerdict.VERIFIED, True)
+        assert contoursolve.verify(text.replace("P5", "P6"), claimed, start=start).verdict is ReceiptVerdict.FAILED
+    with pytest.raises(CannotVerifyError, match="rules are those that the result names"):
+        contoursolve.verify(text, result, start=start, rules="off")
 
 
 def test_facts_missing_added_or_unreadable_are_found(desk):

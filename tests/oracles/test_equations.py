@@ -346,6 +346,33 @@ OUTPUTS = {
 """What the columns of each output are called in a family."""
 
 
+@pytest.mark.parametrize(
+    ("chain", "start"),
+    [
+        ("FL AN+15\nFC DR- R25 CCX+50 CCY+20\nFL X+90 Y+10 AN-20", "X+0 Y+10"),
+        ("FC DR- R40 CCX+0 CCY+0\nFC DR- R25 CCX+50 CCY+0\nFL X+90 Y-40 AN-20", "X-40 Y+0"),
+        ("FL AN+45\nFC DR- R20 CCX+40 CCY+40 X+40 Y+60", "X0 Y20"),
+    ],
+)
+def test_each_solution_has_its_function(chain, start):
+    answer = contoursolve.solve(chain, start=start, control="heidenhain").answer
+    system, found = answer.system, [each for each in answer.solutions if each.contour is not None]
+    for each in found:
+        made = system.function(solution=each.name)(**system.inputs)
+        points = dict(zip(system.rows["points"], np.array(made["points"]).tolist(), strict=True))
+        assert all(
+            points[name] == pytest.approx(at, abs=1e-9) for name, at in each.contour.points.items() if name in points
+        )
+        assert np.abs(np.array(made["residuals"])).max() < 1e-9
+    if answer.contour is None:
+        with pytest.raises(ValueError, match=f"of several, name one: solution='{found[0].name}'"):
+            system.function()
+    else:
+        assert str(system.function()(**system.inputs)) == str(made)
+    with pytest.raises(ValueError, match="no solution is called 'C'"):
+        system.function(solution="C")
+
+
 def test_a_function_that_is_searched_tells_by_its_residuals_where_there_is_nothing():
     """Beyond R20 the place lies inside the circle: no row of many ends the others."""
     system = contoursolve.system("FL X+10 Y+0\nFCT DR+ R5\nFLT X+30 Y+20", start="X0 Y0", control="heidenhain")

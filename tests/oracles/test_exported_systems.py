@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 from vectors import BY_HAND, solved
 
 import contoursolve
+from contoursolve.output import systems_to_json, to_smt
 
 START = "X40. Z0."
 SCHEMA = Path(__file__).parents[2] / "docs" / "systems.schema.json"
@@ -65,7 +66,7 @@ def missed(system):
     numbers = {str(each.symbol): float(each.number) for each in system.words if each.number is not None}
     turned = {f"{part.__name__}_{name}": part(number) for name, number in numbers.items() for part in (cos, sin)}
     at = ChainMap({str(symbol): number for symbol, number in system.solution.items()}, turned, numbers)
-    script = expressions(contoursolve.to_smt(system))
+    script = expressions(system.to_smt())
     asserted = [rest[0] for name, *rest in script if name == "assert"]
     declared = [rest[0] for name, *rest in script if name == "declare-const"]
     assert len(declared) == len(set(declared))
@@ -83,7 +84,7 @@ def test_contours_satisfy_what_is_exported(programs):
                 continue
             system = answer.system
             assert missed(system) == [], program["id"]
-            data = json.loads(contoursolve.systems_to_json(system))
+            data = json.loads(system.to_json())
             holds.validate(data)
             (own,) = data["systems"]
             assert own["verdict"]["has_contour"]
@@ -97,13 +98,16 @@ def test_contours_satisfy_what_is_exported(programs):
     assert count > len(programs) / 2
 
 
-def test_several_systems_are_one_document():
+def test_several_systems_are_one_document(tmp_path):
     several = [system_of("G111 A160. B120. X101.838"), system_of("G111 A135. I10. K-12. B180. Z-40.")]
-    data = json.loads(contoursolve.systems_to_json(several))
+    for name, text in (("all.json", systems_to_json(several)), ("all.smt2", to_smt(several))):
+        contoursolve.export(several, tmp_path / name)
+        assert (tmp_path / name).read_text() == text
+    data = json.loads(systems_to_json(several))
     Draft202012Validator(json.loads(SCHEMA.read_text(encoding="utf-8"))).validate(data)
     assert [each["verdict"]["rank"] for each in data["systems"]] == [3, 4]
     assert data["systems"][1]["ties"] == [{"words": ["I10.", "K-12.", "A135."], "identity": "K = I/tan(A)"}]
-    script = contoursolve.to_smt(several)
+    script = to_smt(several)
     assert [script.count(each) for each in ("(push 1)", "(check-sat)", "(pop 1)")] == [2, 2, 2]
     Draft202012Validator.check_schema(json.loads(SCHEMA.read_text(encoding="utf-8")))
 
@@ -123,7 +127,7 @@ def test_a_solver_of_others_says_whether_there_is_a_solution(system, core):
     z3 = pytest.importorskip("z3")
     solver = z3.Solver()
     solver.set(unsat_core=True)
-    solver.from_string(contoursolve.to_smt(system()))
+    solver.from_string(system().to_smt())
     assert solver.check() == (z3.sat if core is None else z3.unsat)
     if core is not None:
         told = {str(each).strip("|") for each in solver.unsat_core()}

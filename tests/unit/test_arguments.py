@@ -39,6 +39,10 @@ def test_what_is_given_in_another_form_is_told_with_what_fits():
             'the start is words such as "X40. Z0.", or {"X": 40, "Z": 0}',
         ),
         (lambda: contoursolve.family(BLOCK, vary={"A": [1]}, start=(40, 0)), 'or {"X": 40, "Z": 0}, not (40, 0)'),
+        (
+            lambda: contoursolve.solve(BLOCK, start={"Q": 40, "Z": 0}),
+            'the start "Q40.0 Z0.0": Q40.0 states no place; the axes of yasnac-lx3 are X and Z',
+        ),
         (lambda: contoursolve.solve(BLOCK, start={"X": "a"}), "X of the start is a number, not 'a'"),
         (lambda: contoursolve.solve(BLOCK, variables=5), 'variables is a mapping of variables, such as {"#100": 95.0}'),
         (lambda: contoursolve.ranges(BLOCK, "A", settings=5), "settings is a mapping of settings, such as"),

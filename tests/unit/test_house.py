@@ -30,7 +30,7 @@ FLOORS = (
     "comparison families",
     "postprocess pictures tool_radius",
     "api output questions sketches",
-    "editing errors notebook outcomes tables try_examples",
+    "comparing editing errors notebook outcomes tables try_examples",
     "__init__",
     "lsp cli workbench",
     "__main__",
@@ -145,6 +145,7 @@ def test_the_house_is_small_enough_to_be_walked_through():
         "__init__.py",
         "__main__.py",
         "api.py",
+        "comparing.py",
         "editing.py",
         "errors.py",
         "outcomes.py",
@@ -303,8 +304,8 @@ def test_the_fields_of_every_public_record_are_told_of_and_numbers_with_their_un
 
 
 PUBLIC = """
-    solve check fix explain parse system family ranges find sensitivity tolerances expand convert write draw export
-    report explore exercise to_smt systems_to_json read_sketch read_dxf
+    solve check fix explain parse system family ranges find sensitivity tolerances expand convert write diff verify
+    draw export report explore exercise read_sketch read_dxf
     errors editing tables pictures
     Program Block Word Control CONTROLS Sketch ContourSketch SketchElement SketchCorner OpenProgram
     Result Answer Contour LineSegment ArcSegment Status Solution Solutions EquationSystem Diagnosis
