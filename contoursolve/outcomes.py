@@ -33,7 +33,7 @@ def draw(
     """The picture of a contour, a program, two programs, a family, a range, a system or a sketch.
 
     Args:
-        record: an `Answer`, a `Result` or a `Comparison`; a `Family` over two words, a `FeasibleRange` or a
+        record: an `Answer`, a `Result` or a `Comparison`; a `Family` over one or two words, a `FeasibleRange` or a
             `FeasibleRegion`; an `EquationSystem`, which has a matrix; a `Sketch`, its `Drawings` or one `Drawing`; a
             `ContourSketch`, or what its `solve()` gives.
         tool: the `ToolReport` of the tool that is drawn with contours; without it that of the result, if it has one.
@@ -50,8 +50,8 @@ def draw(
     Returns:
         A `Picture`: it shows itself in a notebook, and has `.svg`, `.png()` and `.save(path)`.
 
-    Raises TypeError for an option that the record does not have. Raises ValueError for a family that is no grid of two
-    words, and for a sketch without anything known. Raises FamilyError for a result that is none.
+    Raises TypeError for an option that the record does not have. Raises ValueError for a family that is no grid of one
+    or two words, and for a sketch without anything known. Raises FamilyError for a result that is none.
 
     >>> from contoursolve import solve
     >>> draw(solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answer).title

@@ -20,6 +20,11 @@ class AskedValue(Struct, frozen=True):
     question: Question
     value: float | None
 
+    @property
+    def word(self) -> Word:
+        """The word that asks, such as that of `K?`."""
+        return self.question.word
+
 
 class Filled(Struct, frozen=True):
     """Blocks with the values that were asked for filled in, rounded to the least increment; they make the same

@@ -6,6 +6,7 @@ from functools import cached_property
 from math import atan2, nan
 from typing import TYPE_CHECKING, Any, Protocol
 
+from contoursolve.diagnosis.answer_records import Solution
 from contoursolve.diagnosis.chosen_solution import Chosen, chosen_solution
 from contoursolve.diagnosis.edits import Edit, change, typed_text, with_value
 from contoursolve.diagnosis.equation_records import (
@@ -419,7 +420,7 @@ class EquationSystem(Shown):
         found = self._read_by.profile(claim, self._left_out)
         return EquationSystem(claim, found, self._read_by, self._left_out)
 
-    def function(self, name: str = "contour", *, solution: str | None = None) -> "named_function.Function":
+    def function(self, name: str = "contour", *, solution: str | Solution | None = None) -> "named_function.Function":
         """The contour as a function of CasADi, for `map`, `jacobian`, `nlpsol` and whatever else that has.
 
         Inputs are the start point and the words with a value, a scalar each, by the names of their symbols and as they
@@ -439,7 +440,7 @@ class EquationSystem(Shown):
         else by Newton's method from there on. It checks nothing: a contour is right where `room` is not negative,
         `residuals` are zero and no line runs backwards. The side to which an arc bends that only touches the element
         before stays, too, although the control may then read it otherwise. With `solution`, such as `"P1 nearer"`,
-        it follows the solution of that name in `solve().paths` instead, also where no word of the block chooses one.
+        it follows the solution of that name in `answer.solutions` instead, also where no word of the block chooses one.
 
         Raises ValueError where there is no contour to follow, or no solution of that name.
         """
@@ -536,8 +537,9 @@ class EquationSystem(Shown):
         text: str = from_above("to_smt", self)
         return text
 
-    def _along(self, name: str) -> "EquationSystem":
+    def _along(self, solution: str | Solution) -> "EquationSystem":
         """The system with a solution, by its name, as the one that is meant."""
+        name = solution.name if isinstance(solution, Solution) else solution
         every = self.solve()
         found = next((each for each in every.paths if each.name == name), None)
         if found is None:

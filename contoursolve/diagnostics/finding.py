@@ -248,3 +248,13 @@ class Diagnosis(Shown, Struct, frozen=True):
     ties: tuple[Tie, ...]
     ties_complete: bool
     repairs_complete: bool
+
+    @property
+    def conflicts(self) -> tuple[Tie, ...]:
+        """The ties whose words disagree."""
+        return tuple(each for each in self.ties if each.is_conflict)
+
+    @property
+    def redundant(self) -> tuple[Tie, ...]:
+        """The ties whose words agree: one of each says nothing new."""
+        return tuple(each for each in self.ties if not each.is_conflict)

@@ -1,6 +1,6 @@
 """Ranges of one word's values in which a contour is solved, all of them, and what ends each."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from itertools import groupby
@@ -114,7 +114,7 @@ class Interval(Struct, frozen=True):
 
 
 class FeasibleRange(Shown, Struct, frozen=True):
-    """All values of a word, within a range, with which its block has a contour.
+    """All values of a word, within a range, with which its block has a contour: a sequence of `intervals`.
 
     All values are as the word is written. Without `doubts`, it is proven that nothing wider than `LEAST_GAP` is
     missing; else these are some of the ranges.
@@ -160,6 +160,15 @@ class FeasibleRange(Shown, Struct, frozen=True):
 
     def __contains__(self, value: float) -> bool:
         return any(value in each for each in self.intervals)
+
+    def __len__(self) -> int:
+        return len(self.intervals)
+
+    def __iter__(self) -> Iterator[Interval]:
+        return iter(self.intervals)
+
+    def __getitem__(self, number: int) -> Interval:
+        return self.intervals[number]
 
 
 @takes(BlockOptions)

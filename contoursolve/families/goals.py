@@ -247,9 +247,27 @@ def _doubts(found: Answer) -> Iterator[str]:
 
 def _stated(goal: Goal, answer: Answer) -> str:
     """A goal of one coordinate as a fact."""
-    axis = 0 if goal.place[0] is not None else 1
-    value, plane = goal.place[axis], answer.plane
-    if value is None or goal.is_nearest:
+    if goal.is_nearest:
         raise FamilyError("without a closed form, name one coordinate to bring the point to")
-    shown = value * factors_of(plane)[axis] / float(answer.unit.in_mm)
-    return f"{coordinate_name(goal.point, plane.axes[axis])} = {typed_text(shown)}"
+    return next(_facts(goal, answer))
+
+
+def _facts(goal: Goal, answer: Answer) -> Iterator[str]:
+    """A goal as facts, one for each coordinate."""
+    plane = answer.plane
+    for axis, factor, value in zip(plane.axes, factors_of(plane), goal.place, strict=True):
+        if value is not None:
+            shown = value * factor / float(answer.unit.in_mm)
+            yield f"{coordinate_name(goal.point, axis)} = {typed_text(shown)}"
+
+
+def asking_for(template: Template, goal: Goal, answer: Answer) -> Answer:
+    """The answer of the block that asks for all its free words, with a goal of both coordinates as facts. `answer` is
+    that of the block as it is. Raises FamilyError."""
+    if not goal.is_nearest:
+        raise FamilyError(f"two words need both coordinates of {goal.point}, such as 'end Z-50. X100.'")
+    spelling = template.program.syntax.words
+    asking = template.typed({name: with_value(word, "?", spelling) for name, word in template.words.items()})
+    facts = asking.asked.facts
+    more = (read_directive(text, -len(facts) - number) for number, text in enumerate(_facts(goal, answer), 1))
+    return template.one_of(replace(asking, asked=replace(asking.asked, facts=(*facts, *more))).examined())

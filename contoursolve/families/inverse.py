@@ -3,13 +3,13 @@
 from collections.abc import Iterable, Iterator, Sequence
 from decimal import ROUND_HALF_EVEN, Decimal
 from math import ceil, floor, isfinite
-from typing import Unpack
+from typing import Any, Unpack, overload
 
 import numpy
 from msgspec import Struct
 
 from contoursolve.diagnosis import Answer, join, typed_text, value_text, with_value, write_word
-from contoursolve.diagnostics import Shown
+from contoursolve.diagnostics import Shown, check_type
 from contoursolve.families.block_template import BlockOptions, Template, first_error, spec_of
 from contoursolve.families.branches import Branch
 from contoursolve.families.case_classes import results_of
@@ -20,6 +20,7 @@ from contoursolve.families.goals import (
     Goal,
     TargetCurve,
     asked_values,
+    asking_for,
     outputs_at,
     place_of,
     read_goal,
@@ -103,7 +104,7 @@ class FoundValues(Shown, Struct, frozen=True):
         return not self.doubts
 
 
-@takes(BlockOptions)
+@overload
 def find(
     block: str,
     word: str,
@@ -111,8 +112,23 @@ def find(
     *,
     within: tuple[float, float] | None = None,
     **options: Unpack[BlockOptions],
-) -> FoundValues:
-    """Every value of a word, as it is written, that brings a point of the contour where it is wanted.
+) -> FoundValues: ...
+
+
+@overload
+def find(block: str, word: tuple[str, str], goal: str, **options: Unpack[BlockOptions]) -> Answer: ...
+
+
+@takes(BlockOptions)
+def find(
+    block: str,
+    word: str | tuple[str, str],
+    goal: str,
+    *,
+    within: tuple[float, float] | None = None,
+    **options: Unpack[BlockOptions],
+) -> Any:
+    """Every value of a word, as it is written, that brings a point of the contour where it is wanted; or of two words.
 
     Args:
         block: the block, or the blocks of one contour; the word stands in it with any value.
@@ -129,14 +145,26 @@ def find(
     say what it could not decide. Where facts or `?` leave no closed form, it asks for the word as `solve` does: the
     goal is one fact more.
 
+    Two words bring both coordinates of a point to their places. `find` gives the `Answer` of the block that asks for
+    both then: `asked` has their values (mm, X of a lathe as radius, or degrees), `solutions` all that there are.
+
+    >>> two = find("G111 X100. A180. K-30. B120. P5. Q5.", ("K", "A"), "V1 Z-20. X44.", start="X40. Z0.")
+    >>> [(each.word.address, round(each.value, 4)) for each in two.asked]
+    [('K', -20.0), ('A', 174.2894)]
     >>> found = find("G111 X100. A180. K-30. B120. P5. Q5.", "B", "end Z-50.", start="X40. Z0.")
     >>> [(round(each.value, 4), each.block) for each in found.hits]
     [(119.6749, 'G111 X100. A180. K-30. B119.675 P5. Q5.')]
     """
-    template = spec_of(block, (word,), **options).template()
+    words = (word,) if isinstance(word, str) else word
+    check_type("word", words, Sequence, "a word, such as 'P', or two, such as ('A', 'P')")
+    template = spec_of(block, words, **options).template()
     check_block(template)
     answer = template.solve({})
     wanted = read_goal(goal, answer)
+    if not isinstance(word, str):
+        if len(words) != 2 or within is not None:  # noqa: PLR2004 - two coordinates
+            raise FamilyError("find takes one word, with or without `within`, or two words without it")
+        return asking_for(template, wanted, answer)
     _check_open(answer)
     search = RangeSearch(template)
     low, high = search.range_of(within)

@@ -20,7 +20,7 @@ from contoursolve.families.branch_rows import add_path
 from contoursolve.families.case_classes import CaseClass, ShownOutput, case_in, results_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import check_block, factor_of
-from contoursolve.families.results import ROOM, NamedResults, ResultNames
+from contoursolve.families.results import LENGTH, NamedResults, ResultNames, lengths_of
 from contoursolve.families.word_values import name_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
@@ -147,17 +147,40 @@ def slopes_of(answer: Answer, *, is_twice_fine: bool = False) -> Sensitivity:
         for name, each in case.free.items()
     ]
     slopes = {result: _by_word(rates[each.output], stated, words) for result, each in outputs.items()}
-    return _sensitivity(slopes, outputs, answer, words)
+    at = case.machine.function(inputs)
+    values = {result: at[each.output] for result, each in outputs.items()}
+    return _sensitivity(slopes, outputs, values, answer, words)
 
 
 def _sensitivity(
-    slopes: Rates, results: Mapping[str, ShownOutput], answer: Answer, words: Mapping[str, Word]
+    slopes: Rates,
+    results: Mapping[str, ShownOutput],
+    values: Mapping[str, float],
+    answer: Answer,
+    words: Mapping[str, Word],
 ) -> Sensitivity:
-    """The derivatives of results as a person reads them, from those of their outputs."""
+    """The derivatives of results as a person reads them, from those of their outputs, and from their values that of the
+    length."""
     found = {
         name: {word: slope * results[name].factor for word, slope in each.items()} for name, each in slopes.items()
     }
+    here = {name: values[name] * results[name].factor for name in found}
+    found[LENGTH] = {word: _of_length(here, found, word, answer.plane) for word in next(iter(found.values()), {})}
     return Sensitivity(NamedResults(ResultNames(answer.profile, found), found), answer.plane, _spelled(found, words))
+
+
+def _of_length(values: Mapping[str, float], slopes: Rates, word: str, plane: Plane) -> float:
+    """The derivative of the length of the path: of all results by one word, a little to either side. The first order of
+    them is exact, and what is beyond it cancels out."""
+    step = LENGTH_STEP / max((abs(each[word]) for each in slopes.values()), default=1.0) if slopes else 1.0
+    sides = numpy.array([step, -step])
+    there = {name: value + sides * slopes[name][word] for name, value in values.items()}
+    ahead, behind = lengths_of(there, plane)
+    return float(ahead - behind) / (2 * step)
+
+
+LENGTH_STEP = 1e-3
+"""mm by which the result that moves most is moved: cancelling costs 1e-10 of a slope of 1 then."""
 
 
 def _slopes(tape: Tape, outputs: Sequence[str], inputs: Mapping[str, float]) -> Rates:
@@ -224,8 +247,8 @@ def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool)
     profile = answer.profile
     tied = _tied(assemble(profile)) if is_twice else frozenset[str]()
     results = results_of(CaseClass(profile, None, {}, is_closed=False))
-    outputs = {name: each.output for name, each in results.items() if not name.endswith(ROOM)}
-    rates = _implicit_rates(profile, solution, tuple(outputs.values()))
+    outputs = {name: each.output for name, each in results.items()}
+    rates, here = _implicit_rates(profile, solution, tuple(outputs.values()))
     names = {id(word): name for name, word in words.items()}
     stated = []
     for given in profile.givens.values():
@@ -235,7 +258,8 @@ def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool)
             factor = float(factor_of(answer, own.word, own, own.word.number or Decimal(0)))
             stated.append((given, name, nan if given.name in tied else factor))
     slopes = {name: _by_word(rates[output], stated, ()) for name, output in outputs.items()}
-    return _sensitivity(slopes, results, answer, words)
+    values = {name: here[output] for name, output in outputs.items()}
+    return _sensitivity(slopes, results, values, answer, words)
 
 
 def _tied(system: System) -> frozenset[str]:
@@ -253,13 +277,17 @@ def _fact_name(given: Given, word: Word, profile: Profile) -> str:
     return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in word.text and axis.isdigit() else name
 
 
-def _implicit_rates(profile: Profile, solution: SystemSolution, outputs: tuple[str, ...]) -> Rates:
-    """The derivatives of some outputs by all that is stated: of unknowns, and of what follows from them on the path."""
+def _implicit_rates(
+    profile: Profile, solution: SystemSolution, outputs: tuple[str, ...]
+) -> tuple[Rates, Mapping[str, float]]:
+    """The derivatives of some outputs by all that is stated: of unknowns, and of what follows from them on the path;
+    and the values of all."""
     system = assemble(profile)
     unknowns = system.unknowns
     equations, slopes = _compile(system, frozenset(profile.givens), outputs)
     inputs = [name for name in equations.inputs if name not in unknowns]
-    at = slopes(_on_their_sides({**_known(profile), **solution.scalars}, equations))
+    known = _on_their_sides({**_known(profile), **solution.scalars}, equations)
+    at = slopes(known)
     matrix, right = (
         numpy.array([[at[f"{row} by {name}"] for name in by] for row in range(len(unknowns))])
         for by in (unknowns, inputs)
@@ -276,7 +304,7 @@ def _implicit_rates(profile: Profile, solution: SystemSolution, outputs: tuple[s
                     total = total + slope * rows[each]
             total = total + [at[f"{name} by {each}"] for each in inputs]
         found[name] = dict(zip(inputs, total.tolist(), strict=True))
-    return found
+    return found, {**known, **equations(known)}
 
 
 def _on_their_sides(known: Mapping[str, float], equations: Compiled) -> dict[str, float]:

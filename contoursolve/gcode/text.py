@@ -37,7 +37,7 @@ def opening(path: str, wanted: str) -> Iterator[None]:
 
 
 def _where_it_may_be(path: Path) -> str:
-    """What to do where a file is missing: its folder, if there is none, or the files there with such an ending."""
+    """Advice where a file is missing: that there is no such folder, or the files there with such an ending."""
     try:
         if not path.parent.is_dir():
             return f"; there is no folder {path.parent}"

@@ -36,8 +36,8 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, **options: Any) -> Pic
     of its words, of every way to draw a sketch, or of the matrix of a system. The options are those of the function for
     such a record.
 
-    Raises TypeError for an option that such a record does not have, ValueError for a family that is no grid of two
-    words, and for a sketch whose facts make no sense.
+    Raises TypeError for an option that such a record does not have, ValueError for a family over more than two words,
+    and for a sketch whose facts make no sense.
     """
     kind = type(record).__name__
     if kind not in _DRAWN:
@@ -148,6 +148,24 @@ def draw_family_fan(
     return finish(lay_out(compose_fan(word, values, answers, title)), theme)
 
 
+def draw_family(
+    family: Family,
+    words: tuple[str, str] | None = None,
+    *,
+    result: str | None = None,
+    theme: Theme = Theme.LIGHT,
+    title: str | None = None,
+) -> Picture:
+    """The picture of a family: the contours of one word that varies, or the map of two; see `draw_family_map`."""
+    from contoursolve.pictures.sweeps import fan_of_family, sweep_title  # noqa: PLC0415 - numpy
+
+    fan = fan_of_family(family) if words is None and result is None else None
+    if fan is None:
+        return draw_family_map(family, words, result=result, theme=theme, title=title)
+    told = title if title is not None else sweep_title(family.ranges, family.summary())
+    return draw_family_fan(*fan, theme=theme, title=told)
+
+
 def draw_family_map(
     family: Family,
     words: tuple[str, str] | None = None,
@@ -233,7 +251,7 @@ _DRAWN: Mapping[str, tuple[Callable[..., Picture], tuple[str, ...]]] = {
     "Answer": (draw_answer, ("title", "like", "has_remarks", "beside")),
     "Result": (draw_result, ("title", "is_whole", "beside")),
     "Comparison": (draw_comparison, ("title",)),
-    "Family": (draw_family_map, ("title", "words", "result")),
+    "Family": (draw_family, ("title", "words", "result")),
     "FeasibleRange": (draw_range, ("title",)),
     "FeasibleRegion": (draw_region, ("title", "result")),
     "EquationSystem": (draw_matrix, ("title",)),

@@ -96,9 +96,8 @@ def plane_of(
     own = [word for word, each in ranges.values.items() if each.size > 1 or word in words]
     if ranges.is_paired or len(own) != 2 or sorted(words) != sorted(own):  # noqa: PLR2004 - a plane
         how = "has columns side by side" if ranges.is_paired else f"varies {', '.join(own)}"
-        hint = "; contours over one word are drawn by draw_family_fan" if len(own) == 1 and not ranges.is_paired else ""
         asked = f", not {' and '.join(words)}" if chosen is not None else ""
-        raise ValueError(f"a map needs a grid of two words; this family {how}{asked}{hint}")
+        raise ValueError(f"a map needs a grid of two words; this family {how}{asked}")
     chart = ValuePlane(_axes(record, words), *(over_cells(numpy.sort(ranges.values[word])) for word in words))
     outcomes = _drawn(record, words, outcomes_of(record["status"], record["reason"]))
     axes = tuple(values[word][each] for word, each in zip(words, _places(record, words), strict=True))

@@ -6,11 +6,13 @@ import numpy
 
 from contoursolve.diagnosis import Answer, statuses_text
 from contoursolve.families import (
+    TOOL,
     CompiledSweep,
     Family,
     FamilyError,
     Ranges,
     Tally,
+    Template,
     compile_sweep,
     pieces,
     solve_sweep,
@@ -38,14 +40,25 @@ def solve_shown(ready: CompiledSweep) -> Fan | Family:
         told = "paired words" if ranges.is_paired else f"{len(varying)} words with several values"
         raise FamilyError(f"a picture takes one word, or every combination of two; this family has {told}")
     if len(varying) == 1:
-        (word,) = varying
-        values = [float(value) for value in _chosen(ranges.values[word], MOST_VALUES)]
-        fixed = {name: float(column[0]) for name, column in ranges.values.items()}
-        return word, values, [ready.template.solve({**fixed, word: value}) for value in values]
+        return fan_of(ready.template, ranges, varying[0])
     alone = {name: column for name, column in ranges.values.items() if name not in varying}
     sizes = dict(zip(varying, (COLUMNS, ROWS), strict=True))
     shown = {name: ranges.values[name][picks(ranges.values[name], most)] for name, most in sizes.items()}
     return solve_sweep(compile_sweep(ready.spec, Ranges({**alone, **shown}, is_paired=False)))
+
+
+def fan_of(template: Template, ranges: Ranges, word: str) -> Fan:
+    """The answers for the values of the word that varies, at most as many as are drawn."""
+    values = [float(value) for value in _chosen(ranges.values[word], MOST_VALUES)]
+    fixed = {name: float(column[0]) for name, column in ranges.values.items()}
+    return word, values, [template.solve({**fixed, word: value}) for value in values]
+
+
+def fan_of_family(family: Family) -> Fan | None:
+    """The fan of a family in which one word alone varies; None for another one, and for one of tools."""
+    varying = [name for name, values in family.ranges.values.items() if values.size > 1]
+    is_fan = len(varying) == 1 and not family.ranges.is_paired and TOOL not in family.ranges.values
+    return fan_of(family.spec.template(), family.ranges, varying[0]) if is_fan else None
 
 
 def count_statuses(ready: CompiledSweep) -> dict[Status, int]:

@@ -126,6 +126,9 @@ class Control:
     taken: "tuple[Taken, ...]" = ()
     """The things that were concluded from the program at hand, where that does not say it."""
 
+    def __hash__(self) -> int:
+        return hash((type(self), self.name))
+
     def __post_init__(self) -> None:
         # A setting is named with its control, so that it can be typed as it is shown.
         if any("{control}" in each.help and each.control != self.name for each in self.rules):

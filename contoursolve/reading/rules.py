@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from decimal import Decimal
 from enum import Enum
 from functools import cached_property, lru_cache
@@ -294,6 +294,14 @@ class Rule(Shown):
     """The control that its help names, of a row that is told for one."""
     fill: "Callable[[Rule], Rule] | None" = field(default=None, repr=False)
     """The maker of its examples in a control's words; None where it has them."""
+
+    def __eq__(self, other: object) -> bool:
+        if self is other or not isinstance(other, Rule):
+            return self is other
+        return all(getattr(self, each.name) == getattr(other, each.name) for each in fields(self))
+
+    def __hash__(self) -> int:
+        return hash((self.code, self.message))
 
     @cached_property
     def told(self) -> "Rule":

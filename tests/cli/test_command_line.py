@@ -85,7 +85,7 @@ def test_exit_status_is_0_without_errors_and_1_with_errors(status, arguments):
         (("solve", SHAFT, "--units", "cubit"), "'cubit' is not one of 'mm', 'inch'"),
         (("solve", SHAFT, "--rules", "perhaps"), "'perhaps' is not one of"),
         (("solve", SHAFT, "--format", "xml"), "'xml' is not one of"),
-        (("solve", "no such file.nc"), "no such file.nc: no such file\n"),
+        (("solve", "no such file.nc"), "no such file.nc: no such file; this folder has no file that ends in .nc\n"),
         (("solve", "G111 A180. K-30."), 'no such file; a block is given by --block "G111 A180. K-30."\n'),
         (("explain", "no-such-rule"), "no rule has the code or the alarm 'no-such-rule'; 'contoursolve rules' lists"),
         (("explain", "g111-line1"), "; did you mean g111-line-1 or g111-line-2 or "),
@@ -105,7 +105,7 @@ def test_what_cannot_run_ends_with_2_and_says_what_to_write(arguments, told):
 
 def test_of_several_programs_those_that_could_be_read_are_reported_all_the_same():
     status, output, errors = run("check", SHAFT, "no such file.nc")
-    assert (status, errors) == (2, "Error: no such file.nc: no such file\n")
+    assert (status, errors) == (2, "Error: no such file.nc: no such file; this folder has no file that ends in .nc\n")
     told = "7 contours solved, no problems; 1 program not examined: its error says what to do"
     assert output.splitlines()[-1] == told
     with pytest.raises(ValueError, match=r"say Path\('shaft.nc'\)"):

@@ -358,7 +358,7 @@ def test_each_solution_has_its_function(chain, start):
     answer = contoursolve.solve(chain, start=start, control="heidenhain").answer
     system, found = answer.system, [each for each in answer.solutions if each.contour is not None]
     for each in found:
-        made = system.function(solution=each.name)(**system.inputs)
+        made = system.function(solution=each)(**system.inputs)
         points = dict(zip(system.rows["points"], np.array(made["points"]).tolist(), strict=True))
         assert all(
             points[name] == pytest.approx(at, abs=1e-9) for name, at in each.contour.points.items() if name in points

@@ -470,6 +470,7 @@ def test_a_click_opens_the_block_with_these_values_in_the_explorer(name):
 
 def test_a_map_is_of_a_family_over_two_words_or_of_a_region():
     one = contoursolve.family(BLOCK, start=START, vary={"A": [170, 180]})
+    assert contoursolve.draw(one).title == "A from 170 to 180, 2 contours: 2 solved"  # the contours themselves
     for wrong, error, said in (
         (one, ValueError, "a grid of two words"),
         (contoursolve.solve(BLOCK, start=START), TypeError, "not of Result"),
