@@ -11,6 +11,7 @@ from contoursolve.comparison import Comparison
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import (
+    TOOL,
     Family,
     FeasibleRange,
     FeasibleRegion,
@@ -164,7 +165,10 @@ def _examples(title: str, examples: Iterable[str]) -> Iterator[h.Node]:
 
 
 def _family(family: Family) -> Iterator[h.Node]:
-    if not (family.ranges.is_paired or family.solutions) and len(family.ranges.values) == MAP_WORDS:
+    several = [values for values in family.ranges.values.values() if values.size > 1]
+    is_fan = len(several) == 1 and TOOL not in family.ranges.values and family.has_contour.any()
+    is_drawn = is_fan or len(family.ranges.values) == MAP_WORDS
+    if is_drawn and not (family.ranges.is_paired or family.solutions):
         yield figure(family)
     yield from map(table_of, family_tables(family))
     title = f"{count(len(family.names), 'array')} of shape {' x '.join(map(str, family.shape))}"
