@@ -7,7 +7,7 @@ degrees.
 
 >>> import contoursolve
 >>> result = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.")
->>> [element.name for element in result.answers[0].contour.elements]
+>>> [element.name for element in result.answer.contour.elements]
 ['line 1', 'corner 1', 'line 2', 'corner 2']
 """
 

@@ -118,12 +118,12 @@ def solve(
         SettingError: there is no such setting, or it has no such value.
         ValueError: units, rules or depth is none of its choices.
 
-    >>> answer = solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
+    >>> answer = solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answer
     >>> answer.status.value
     'solved'
     >>> [f"{value:.4f}" for value in answer.contour.end]
     ['-50.2073', '50.0000']
-    >>> solve("G111 X100. A180. B120.", start="X40. Z0.").answers[0].status.value
+    >>> solve("G111 X100. A180. B120.", start="X40. Z0.").answer.status.value
     'rejected'
     >>> asked = solve("G111 X100. A180. K-30. B120. P?", start="X40. Z0.", facts=["straight part of line 2 = 30."])
     >>> f"{asked.answer.asked[0].value:.3f}"

@@ -62,7 +62,7 @@ def equations_of(answer: Answer, word: Word) -> tuple[list[str], list[tuple[str,
         word: a word of its blocks.
 
     >>> import contoursolve
-    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answers[0]
+    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answer
     >>> equations_of(answer, answer.claim.words["B"])[0]
     ['(Z_V2 - Z_V1)*sin(B) = (X_V2 - X_V1)*cos(B)']
     """

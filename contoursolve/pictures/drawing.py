@@ -64,7 +64,7 @@ def draw_answer(
     Without remarks, the findings are not written below. `beside` is what else is drawn in its plane, such as a tool.
 
     >>> import contoursolve
-    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
+    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answer
     >>> draw_answer(answer).title
     'G111 (taper multiple cornering), program line 1: solved'
     """
