@@ -384,7 +384,7 @@ class Answer(Shown, Struct, frozen=True):
 
         >>> import contoursolve
         >>> program = "G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P5.\\nG111 A180. W-20."
-        >>> print(contoursolve.solve(program).answer.standing_alone())
+        >>> print(contoursolve.solve(program).answers[0].standing_alone())
         G00 Z0 X40.
         G111 X100. A180. K-30. B120. P5.
         """
