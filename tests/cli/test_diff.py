@@ -518,5 +518,5 @@ def test_python_compares_as_the_command_does(tmp_path):
     assert "<figure>" in found._repr_mimebundle_()["text/html"]
     with pytest.raises(contoursolve.errors.NotComparedError, match=r"<old>, program line 2: the first straight needs"):
         contoursolve.diff("G00 X40. Z0.\nG111 X100. A180. B120.", SHAFT)
-    with pytest.raises(contoursolve.errors.UnknownControlError, match="<new>: no block shows the control; say which"):
-        contoursolve.diff(SHAFT, "G01 X1.", control=None, new_control=None, start=None)
+    with pytest.raises(contoursolve.errors.UnknownControlError, match="<old>: no block shows the control; say which"):
+        contoursolve.diff("G01 X1.", SHAFT)
