@@ -295,7 +295,11 @@ function render({ model, el }) {
     });
     // A field for text: one for numbers drops a decimal comma, and a keyboard for decimals may lack the minus.
     const isEmpty = () => !number.value.trim();
-    number.addEventListener("input", () => (shown.isTyping = true));
+    number.addEventListener("input", () => {
+      shown.isTyping = true;
+      const value = Number(number.value.trim().replace(",", "."));
+      if (!isEmpty() && Number.isFinite(value)) slider.value = value;
+    });
     // A value that is proposed is no change for the browser; Enter and Tab take it.
     const accept = () => {
       if (shown.isProposed && !isEmpty()) act({ do: "move", values: { [field.key]: number.value } });

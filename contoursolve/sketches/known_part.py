@@ -167,11 +167,18 @@ def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchA
         found = _not_begun(sketch, program)
     else:
         found = _Reading(sketch, program, answer).result(with_ranges=with_ranges)
-    if answer is not None and any(each.kind == "arc" and each.turn is None for each in sketch.elements):
-        # What is not the same whichever way such an arc turns is not known.
+    first = next((at for at, each in enumerate(sketch.elements) if each.kind == "arc" and each.turn is None), None)
+    if answer is not None and first is not None:
+        # What is not the same whichever way such an arc turns is not known, except by what stands before it.
         turned = [replace(each, turn=each.turn or "cw") if each.kind == "arc" else each for each in sketch.elements]
         others = solve_sketch(replace(sketch, elements=tuple(turned))).elements
-        found = replace(found, elements=tuple(map(_known_alike, found.elements, others)))
+        before: dict[str, SketchPart] = {}
+        if first and not sketch.closed:
+            before = {
+                each.name: each for each in solve_sketch(replace(sketch, elements=sketch.elements[:first])).elements
+            }
+        alike = (_known_alike(one, other, before) for one, other in zip(found.elements, others, strict=True))
+        found = replace(found, elements=tuple(alike))
     for each in _unfinished(sketch):
         missing = found.missing or f"{each.message}: {each.help}"
         found = replace(found, missing=missing, findings=(*found.findings, each))
@@ -195,12 +202,13 @@ def _unfinished(sketch: ContourSketch) -> Iterator[SketchFinding]:
         yield SketchFinding("drawing-corner-without-next", Severity.ERROR, message, help_, fields)
 
 
-def _known_alike(part: SketchPart, other: SketchPart) -> SketchPart:
-    """A part that is known where another reading has it, or contradicts; else nothing is known of it."""
+def _known_alike(part: SketchPart, other: SketchPart, before: Mapping[str, SketchPart]) -> SketchPart:
+    """A part that is known where another reading has it, or contradicts; else what is known of it without the elements
+    behind it."""
     is_known = part.state is other.state is PartState.KNOWN and _is_same(part.segment, other.segment)
     if is_known or part.state is PartState.CONTRADICTING:
         return part
-    return replace(part, state=PartState.UNKNOWN, segment=None, ways=())
+    return before.get(part.name) or replace(part, state=PartState.UNKNOWN, segment=None, ways=())
 
 
 def _not_begun(sketch: ContourSketch, program: SketchProgram) -> SketchAnswer:

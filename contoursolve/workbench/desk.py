@@ -364,6 +364,12 @@ def _made(view: ProgramView, action: Mapping[str, Any]) -> Data:
     return made
 
 
+def _compare(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    new = desk.program(window, {**action, "program": action.get("with")})
+    told: Data = _later("products").compared(desk.program(window, action), new)
+    return told
+
+
 Answering = Callable[[Desk, PageWindow, Mapping[str, Any]], Data]
 
 ACTIONS: dict[str, Answering] = {
@@ -378,6 +384,7 @@ ACTIONS: dict[str, Answering] = {
     "fix_all": _of(_fix_all),
     "look": _of(_look),
     "act": _of(_act),
+    "compare": _compare,
     "save": _save,
     "close": _close,
     **dict.fromkeys(

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import ControlName
 from contoursolve.diagnosis import Answer, rank
-from contoursolve.diagnostics import Diagnostic, Fix, Severity, Span, UserError
+from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, Span, UserError
 from contoursolve.notebook import project_settings
 from contoursolve.output import effect_of
 from contoursolve.postprocess import machine_of
@@ -46,6 +46,20 @@ def contour_row(answer: Answer, first: int, last: int) -> Data:
         "told": answer.state,
         "title": answer.claim.form.name,
     }
+
+
+LETTERS = "ABCDEFGH"
+"""Of several contours that fit, in the order of the fixes that choose them."""
+
+
+def is_choice(finding: Diagnostic) -> bool:
+    """Whether its fixes are the several contours that fit: each writes a word more, and nothing else."""
+    return finding.is_error and len(finding.fixes) > 1 and all(map(_adds, finding.fixes))
+
+
+def _adds(fix: Fix) -> bool:
+    rest = iter(fix.replacement)
+    return bool(fix.replaced) and not fix.numbers and not fix.beside and all(each in rest for each in fix.replaced)
 
 
 MOST_FINDINGS = 500
@@ -272,16 +286,22 @@ class ProgramView:
             "source": str(finding.source) if finding.source.is_of_manual else "",
             "alarm": f"alarm {alarm.number} ({alarm.evidence.value})" if alarm else "",
             "labels": [{**self.stretch(each.span), "text": words(each.text)} for each in finding.labels if each.text],
-            "fixes": [self._fix(each, finding, lines) for each in finding.fixes],
+            "fixes": [self._fix(each, finding, lines, number) for number, each in enumerate(finding.fixes)],
         }
 
-    def _fix(self, fix: Fix, finding: Diagnostic, lines: tuple[int, ...]) -> Data:
+    def _fix(self, fix: Fix, finding: Diagnostic, lines: tuple[int, ...], number: int) -> Data:
         changes = self.changes_of(fix, lines)
+        answer = self.program.contour_at(lines[0]) if lines else None
+        # Where no contour is, none is changed.
+        is_first = not fix.effect and answer is not None and answer.contour is None
         return {
             "title": fix.description,
             "kind": fix.applicability.value,
-            "effect": effect_of(fix, finding),
+            "effect": ""
+            if is_first and fix.applicability is Applicability.CHANGES_CONTOUR
+            else effect_of(fix, finding),
             "lines": [{"line": line, "text": text} for line, text in changes.items()],
+            **({"solution": LETTERS[number]} if is_choice(finding) and number < len(LETTERS) else {}),
         }
 
     def changes_of(self, fix: Fix, lines: Sequence[int]) -> Mapping[int, str | None]:

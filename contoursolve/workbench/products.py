@@ -7,7 +7,7 @@ from pathlib import PurePath
 from typing import Any
 
 import contoursolve
-from contoursolve.comparison import Document, verify
+from contoursolve.comparison import Document, compare, follow, verify
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import importing
 from contoursolve.execution import NamedVariable, named_variables
@@ -20,16 +20,20 @@ from contoursolve.notebook import (
     report_on_tool,
     stated_tool,
 )
-from contoursolve.output import beside_of, receipt_lines, receipt_summary, to_json
-from contoursolve.pictures import Theme, draw_result
+from contoursolve.output import beside_of, differences, receipt_lines, receipt_summary, to_json
+from contoursolve.pictures import Picture, Theme, draw_comparison, draw_result
 from contoursolve.postprocess import ending_of
 from contoursolve.program import CONTROL, Result
 from contoursolve.tool_radius import ToolReport, result_beside_tool, title_of
 from contoursolve.workbench.fields import ActionError, Data, read_field
 from contoursolve.workbench.open_view import ProgramView, contour_row
+from contoursolve.workbench.playing import over_drawing
 
 MOST_VARIABLES = 200
 """Variables of a program that have fields."""
+
+SAME = 0.001
+"""Distance up to which two paths are the same, mm, as for `contoursolve diff`."""
 
 MOST_VALUE = 1_000_000_000
 """Of a variable, either way; NaN is not below it."""
@@ -44,7 +48,9 @@ def answer_with(make: str, view: ProgramView, action: Mapping[str, Any]) -> Data
 
 
 def _drawing(view: ProgramView, _: Mapping[str, Any]) -> Data:
-    return _drawn(view.program.result(), _stated(view))
+    result = view.program.result()
+    picture = draw_result(result, theme=Theme.PAGE, beside=beside_of(_stated(view)))
+    return {**_told_of(picture), **over_drawing(view, result, picture)}
 
 
 def _stated(view: ProgramView) -> ToolReport | None:
@@ -54,7 +60,10 @@ def _stated(view: ProgramView) -> ToolReport | None:
 
 
 def _drawn(result: Result, tool: ToolReport | None) -> Data:
-    picture = draw_result(result, theme=Theme.PAGE, beside=beside_of(tool))
+    return _told_of(draw_result(result, theme=Theme.PAGE, beside=beside_of(tool)))
+
+
+def _told_of(picture: Picture) -> Data:
     return {"svg": picture.svg, "title": picture.title, "description": picture.description}
 
 
@@ -185,6 +194,32 @@ def _verify(view: ProgramView, _: Mapping[str, Any]) -> Data:
     receipt = verify(program, Document("result", to_json(result).encode()), control=view.program.control)
     details = "\n".join(receipt_lines(receipt))
     return {"name": "", "verdict": receipt.verdict.value, "message": receipt_summary(receipt), "details": details}
+
+
+def compared(old: ProgramView, new: ProgramView) -> Data:
+    """The differences of the paths of two programs, as the command line tells them, with a picture. Raises
+    ActionError."""
+    for view in (old, new):
+        view.program.check()
+        if view.program.control is None:
+            raise ActionError(f"{view.file.name}: {view.program.trouble or 'no word tells the control; choose it'}")
+    results = [view.program.result() for view in (old, new)]
+    for view, result in zip((old, new), results, strict=True):
+        if any(each.is_error for each in result.diagnostics):
+            raise ActionError(f"not compared: {view.file.name} has errors, and no path; mend them first")
+    controls = [view.program.control for view in (old, new)]
+    axes = tuple(sorted({axis for each in controls if each is not None for axis in each.modes.axes}))
+    paths = [
+        follow(result, control, view.program.request.unit, axes)
+        for view, result, control in zip((old, new), results, controls, strict=True)
+        if control is not None
+    ]
+    comparison = compare(paths[0], paths[1], SAME)
+    told = [*differences.comparison_lines(comparison)]
+    picture = draw_comparison(comparison, theme=Theme.PAGE)
+    title = f"{old.file.name} and {new.file.name}"
+    text = "\n".join(told[1:]).strip()
+    return {"name": "", "title": title, "message": told[0], "svg": picture.svg, "text": text}
 
 
 def _suffix(view: ProgramView) -> str:

@@ -12,6 +12,7 @@ import pytest
 from browsing import Watched
 from distribution import make_distribution
 from numpy_host import serving
+from served_page import shown_fix
 
 from contoursolve.controls import CONTROLS
 from contoursolve.workbench import Desk
@@ -75,7 +76,7 @@ def told(desk, view, text) -> dict[str, str | list[str]]:
     return {
         "text": text.replace("\n\n", "\n"),
         "findings": [each["message"] for each in view["findings"]],
-        "fixes": [f"{fix['title']} [{fix['effect']}]" for each in view["findings"] for fix in each["fixes"]],
+        "fixes": [shown_fix(fix) for each in view["findings"] for fix in each["fixes"]],
         "status": looked["status"]["text"],
         "picture": ["".join(each.itertext()) for each in ElementTree.fromstring(looked["picture"]).iter(TEXT)],
     }

@@ -330,19 +330,17 @@ def test_the_picture_of_a_sketch_can_be_read_on_a_phone_and_be_enlarged(opened, 
     page.get_by_role("tab", name="Drawing").click()
     text = page.locator(".chain-picture svg text").first
     text.wait_for()
+    # At first all of it is in sight.
+    is_whole = "box => box.scrollWidth <= box.clientWidth"
+    assert page.locator(".chain-picture .canvas").evaluate(is_whole)
+    page.get_by_role("button", name="Larger").click()
     small = text.bounding_box()["height"]
     assert small >= READABLE
-    # What is out of sight is told, and brought into it.
-    hint = page.get_by_text("Slide it sideways, or touch Whole.").and_(page.locator(".chain-picture *"))
-    hint.wait_for()
     for _ in range(2):
         page.get_by_role("button", name="Larger").click()
     assert text.bounding_box()["height"] > 1.9 * small
     page.get_by_role("button", name="Whole").click()
-    hint.wait_for(state="hidden")
-    assert page.locator(".chain-picture .canvas").evaluate("box => box.scrollWidth <= box.clientWidth")
-    page.get_by_role("button", name="Larger").click()
-    assert text.bounding_box()["height"] == small
+    assert page.locator(".chain-picture .canvas").evaluate(is_whole)
 
 
 def test_what_is_said_of_an_older_sketch_is_marked_until_the_new_one_is_worked_out(opened, folder) -> None:

@@ -163,3 +163,12 @@ def test_a_drawing_of_cad_becomes_a_sketch_from_the_folder_or_by_its_bytes(field
     data = b64encode(written.getvalue().encode()).decode()
     assert ask("dxf_in", name="other.dxf", base64=data, **fields) == found
     assert ask("sketch", sketch=found["sketch"])["is_finished"]
+
+
+def test_an_arc_that_is_added_without_its_sense_leaves_what_is_known(ask):
+    known = [{"kind": "line", "X": "40"}, {"kind": "line", "AN": "180", "Z": "-30"}, {"kind": "line", "X": "60"}]
+    sketch = {"sketch": 1, "part": "turned", "start": {"Z": "0", "X": "0"}}
+    before = ask("sketch", sketch={**sketch, "element": known})["elements"]
+    assert any(each["segment"] for each in before)
+    after = ask("sketch", sketch={**sketch, "element": [*known, {"kind": "arc"}]})["elements"]
+    assert after[: len(before)] == before

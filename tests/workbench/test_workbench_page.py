@@ -438,7 +438,7 @@ def test_every_view_can_be_reached_and_read(screen, axe, opened, folder, artefac
     assert axe(page) == []
     page.get_by_role("button", name="axe.nc").click()
     page.locator(".findings li").first.wait_for()
-    for tab in page.locator(".pane:not(.chain) .views button").all():
+    for tab in page.locator(".pane:not(.chain) .views [role=tab]").all():
         tab.click()
         name = tab.inner_text().lower()
         page.locator(f".view.{name} figure svg" if name == "contour" else f".view.{name}").first.wait_for()
@@ -449,3 +449,83 @@ def test_every_view_can_be_reached_and_read(screen, axe, opened, folder, artefac
     page.keyboard.press("Escape")
     # Nothing stands out of the screen.
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+COVER = """N10 G17 G21 G40 G90
+N40 G0 X-70 Y-60
+N100 G1 G42 D1 X-60 Y-40 F600
+N110 G1 X60 ,R60
+N120 Y-10 ,C4
+N130 G1 Y20 ,A120
+N140 G1 ,A90
+N150 X20 Y60 ,A150 Q1
+N160 G1 X-30
+N170 G1 ,A180 ,R3
+N180 G3 X-85 Y50 I-60 J50 R25
+N190 G1 X-75 Y0 ,A-90 Q1
+N300 G40 G0 X-90 Y-60
+N320 M30
+"""
+
+
+def test_a_program_opens_at_its_first_error_and_two_solutions_are_told_apart(opened, folder, tmp_path) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    (folder / "cover.nc").write_text(COVER)
+    page = opened("cover.nc")
+    page.get_by_label("Control", exact=True).select_option("nct-99m")
+    wanted = [message for _, message in checked(COVER, "nct-99m", tmp_path)]
+    rows = page.locator(".view.program .findings li")
+    # One finding, one card.
+    expect(rows.locator(".go > span:last-child")).to_have_text(wanted)
+    expect(page.locator(".cm-activeLine")).to_have_text("N110 G1 X60 ,R60")
+    rows.filter(has_text="Q is missing").locator(".go").click()
+    expect(page.locator(".cm-content")).to_be_focused()
+    expect(page.locator(".cm-activeLine")).to_have_text("N180 G3 X-85 Y50 I-60 J50 R25")
+    # Where there is no contour, none is changed.
+    assert "changes the contour" not in " ".join(rows.locator(".fix").all_inner_texts())
+    page.locator(".over .way").first.wait_for()
+    expect(page.locator(".over .way")).to_have_text(["A", "B"])
+    rows.locator(".fix[data-solution=B]").hover()
+    expect(page.locator(".over .way.lit")).to_have_text("B")
+    expect(page.locator(".over .way.pale")).to_have_text("A")
+
+
+PLAIN = "G00 X40. Z0.\nG01 X60. F0.2\nZ-20. R2.\nX80.\nM30\n"
+
+
+def test_the_path_is_played_by_keys_and_measured_and_two_programs_are_compared(opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    for name, text in (("first.nc", PLAIN), ("second.nc", PLAIN.replace("Z-20.", "Z-20.5"))):
+        (folder / name).write_text(text)
+    page = opened("first.nc")
+    page.get_by_label("Control", exact=True).select_option("fanuc-lathe")
+    place, output = page.get_by_label("Place on the path"), page.locator(".player output")
+    place.wait_for()
+    place.focus()
+    seen = []
+    for _ in range(4):
+        page.keyboard.press("ArrowRight")
+        seen.append(output.inner_text().split(" ", 2)[1])
+        expect(page.locator(".cm-played")).to_have_text(PLAIN.splitlines()[int(seen[-1]) - 1])
+    assert seen == ["2", "3", "3", "4"]
+    expect(output).to_contain_text("X80.000")
+    # From the end of the path to the end of the block before it.
+    page.get_by_role("button", name="Measure").click()
+    place.focus()
+    page.keyboard.press("Enter")
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("Enter")
+    # Beside the radius R2.: X64 on the face, a diameter.
+    expect(page.locator(".readout dl")).to_contain_text("8.000 mm")
+    expect(page.locator(".readout dl")).to_contain_text("-16.000 mm")
+    page.get_by_role("button", name="File").click()
+    page.get_by_role("menuitem", name="Open from the folder").click()
+    page.get_by_role("button", name="second.nc").click()
+    page.get_by_label("Control", exact=True).select_option("fanuc-lathe")
+    do(page, "Compare with first.nc")
+    expect(page.locator(".result .said")).to_contain_text(
+        "different: 1 difference, the largest 0.5".replace(", the largest", ",")
+    )
+    expect(page.locator(".result pre")).to_contain_text("Z-20. becomes Z-20.5")

@@ -33,8 +33,10 @@ export class App {
   private readonly picker = make("input", { type: "file", multiple: true, hidden: true, "aria-label": "Open files" });
   private readonly start = make("section", { class: "start", "aria-label": "Begin" });
   private readonly host = make("div", { class: "host", role: "tabpanel", id: newId(), "aria-label": "Program" });
-  private readonly ofProgram = [menu("Do", () => this.pane.entries()), labelled("Control", this.control), this.facts]; // no actions of a sketch
-  private readonly actions = make("div", { class: "actions" }, this.save, ...this.ofProgram);
+  private readonly state = make("span", { class: "tally", "aria-hidden": "true" }); // the heading of the findings says it
+  private readonly doing = menu("Do", () => this.pane.entries(this.others()));
+  private readonly ofProgram = [labelled("Control", this.control), this.facts, this.state]; // not of a sketch
+  private readonly actions = make("div", { class: "actions" }, ...this.ofProgram);
 
   constructor(
     private readonly root: HTMLElement,
@@ -49,8 +51,8 @@ export class App {
     this.host.append(this.pane.node, this.chain.node);
     const title = make(isEmbedded ? "strong" : "h1", { class: "title", text: "contoursolve" });
     root.classList.add("workbench");
-    const head = make("div", { class: "head" }, title, menu("File", () => this.fileEntries()), this.actions, this.said);
-    root.replaceChildren(head, this.tabs, this.start, this.host, this.notice, this.picker);
+    const head = make("div", { class: "head" }, title, menu("File", () => this.fileEntries()), this.save, this.doing, this.tabs, this.said, this.actions);
+    root.replaceChildren(head, this.start, this.host, this.notice, this.picker);
     this.follow();
     this.listen();
   }
@@ -277,7 +279,7 @@ export class App {
     const { active, works } = this;
     const isProgram = active instanceof Program;
     this.start.hidden = active !== null;
-    this.host.hidden = this.actions.hidden = active === null;
+    this.host.hidden = this.actions.hidden = this.save.hidden = active === null;
     this.tabs.hidden = !works.length;
     const tab = (each: Work, number: number) => {
       // A file may be open twice, as it was and as it is now.
@@ -287,6 +289,7 @@ export class App {
       return { name: String(number), text: `${titleOf(each)}${same ? ` (${same + 1})` : ""}${mark}`, title, panel: this.host.id };
     };
     showTabs(this.tabs, works.map(tab), String(active ? works.indexOf(active) : -1), (name) => this.choose(works[Number(name)]!));
+    this.doing.hidden = !isProgram;
     if (!active) return;
     for (const each of [...this.ofProgram, this.pane.node]) each.hidden = !isProgram;
     this.chain.node.hidden = isProgram;
@@ -296,7 +299,15 @@ export class App {
     if (isProgram) this.followProgram(active);
   }
 
-  private followProgram({ view, text }: Program): void {
+  // The other programs that are open.
+  private others(): Program[] {
+    return this.works.filter((each): each is Program => each instanceof Program && each !== this.active);
+  }
+
+  private followProgram({ view, text, examined, lines }: Program): void {
+    this.state.textContent = this.pane.told;
+    this.state.classList.toggle("waiting", examined < lines);
+    this.state.style.setProperty("--share", String(examined / lines));
     const open = this.control.options[0];
     const from = view.control_from === "program" ? "words" : view.control_from;
     if (open) open.text = view.control && from !== "choice" ? `${view.control.title} (the ${from} say${from === "words" ? "" : "s"} so)` : "as the words tell";
@@ -402,5 +413,5 @@ export class App {
 }
 
 const numberOf = ({ number }: Work, before: string): string => (number > 1 ? `${before}${number}` : "");
-const titleOf = (work: Work): string => work.name || `new ${work.noun}${numberOf(work, " ")}`;
+export const titleOf = (work: Work): string => work.name || `new ${work.noun}${numberOf(work, " ")}`;
 const fileOf = (work: Work): string => `${work.noun}${numberOf(work, "-")}.${work.ending}`;

@@ -1,5 +1,5 @@
 // The contour editor: from the drawing to the words. A chain of lines and arcs, each with what the drawing gives of it.
-import { type Card, chainHead, type DrawingWords, elementCard } from "./chainCard";
+import { type Card, type CardHost, chainHead, type DrawingWords, elementCard } from "./chainCard";
 import { chainPicture } from "./chainPicture";
 import { type Chain, type ChainElement, type ChainEntry, guessAt, type Kind, type Sketch } from "./chainSketch";
 import { wordsPanel } from "./chainWords";
@@ -13,7 +13,7 @@ const UNKNOWN = { state: "unknown", told: "open", off_mm: null };
 const NOTHING = { entries: [], remarks: [], findings: [], solutions: [], elements: [], said: "" };
 const SAID_ABOVE = ["words-missing", "several-contours"]; // findings that the line at the top says
 
-export class ChainPane {
+export class ChainPane implements CardHost {
   private sketch: Sketch | null = null;
   private cards: Card[] = [];
   private fields: ReturnType<typeof chainHead> | null = null; // of the head
@@ -54,7 +54,7 @@ export class ChainPane {
         drawing: [this.picture.node, this.solutions, this.entries, this.findings],
         words: [this.words.node],
       },
-      { kind: "chain", label: "Views of the contour", above: make("div", { class: "status" }, this.missing, this.about) },
+      { kind: "chain", label: "Views of the contour", beside: 900, above: make("div", { class: "status" }, this.missing, this.about) },
       () => this.showWords(),
     );
     this.node.addEventListener("keydown", (event) => this.pressed(event));

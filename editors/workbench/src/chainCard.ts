@@ -1,13 +1,20 @@
 // The head of a sketch, and one line or arc of it as a card: the usual fields, and under "more" all others.
 import { button, make, newId } from "./dom";
-import type { ChainPane } from "./chain";
 import { Fields } from "./chainFields";
 import { AXES, type Chain, type ChainElement, type ChainView, CORNERS, type Kind, kept, keepWords, KINDS, PARTS, TURNS, UNITS } from "./chainSketch";
 
 export type DrawingWords = Record<string, Record<Kind, Record<string, string>>>;
 export type PartState = Pick<ChainView["elements"][number], "state" | "told" | "off_mm">;
 
-type Editor = Pick<ChainPane, "drawingWords" | "change" | "changeElement" | "insert" | "move" | "remove">;
+// What a card asks of the editor in which it stands.
+export interface CardHost {
+  drawingWords(): DrawingWords;
+  change(mark: string, by: (chain: Chain) => void): void;
+  changeElement(mark: string, number: number, by: (element: ChainElement) => void): void;
+  insert(kind: Kind, at: number): void;
+  move(number: number, by: number): void;
+  remove(number: number): void;
+}
 
 const isDiameter = (part: string, name: string): boolean => part === "turned" && name.endsWith("X") && !name.startsWith("R");
 const sized = (part: string, name: string): string => `${name.slice(-1)}${isDiameter(part, name) ? " ⌀" : ""}`;
@@ -25,7 +32,7 @@ function usual(part: Chain["part"], kind: Kind): [string, string][] {
   return [...ends, ["R", "Radius"], ...AXES[part].map((axis): [string, string] => [`CC${axis}`, `Centre ${sized(part, axis)}`])];
 }
 
-export function elementCard(host: Editor, chain: Chain, number: number) {
+export function elementCard(host: CardHost, chain: Chain, number: number) {
   const element = chain.element[number - 1]!;
   const { part } = chain;
   const { kind } = element;
@@ -112,7 +119,7 @@ export function elementCard(host: Editor, chain: Chain, number: number) {
 export type Card = ReturnType<typeof elementCard>;
 
 // What holds for all of a sketch; made anew into `node` where the kind of part is another.
-export function chainHead(node: HTMLElement, host: Editor, part: Chain["part"]) {
+export function chainHead(node: HTMLElement, host: CardHost, part: Chain["part"]) {
   const fields = new Fields<Chain>(host.change);
   const axes = AXES[part];
   const place = (name: "start" | "pole", title: string) =>

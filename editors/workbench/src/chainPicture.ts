@@ -1,6 +1,7 @@
 // The picture of a sketch: what is known of it, the ghost of a solution, and guesses, which a touch sets.
 import { button, make, picture, renew, scroller, zoomBar } from "./dom";
-import { type Chain, type ChainView, type Frame, guessesOf, type Piece } from "./chainSketch";
+import { type Chain, type ChainView, guessesOf, type Piece } from "./chainSketch";
+import type { Frame } from "./protocol";
 
 const SVG = "http://www.w3.org/2000/svg";
 

@@ -1,6 +1,6 @@
 // The sketch of a contour: what the drawing gives, every change with its undo, and what Python says of it.
 import { decimal, type Option } from "./dom";
-import { orTrouble, type Transport, Trouble } from "./protocol";
+import { type Frame, orTrouble, type Transport, Trouble } from "./protocol";
 import type { Saved, Work } from "./work";
 
 const PAUSE = 60; // ms in which keys are gathered
@@ -34,7 +34,6 @@ export interface Chain {
 }
 
 export type Piece = { kind: string; start: Point; end: Point; center?: Point; radius?: number; turn?: string };
-export type Frame = { width: number; height: number; scale: number; origin: Point }; // px for each mm
 export type ChainEntry = { number: number; field: string; meaning: string; example: string; ranges: { low: string; high: string }[] };
 
 export interface ChainView {

@@ -9,6 +9,7 @@ type Written = { candidates: Candidate[]; reason: string; ending: string }; // o
 type Row = { title: string; block: string; reason: string }; // for a control
 
 const RESTS = [["drawing", "from the drawing"], ["round", "exact, but not from the drawing"], ["computed", "computed and rounded"]] as const;
+const FIRST = 2; // ways that are shown at first
 const MACHINES = { turned: "lathe", milled: "mill" };
 
 export function wordsPanel(controls: () => ControlName[], open: (name: string, text: string) => void) {
@@ -47,7 +48,9 @@ export function wordsPanel(controls: () => ControlName[], open: (name: string, t
     const start = AXES[of.chain.part].map((axis) => `${axis}${of.chain.start[axis] || "0"}`).join(" ");
     const sections = (written?.candidates ?? []).map((each, number) => candidate(each, number, `${of.name.replace(/\.[^.]*$/, "") || "contour"}-${control.value}${written?.ending ?? ""}`));
     const about = `The blocks begin at ${start}. Tool, speed, feed, approach and retract are yours to add.`;
-    list.replaceChildren(sections.length ? make("p", { class: "muted", text: about }) : "", ...sections);
+    const more = sections.splice(FIRST);
+    const folded = more.length && make("details", {}, make("summary", { text: `${more.length} more ${more.length === 1 ? "way" : "ways"}` }), ...more);
+    list.replaceChildren(sections.length ? make("p", { class: "muted", text: about }) : "", ...sections, folded || "");
   }
 
   function candidate({ title, block, program, words = [] }: Candidate, number: number, name: string): HTMLElement {

@@ -80,35 +80,35 @@ const ZOOMS = [0, 1, 1.5, 2, 3, 4, 6, 8]; // times the size at which its texts c
 
 // Buttons, and the wheel with Ctrl, that set the size of a sheet of which a box shows a part.
 export function zoomBar(sheet: HTMLElement, box: HTMLElement, of: string): HTMLElement {
-  let zoom = 1;
-  const smaller = button("−", () => zoomTo(zoom - 1), { "aria-label": "Smaller" });
-  const larger = button("+", () => zoomTo(zoom + 1), { "aria-label": "Larger" });
-  const hint = make("span", { class: "muted", text: "Slide it sideways, or touch Whole." });
-  // A box that is narrower than what can be read.
-  const least = () => (parseFloat(getComputedStyle(box).getPropertyValue("--least")) > box.clientWidth ? 0 : 1);
+  let zoom = 0;
+  const smaller = button("−", () => zoomTo(zoom - 1), { class: "icon", "aria-label": "Smaller" });
+  const larger = button("+", () => zoomTo(zoom + 1), { class: "icon", "aria-label": "Larger" });
   const tell = () => {
-    smaller.setAttribute("aria-disabled", String(zoom <= least()));
+    smaller.setAttribute("aria-disabled", String(zoom <= 0));
     larger.setAttribute("aria-disabled", String(zoom === ZOOMS.length - 1));
-    hint.hidden = zoom !== 1 || box.scrollWidth <= box.clientWidth;
+    sheet.style.setProperty("--times", String(ZOOMS[zoom]));
+    box.classList.toggle("whole", zoom === 0);
+    box.classList.toggle("zoomed", zoom > 1);
   };
   const zoomTo = (wanted: number) => {
-    const before = box.scrollWidth;
+    const [before, high] = [box.scrollWidth, box.scrollHeight];
     // The middle of what is seen stays there.
     const [x, y] = [box.scrollLeft + box.clientWidth / 2, box.scrollTop + box.clientHeight / 2];
-    zoom = Math.max(least(), Math.min(ZOOMS.length - 1, wanted));
-    sheet.style.setProperty("--times", String(ZOOMS[zoom]));
-    box.classList.toggle("zoomed", zoom > 1);
-    const by = box.scrollWidth / before;
-    box.scrollTo(x * by - box.clientWidth / 2, y * by - box.clientHeight / 2);
+    const isLarger = wanted > zoom;
+    zoom = Math.max(0, Math.min(ZOOMS.length - 1, wanted));
     tell();
+    const by = box.scrollWidth / before;
+    // All of it may be as large as can be read.
+    if (zoom === 1 && by === 1 && box.scrollHeight === high && isLarger) return zoomTo(2);
+    box.scrollTo(x * by - box.clientWidth / 2, y * by - box.clientHeight / 2);
   };
   box.addEventListener("wheel", (event) => {
     if (!event.ctrlKey) return;
     event.preventDefault();
     zoomTo(zoom + (event.deltaY < 0 ? 1 : -1));
   }, { passive: false });
-  new ResizeObserver(tell).observe(box);
-  return make("div", { class: "bar zoom", role: "group", "aria-label": `Size of ${of}` }, smaller, larger, button("Whole", () => zoomTo(0)), hint);
+  tell();
+  return make("div", { class: "bar zoom", role: "group", "aria-label": `Size of ${of}` }, smaller, larger, button("Whole", () => zoomTo(0), { class: "icon" }));
 }
 
 let count = 0;

@@ -1,7 +1,8 @@
 // All contours of a program on one drawing: touch one, and its text is shown.
 import { make, picture, scroller, zoomBar } from "./dom";
 import { kindOf } from "./editor";
-import type { ContourRow } from "./protocol";
+import { LEGEND, playerOver, viewOf } from "./player";
+import type { ContourRow, Drawn } from "./protocol";
 
 const MOST = 200; // buttons under the drawing
 const NEAR = 22; // px from a line that a finger means
@@ -18,6 +19,16 @@ function distance(part: SVGGraphicsElement, x: number, y: number): number {
   return Math.min(...places.map((at) => Math.hypot(at.x - x, at.y - y)));
 }
 
+// The drawing without its heading and its remarks: both stand beside it already.
+function crop(whole: SVGSVGElement, drawn: Drawn): void {
+  whole.setAttribute("viewBox", viewOf(drawn));
+  const [, top, , bottom] = drawn.frame?.box ?? [0, -Infinity, 0, Infinity];
+  for (const each of whole.querySelectorAll("text")) {
+    const y = Number(each.getAttribute("y"));
+    if (y < top || y > bottom + LEGEND) each.remove();
+  }
+}
+
 export type Place = { line: number; text: string; kind: string };
 
 export const placeOf = (each: ContourRow): Place => ({ line: each.line, text: `${each.title}: ${each.told}`, kind: kindOf(each.status) });
@@ -30,16 +41,21 @@ export function placeList(title: string, go: (line: number) => void) {
   return { node, show: (places: Place[]) => node.replaceChildren(...places.slice(0, MOST).map(row)) };
 }
 
-export function drawingPanel(go: (line: number) => void, open: (line: number) => void) {
+// `played` hears at which line the tool is.
+export function drawingPanel(go: (line: number) => void, open: (line: number) => void, played: (line: number | null) => void) {
   let isLit: number | null = null;
   let listed: ContourRow[] | null = null;
   const paper = scroller("div", "Drawing of the program", { class: "canvas" });
   const box = scroller("div", "Drawing of all contours; arrow keys move it", { class: "all contoursolve" }, paper);
-  const zoom = zoomBar(paper, box, "the drawing");
+  const overlay = playerOver(paper, played);
+  const tools = make("div", { class: "end" }, overlay.measure, zoomBar(paper, box, "the drawing"));
   const rows = placeList("Contours", go);
-  const said = make("p", { class: "muted" });
+  const said = make("summary", {});
+  const none = make("p", { class: "muted" });
+  const list = make("details", { class: "list" }, said, rows.node);
 
   const at = (act: (line: number) => void) => (event: MouseEvent) => {
+    if (overlay.isMeasuring()) return;
     const parts = [...paper.querySelectorAll<SVGGraphicsElement>("[data-line]")];
     // The drawing of a single contour names no line.
     if (!parts.length) return listed?.length === 1 ? act(listed[0]!.line) : undefined;
@@ -56,19 +72,24 @@ export function drawingPanel(go: (line: number) => void, open: (line: number) =>
   }
 
   return {
-    node: make("div", { class: "drawing" }, zoom, box, said, rows.node),
-    show(svg: string | null) {
-      paper.replaceChildren(...picture(svg ?? ""));
+    node: make("div", { class: "drawing" }, none, make("div", { class: "sheet" }, box, overlay.readout), overlay.player, list),
+    tools,
+    lightWay: overlay.lightWay,
+    show(drawn: Drawn | null) {
+      const shown = picture(drawn?.svg ?? "");
+      if (drawn?.frame) for (const each of shown) crop(each, drawn);
+      paper.replaceChildren(...shown);
+      overlay.show(drawn);
       relight();
     },
     list(contours: ContourRow[], isUnread: boolean) {
-      const none = isUnread ? "Nothing is drawn as long as the control is not known." : "There is no contour to solve in this program yet.";
-      if (!contours.length && said.textContent !== none) said.textContent = none;
+      none.textContent = contours.length ? "" : isUnread ? "Nothing is drawn as long as the control is not known." : "There is no contour to solve in this program yet.";
+      none.hidden = contours.length > 0;
+      list.hidden = !contours.length;
       if (contours === listed) return;
       listed = contours;
       const { length } = contours;
-      const most = length > MOST ? `; the first ${MOST} are listed, the text has a mark at each` : "";
-      if (length) said.textContent = `${length} ${length === 1 ? "contour" : "contours"}${most}. Touch one to see its text.`;
+      said.textContent = `${length} ${length === 1 ? "contour" : "contours"}${length > MOST ? `; the first ${MOST} are listed, the text has a mark at each` : ""}`;
       rows.show(contours.map(placeOf));
       relight();
     },

@@ -4,8 +4,9 @@ import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/sea
 import { Annotation, type ChangeDesc, ChangeSet, EditorState, type Extension, StateEffect, StateField, type Text, type TransactionSpec } from "@codemirror/state";
 import { Decoration, type DecorationSet, drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers, MatchDecorator, showTooltip, type Tooltip, ViewPlugin, type ViewUpdate } from "@codemirror/view";
 
-import { button, make } from "./dom";
-import type { Change, ContourRow, Finding, Fix } from "./protocol";
+import { make } from "./dom";
+import { fixButtons } from "./fixes";
+import type { Change, ContourRow, Finding } from "./protocol";
 
 // What Python changed: the Desk has it already.
 export const fromPython = Annotation.define<boolean>();
@@ -15,6 +16,7 @@ export type Marks = { findings: Placed[]; contours: ContourRow[] };
 
 export const markEffect = StateEffect.define<Marks>();
 export const litEffect = StateEffect.define<readonly [number, number] | null>();
+export const playEffect = StateEffect.define<number | null>(); // the line at which the tool is
 const openFixes = StateEffect.define<boolean>();
 
 export function moveMarks<Kind extends Marks>(all: Kind, changes: ChangeDesc): Kind {
@@ -42,12 +44,22 @@ function stretchOf({ begin, end }: Placed, { doc }: EditorState): [number, numbe
 type Shown = Marks & { drawn: DecorationSet[] };
 
 function underlined(findings: Placed[], state: EditorState): DecorationSet {
+  const told = new Set<number>(); // lines at whose end is told what is wrong: the first finding
   const ranges = findings.flatMap((each) => {
     const [first, last] = stretchOf(each, state);
-    return last > first ? [Decoration.mark({ class: `cm-finding ${each.finding.severity}` }).range(first, last)] : [];
+    const { severity } = each.finding;
+    const words = last > first ? [Decoration.mark({ class: `cm-finding ${severity}` }).range(first, last)] : [];
+    const line = state.doc.lineAt(first);
+    const amount = amountOf(each.finding);
+    if (!amount || told.has(line.number)) return words;
+    told.add(line.number);
+    return [...words, Decoration.line({ class: `cm-told ${severity}`, attributes: { "data-told": amount } }).range(line.from)];
   });
   return Decoration.set(ranges, true);
 }
+
+// What stands at its own word: the amount, or the choice.
+const amountOf = ({ labels, line, from }: Finding): string => labels.find((each) => each.line === line && each.from === from)?.text ?? "";
 
 function marked(contours: ContourRow[], { doc }: EditorState): DecorationSet {
   const ranges = contours.flatMap(({ line, last, status }) => {
@@ -78,6 +90,17 @@ const marks = StateField.define<Shown>({
   provide: (field) => [0, 1, 2].map((which) => EditorView.decorations.from(field, (shown) => shown.drawn[which]!)),
 });
 
+const played = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update(shown, { effects, changes, state }) {
+    const told = effects.find((each) => each.is(playEffect));
+    if (!told) return shown.map(changes);
+    const line = told.value as number | null;
+    return line === null || line > state.doc.lines ? Decoration.none : Decoration.set([Decoration.line({ class: "cm-played" }).range(state.doc.line(line).from)]);
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
 // Remarks are grey: those in sight.
 const remarks = new MatchDecorator({ regexp: /\([^)\n]*\)?|;.*/g, decoration: Decoration.mark({ class: "cm-remark" }) });
 const greyed = ViewPlugin.define(
@@ -97,8 +120,6 @@ export function contourAt(contours: ContourRow[], line: number): ContourRow | un
   const found = contours[low];
   return found && found.line <= line ? found : undefined;
 }
-
-export const fixText = (fix: Fix): string => (fix.effect ? `${fix.title} [${fix.effect}]` : fix.title);
 
 // The tooltip at a word with a finding: what is wrong, and its fixes as buttons.
 function fixesAtWord(apply: (finding: number, fix: number) => void): Extension {
@@ -122,11 +143,11 @@ function fixesAtWord(apply: (finding: number, fix: number) => void): Extension {
       arrow: false,
       create: (view) => {
         const told = here.map(({ finding, number }) => {
-          const fixed = (place: number) => () => {
+          const fixed = (place: number) => {
             view.focus();
             apply(number, place);
           };
-          const fixes = finding.fixes.map((fix, place) => button(fixText(fix), fixed(place)));
+          const [fixes] = fixButtons(finding, finding.fixes.length, fixed, () => {});
           return make("div", { class: `told ${finding.severity}` }, make("p", { text: finding.message }), ...fixes);
         });
         const pressed = (event: KeyboardEvent) => event.key === "Escape" && hide(view);
@@ -164,7 +185,7 @@ export function touches(placed: Placed, at: number, state: EditorState): boolean
   return begin <= at && at <= end;
 }
 
-function toFinding(way: 1 | -1): (view: EditorView) => boolean {
+export function toFinding(way: 1 | -1): (view: EditorView) => boolean {
   return (view) => {
     const at = view.state.selection.main.head;
     const starts = view.state.field(marks).findings.map((each) => each.begin).sort((a, b) => a - b);
@@ -182,6 +203,7 @@ export function newState(text: string, heard: Heard): EditorState {
     doc: text,
     extensions: [
       marks,
+      played,
       greyed,
       lineNumbers(),
       history(),

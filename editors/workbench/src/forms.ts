@@ -43,6 +43,12 @@ export function toolPanel(set: (tool: ToolState) => void, go: (line: number) => 
     due = requestAnimationFrame(() => use(slider.value));
   });
   for (const each of [radius, tip, side]) each.addEventListener("change", () => use(radius.value));
+  const slide = (typed: string) => {
+    const value = Number(decimal(typed)) || 0;
+    slider.max = String(Math.max(slider.step === "0.005" ? 1 : 25, 2 * value));
+    slider.value = String(value);
+  };
+  radius.addEventListener("input", () => slide(radius.value));
   return {
     node: fields(
       make("div", { class: "columns" }, make("div", {}, labelled("Radius of the tool", radius, unit), slider), tips, labelled("Side", side)),
@@ -55,10 +61,8 @@ export function toolPanel(set: (tool: ToolState) => void, go: (line: number) => 
       const active = activeIn(paper);
       if (active !== radius) radius.value = tool.radius;
       if (active !== slider) {
-        const value = Number(tool.radius) || 0;
-        slider.max = String(Math.max(isIn === "inch" ? 1 : 25, 2 * value));
         slider.step = isIn === "inch" ? "0.005" : "0.1";
-        slider.value = String(value);
+        slide(tool.radius);
       }
       [tip.value, side.value, unit.textContent, tips.hidden] = [tool.tip, tool.side, isIn, !isTurned];
       const largest = tooled?.largest_mm ?? null;

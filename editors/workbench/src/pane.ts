@@ -1,17 +1,19 @@
 // The pane of a program: its text and findings, and beside them its drawing, the contour at the cursor, the tool, the
 // variables and what commands made.
+import { redo, undo } from "@codemirror/commands";
+import { openSearchPanel } from "@codemirror/search";
 import { EditorView } from "@codemirror/view";
 
 import { type Acted, contourPanel } from "./contour";
-import { dialog, type Entry, labelled, make, type Option, select } from "./dom";
+import { button, dialog, type Entry, labelled, make, type Option, select } from "./dom";
 import { drawingPanel } from "./drawing";
-import { contourAt, litEffect, marksOf, touches } from "./editor";
-import { findingsList } from "./findings";
+import { contourAt, litEffect, marksOf, playEffect, toFinding, touches } from "./editor";
+import { findingsList, summary, type Told } from "./findings";
 import { PROGRAM, type Tooled, toolPanel, type ToolState, type Varied, variablesPanel } from "./forms";
 import { Program } from "./program";
-import { type Change, type ControlName, type Looked, type Made, orTrouble, type Transport, type Trouble, type View, type Words } from "./protocol";
+import { type Change, type ControlName, type Drawn, type Finding, type Looked, type Made, orTrouble, type Transport, type Trouble, type View, type Words } from "./protocol";
 import { resultPanel } from "./result";
-import { Views } from "./views";
+import { splitter, Views } from "./views";
 
 const VIEWS = { program: "Program", drawing: "Drawing", contour: "Contour", tool: "Tool", variables: "Variables", result: "Result" };
 const REST = 250; // ms without a key after which the drawing and the contour follow
@@ -21,7 +23,7 @@ const COMMANDS: readonly Option[] = [["verify", "Verify"], ["report", "Report"],
 // What stands beside the text of one program.
 class Beside {
   readonly of = { drawing: "", tool: "", variables: "", result: "" }; // versions of which they were made
-  svg: string | null = null;
+  drawn: Drawn | null = null;
   took = 0; // ms until that was there
   looked: [number, number, string] | null = null; // first line, last line, version
   tool: ToolState = { radius: "", tip: "", side: "" };
@@ -30,6 +32,7 @@ class Beside {
   values: Record<string, number> = {};
   start = "";
   made: Made | null = null;
+  isBegun = false; // whether its first error was gone to
 }
 
 export interface Around {
@@ -48,17 +51,28 @@ export class ProgramPane {
   private isActing = 0; // actions of the explorer under way
   private isHeld = false; // what its user drags
   private variedOf: Program | null = null; // whose variables are shown
+  told = ""; // of its findings, in a line
   private readonly editor: EditorView;
   private readonly views: Views<keyof typeof VIEWS>;
   private readonly go = (line: number): void => this.goTo(this.editor.state.doc.line(Math.max(1, Math.min(line, this.editor.state.doc.lines))).from);
-  private readonly findings = findingsList((number) => this.goFinding(number), (finding, fix) => void this.fix(finding, fix));
+  private readonly findings = findingsList({
+    go: (number) => this.goFinding(number),
+    step: (way) => void (toFinding(way)(this.editor) && this.editor.focus()),
+    fix: (finding, fix) => void this.fix(finding, fix),
+    light: (finding, fix) => this.light(finding, fix),
+  });
+  private readonly count = make("span", { class: "muted" });
   private readonly contour = contourPanel((action) => void this.act(action), (place) => this.lightWord(place));
   private readonly tool = toolPanel((tool) => void this.setTool(tool), this.go);
   private readonly variables = variablesPanel((values, start) => void this.setVariables(values, start), this.go);
-  private readonly drawing = drawingPanel(this.go, (line) => {
-    this.go(line);
-    this.views.choose("contour");
-  });
+  private readonly drawing = drawingPanel(
+    this.go,
+    (line) => {
+      this.go(line);
+      this.views.choose("contour");
+    },
+    (line) => this.play(line),
+  );
   private readonly result;
 
   constructor(private readonly around: Around) {
@@ -66,10 +80,15 @@ export class ProgramPane {
     const text = make("div", { class: "text" });
     this.editor = new EditorView({ parent: text, root: around.root.getRootNode() as Document | ShadowRoot });
     const { findings, drawing, contour, tool, variables, result } = this;
+    const by = (name: string, sign: string, key: string, act: (view: EditorView) => boolean) => button(sign, () => void (act(this.editor), this.editor.focus()), { class: "icon", "aria-label": name, title: key });
+    const edits = [by("Find in the text", "⌕", "Ctrl+F", openSearchPanel), by("Undo in the text", "↶", "Ctrl+Z", undo), by("Redo in the text", "↷", "Ctrl+Y", redo)];
+    const head = make("div", { class: "headline" }, make("h2", { text: "Program" }), make("span", { class: "end" }, this.count, ...edits));
+    const host = () => this.node;
+    const between = [splitter(host, "Width of the program", "--program", [240, 404, 800], 1), splitter(host, "Width of the findings", "--findings", [260, 352, 640], -1)];
     this.views = new Views(
       VIEWS,
-      { program: [text, findings.node], drawing: [drawing.node], contour: [contour.node], tool: [tool.node], variables: [variables.node], result: [result.node] },
-      { kind: "of-program", label: "Views of the program" },
+      { program: [make("div", { class: "own" }, head, text), findings.node], drawing: [drawing.node], contour: [contour.node], tool: [tool.node], variables: [variables.node], result: [result.node] },
+      { kind: "of-program", label: "Views of the program", beside: 701, wide: 1160, withFirst: "drawing", tools: { drawing: drawing.tools }, between },
       () => this.settle(),
       (name) => name !== "result" || Boolean(this.program && this.own.made),
     );
@@ -96,8 +115,8 @@ export class ProgramPane {
     this.program = program;
     if (!this.besides.has(program)) this.besides.set(program, new Beside());
     program.show(this.editor);
-    const { svg, made } = this.own;
-    this.drawing.show(svg);
+    const { drawn, made } = this.own;
+    this.drawing.show(drawn);
     if (made) this.result.show(made);
     this.own.looked = null;
     this.own.of.variables = "";
@@ -107,10 +126,12 @@ export class ProgramPane {
     this.settle();
   }
 
-  entries(): Entry[] {
+  entries(others: Program[]): Entry[] {
     const entry = (text: string, what: string, options = () => ({})): Entry => ({ text, act: () => void this.command(what, options()) });
+    // The other one is the older: what is at work is what came of it.
+    const comparing = others.map((other) => ({ text: `Compare with ${other.name || `new program ${other.number}`}`, act: () => void this.compare(other) }));
     const first = [{ text: "Convert for another control…", act: () => void this.convert() }, entry("Expand into G01, G02, G03", "expand")];
-    return [...first, entry("Expand along the path of the tool", "expand", () => this.stated(this.own.tool)), ...COMMANDS.map(([what, text]) => entry(text, what))];
+    return [...first, entry("Expand along the path of the tool", "expand", () => this.stated(this.own.tool)), ...COMMANDS.map(([what, text]) => entry(text, what)), ...comparing];
   }
 
   get control(): string {
@@ -145,7 +166,11 @@ export class ProgramPane {
     const { examined, lines, isLeft } = program;
     const unread = control ? "" : trouble_control;
     const lineOf = (place: number) => state.doc.lineAt(Math.min(place, state.doc.length)).number;
-    this.findings.show({ findings, unread, left: more_findings ?? 0, examined, lines, isLeft, lineOf, here });
+    const told: Told = { findings, contours: program.contours, unread, left: more_findings ?? 0, examined, lines, isLeft, lineOf, here };
+    this.findings.show(told);
+    this.told = summary(told);
+    this.count.textContent = `${lines} ${lines === 1 ? "line" : "lines"}`;
+    this.begin(program);
     this.drawing.list(program.contours, unread !== "");
     this.drawing.light(this.here?.line ?? null);
     this.lightRow();
@@ -153,6 +178,15 @@ export class ProgramPane {
     this.result.mark(this.own.of.result !== program.version);
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.settle(), REST);
+  }
+
+  // A program opens at its first error, where nobody went elsewhere meanwhile.
+  private begin(program: Program): void {
+    const { own } = this;
+    if (own.isBegun || program.examined < program.lines) return;
+    own.isBegun = true;
+    const first = marksOf(program.state).findings.find((each) => each.finding.severity === "error");
+    if (first && !program.state.selection.main.head) this.goTo(Math.min(first.begin, program.state.doc.length));
   }
 
   private get line() { return this.program!.state.doc.lineAt(this.program!.state.selection.main.head); }
@@ -164,6 +198,19 @@ export class ProgramPane {
     const line = place && place[0] <= doc.lines ? doc.line(place[0]) : null;
     const range = line && place ? ([line.from + place[1], Math.min(line.from + place[2], line.to)] as const) : null;
     this.editor.dispatch({ effects: litEffect.of(range) });
+  }
+
+  // The way that a fix chooses.
+  private light({ line, fixes }: Finding, fix: number | null): void {
+    const letter = fix === null ? undefined : fixes[fix]?.solution;
+    const contour = contourAt(this.program!.contours, line);
+    this.drawing.lightWay(letter && contour ? { line: contour.line, letter } : null);
+  }
+
+  private play(line: number | null): void {
+    const { doc } = this.editor.state;
+    const at = line !== null && line <= doc.lines ? doc.line(line).from : null;
+    this.editor.dispatch({ effects: [playEffect.of(line), ...(at === null ? [] : [EditorView.scrollIntoView(at, { y: "nearest", yMargin: 40 })])] });
   }
 
   // Between contours: the next one, or the last.
@@ -198,12 +245,12 @@ export class ProgramPane {
     if (program.examined < program.lines) return;
     beside.of.drawing = program.version;
     const begin = performance.now();
-    const drawn = await program.ask<{ svg: string | null }>(() => ({ do: "drawing" }));
+    const drawn = await program.ask<Drawn>(() => ({ do: "drawing" }));
     if (!drawn) return;
     beside.took = performance.now() - begin;
-    beside.svg = drawn.svg;
+    beside.drawn = drawn;
     if (program !== this.program) return;
-    this.drawing.show(drawn.svg);
+    this.drawing.show(drawn);
     this.showTool();
   }
 
@@ -248,6 +295,8 @@ export class ProgramPane {
     if (!found) return;
     if (!this.views.isShown("program")) this.views.choose("program");
     this.goTo(Math.min(found.begin, this.editor.state.doc.length));
+    // A touch does not ask for the keys of a screen.
+    if (!matchMedia("(pointer: coarse)").matches) this.focus();
   }
 
   private async fix(number: number, fix: number): Promise<void> {
@@ -287,9 +336,9 @@ export class ProgramPane {
   }
 
   private showTool(): void {
-    const { tool, tooled, toolTrouble: trouble, svg: plain } = this.own;
+    const { tool, tooled, toolTrouble: trouble, drawn } = this.own;
     const { unit, control } = this.program!.view;
-    this.tool.show({ tool, unit: unit || "mm", isTurned: control?.machines?.[0] !== "mill", tooled, trouble, plain });
+    this.tool.show({ tool, unit: unit || "mm", isTurned: control?.machines?.[0] !== "mill", tooled, trouble, plain: drawn?.svg ?? null });
   }
 
   private async setVariables(values: Record<string, number>, start: string): Promise<void> {
@@ -313,6 +362,12 @@ export class ProgramPane {
     const notes = said.filter(Boolean).map((text) => make("p", { class: "muted", text }));
     const answer = await dialog(this.around.root, "Convert for another control", [labelled("Control", control), ...notes], "Convert");
     if (answer) await this.command("convert", { to: control.value });
+  }
+
+  private async compare(other: Program): Promise<void> {
+    // Both have their whole texts at the Desk.
+    const isThere = await other.ask(() => null).then(() => !other.isLeft);
+    if (isThere) await this.command("compare", { program: other.view.id, with: this.program!.view.id });
   }
 
   // What it made; where it fails, why stands in the place of what was made before.

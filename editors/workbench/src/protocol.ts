@@ -3,7 +3,8 @@
 
 export type Change = { from: number; to: number; text: string };
 export type Stretch = { line: number; from: number; to: number };
-export type Fix = { title: string; kind: string; effect: string }; // safe, changes-contour, placeholder
+// Its kind is safe, changes-contour or placeholder; a fix that chooses one of several solutions has its letter.
+export type Fix = { title: string; kind: string; effect: string; solution?: string };
 
 export interface Finding extends Stretch {
   code: string;
@@ -38,7 +39,16 @@ export interface Hello {
   open?: string;
 }
 
-export type Made = { name: string; text?: string; base64?: string; message: string; details?: string; isWrong?: boolean };
+// A place in the plane of a drawing, mm; X of a turned part as a radius.
+export type Spot = [number, number];
+export type Frame = { width: number; height: number; scale: number; origin: Spot; box?: [number, number, number, number] }; // px for each mm
+// A move of the tool. An arc turns by `sweep` radians about its centre, counter-clockwise positive.
+export type Move = { line: number; kind: "rapid" | "feed"; start: Spot; end: Spot; center?: Spot; sweep?: number };
+// A way that a contour with several may take.
+export type Way = { letter: string; line: number; pieces: Omit<Move, "line" | "kind">[] };
+export type Drawn = { svg: string; frame: Frame | null; axes: string[]; isDiameter: boolean[]; unit: string; moves: Move[]; left_out: number; ways: Way[] };
+
+export type Made = { name: string; title?: string; svg?: string; text?: string; base64?: string; message: string; details?: string; isWrong?: boolean };
 
 // Where words stand: line, and columns.
 export type Words = Record<string, [number, number, number]>;

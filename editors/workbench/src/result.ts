@@ -1,5 +1,5 @@
 // What a command made: shown, and to be taken along.
-import { button, bytesOf, make, scroller, takeAlong } from "./dom";
+import { button, bytesOf, make, picture, scroller, takeAlong } from "./dom";
 import type { Made } from "./protocol";
 
 const TYPES: Record<string, string> = { png: "image/png", html: "text/html", dxf: "image/vnd.dxf" };
@@ -8,26 +8,27 @@ export function resultPanel(open: (name: string, text: string) => void, save: ((
   const older = make("p", { class: "wrong", role: "status", hidden: true, text: "Of the program before the last change. Do it again for the program as it is." });
   const node = make("div", { class: "result" });
   const show = (made: Made): void => {
-    const { name, text, base64, details, isWrong } = made;
+    const { name, title, svg, text, base64, details, isWrong } = made;
     const kind = name.split(".").at(-1)?.toLowerCase() ?? "";
     const content = base64 === undefined ? (text ?? "") : bytesOf(base64);
     const html = () => (typeof content === "string" ? content : new TextDecoder().decode(content));
     const shown =
       kind === "png" ? make("img", { src: `data:image/png;base64,${base64 ?? ""}`, alt: `Drawing: ${made.message}` })
       : kind === "html" ? make("iframe", { sandbox: "", srcdoc: html(), title: name })
-      : text ? scroller("pre", name, { text })
+      : text ? scroller("pre", name || (title ?? ""), { text })
       : "";
     node.replaceChildren(
-      make("h2", { text: name || (isWrong ? "Nothing was made" : "Result") }),
+      make("h2", { text: title || name || (isWrong ? "Nothing was made" : "Result") }),
       older,
       make("p", { class: isWrong ? "said wrong" : "said", role: "status", text: made.message }),
+      svg ? scroller("div", `Picture: ${title}`, { class: "canvas contoursolve" }, ...picture(svg)) : "",
       takeAlong(
-        name,
+        name || "differences.txt",
         content,
         TYPES[kind] ?? "text/plain",
         text,
-        text && !(kind in TYPES) ? button("Open as a new program", () => open(name, text)) : null,
-        content.length && save ? button("Save into the folder", () => save(made)) : null,
+        text && name && !(kind in TYPES) ? button("Open as a new program", () => open(name, text)) : null,
+        content.length && name && save ? button("Save into the folder", () => save(made)) : null,
       ),
       shown,
       details ? make("details", {}, make("summary", { text: "Details" }), scroller("pre", "Details", { text: details })) : "",
