@@ -2,11 +2,15 @@ from .controls import (
     COMMON_RULES as COMMON_RULES,
     GEOMETRY_RULES as GEOMETRY_RULES,
     AngleWords as AngleWords,
+    ArcWords as ArcWords,
     BlockMeeting as BlockMeeting,
+    BlockOrder as BlockOrder,
     ChainFinder as ChainFinder,
     CornerWords as CornerWords,
     Joining as Joining,
     Language as Language,
+    LanguageBasis as LanguageBasis,
+    forms_of as forms_of,
 )
 from .diagnostics import (
     Evidence as Evidence,

@@ -7,6 +7,7 @@ from .chain.find import (
 )
 from .chain.form import (
     compose as compose,
+    forms_of as forms_of,
     names_of as names_of,
 )
 from .chain.language import (

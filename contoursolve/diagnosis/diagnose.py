@@ -103,6 +103,9 @@ def diagnose(
     return _with_both(known.answer, text, beside)
 
 
+_UNREAD = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
+"""What states something that is compared with nothing."""
+
 _CUT = "no change that was tried mends it alone; not all could be tried"
 """The note where a search for fixes ended before all that it thought of was tried."""
 
@@ -172,7 +175,9 @@ class _Diagnosed(Struct, frozen=True):
             layers=list_layers(answer, policy),
             freedoms=freedoms,
             ties=tuple(_tie(answer, found, each) for each in sets.found),
-            ties_complete=is_readable and sets.is_complete,
+            ties_complete=is_readable
+            and sets.is_complete
+            and all(each.about not in _UNREAD for each in answer.diagnostics),
             repairs_complete=repairs.is_complete,
         )
         findings = []

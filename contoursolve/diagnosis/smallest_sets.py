@@ -23,6 +23,7 @@ from contoursolve.solving import (
     affine_facts,
     circuits_of,
     find_ties,
+    first_drawing,
     headings_of,
     is_found_at_once,
     nearest_of_determined,
@@ -255,7 +256,15 @@ class _Words:
     def _events(self, names: frozenset[str]) -> tuple[Refusal | Note, ...]:
         if names not in self._said:
             profile = self._alone(names)
-            self._said[names] = said_twice(profile) if profile is not None else ()
+            said = said_twice(profile) if profile is not None else ()
+            # Two lines that meet in general may be one at these values: a drawing shows that nothing contradicts.
+            if (
+                profile is not None
+                and any(each.kind is RefusalKind.NO_POINT for each in said)
+                and first_drawing(profile)
+            ):
+                said = tuple(each for each in said if each.kind is not RefusalKind.NO_POINT)
+            self._said[names] = said
         return self._said[names]
 
     def _alone(self, names: frozenset[str]) -> Profile | None:

@@ -43,7 +43,10 @@ class ChainWordings(GCodeSpeller):
         super().__init__(drawn, control, state, around)
         self.language = language
         self.addresses = self._addresses()
-        self.corner_shapes = {language.address_of(name): shape for name, shape in language.corner.words.items()}
+        rows = ((1, language.corner.words), (-1, language.corner.negative))
+        self.corner_rows = [
+            (language.address_of(name), sign, shape) for sign, words in rows for name, shape in words.items()
+        ]
         pairs = [pair for kinds in language.samples for pair in pairwise(kinds) if pair[1].is_over]
         self.pairs = {(one.turn is None, other.turn is None, other.touches) for one, other in pairs}
         """The pairs of elements between which an intersection or a contact is computed: lines or arcs."""

@@ -16,12 +16,6 @@ from contoursolve.solving import LineSegment
 class FormWordings(GCodeSpeller):
     """The words of a control's forms for elements of a contour."""
 
-    def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
-        for address, sign, shape in self.control.corners if element is not self.drawn.elements[-1] else ():
-            size = size_as(shape, element)
-            if size is not None:
-                yield self.word(address, sign * size)
-
     def special(self, index: int, *, is_cut: bool) -> Iterator[Wording]:
         for form, names in _uses(self.control):
             path = form.outline.path

@@ -39,12 +39,11 @@ MOST_TRIED = 60
 class KlartextWordings(Speller):
     """The words of Klartext; `program` is that in which free elements are solved."""
 
-    corner_shapes = CORNERS
-
     def __init__(
         self, drawn: ContourDrawing, control: Control, state: State, answer: Answer, program: SmallProgram
     ) -> None:
         super().__init__(drawn, control, state)
+        self.corner_rows = [(name, 1, shape) for name, shape in CORNERS.items()]
         self.answer, self.program, self.tries = answer, program, MOST_TRIED
 
     def word(self, address: str, value: float, axis: int | None = None, text: str = "") -> WrittenWord:

@@ -122,14 +122,13 @@ class Speller:
     """The words of a control for numbers of a contour; `state` is that behind its opening, `around` the program in
     which they stand, if it is there already: then each block states both coordinates."""
 
-    corner_shapes: Mapping[str, CornerShape] = {}
-    """The words that make the corner behind an element, each with the shape that it makes."""
-
     def __init__(
         self, drawn: ContourDrawing, control: Control, state: State, around: HostProgram | None = None
     ) -> None:
         self.around, self.line = around, 0 if around is not None and around.is_rapid else 1
         self.drawn, self.control, self.modes = drawn, control, control.modes
+        self.corner_rows: Sequence[tuple[str, int, CornerShape]] = control.corners
+        """The words that make the corner behind an element, each with the sign of its number and the shape."""
         self.plane, self.unit = state.plane, state.unit
         self.lexicon = control.modes.words(state)
         rows = self.lexicon.addresses.values()
@@ -203,10 +202,10 @@ class Speller:
 
     def corner_words(self, element: DrawnElement) -> Iterator[WrittenWord]:
         """The words that make the corner behind an element; none where no element follows."""
-        for address, shape in self.corner_shapes.items() if element is not self.drawn.elements[-1] else ():
+        for address, sign, shape in self.corner_rows if element is not self.drawn.elements[-1] else ():
             size = size_as(shape, element)
             if size is not None:
-                yield self.word(address, size)
+                yield self.word(address, sign * size)
 
     def attach(self, moves: tuple[WrittenBlock, ...], words: tuple[WrittenWord, ...]) -> tuple[WrittenBlock, ...]:
         """The blocks of an element with the words that make the corner behind it."""

@@ -67,6 +67,8 @@ class Equations:
         )
         self.signs: Mapping[str, int] = signs or Created(lambda _: 1)
         """The sides on which elements lie beside others, where nothing says it: 1 is the left."""
+        self.rows = 0
+        """The rows of derivatives that were worked out: what finding a place takes, whatever the clock says."""
 
     def scalars(self, place: Array) -> dict[str, float]:
         """The values of the unknowns at a place, mm."""
@@ -88,6 +90,7 @@ class Equations:
 
     def slopes(self, facts: Sequence[Fact], place: Array) -> Array:
         """The derivatives of facts by the unknowns, exact."""
+        self.rows += len(facts)
         rows = rows_at(self.system, facts, self.at(place))
         return numpy.asarray(rows.matrix_of(range(len(facts))) * self.scales / self.size)
 

@@ -1,13 +1,18 @@
 """A control that is not built in goes through every door; the notebook 07 writes one from scratch."""
 
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import MISSING, fields, is_dataclass, replace
+from functools import partial
 from inspect import Parameter, isfunction, signature
 from pathlib import Path
 from typing import get_args
 
+import numpy
 import pytest
 from click.testing import CliRunner
+from msgspec import NODEFAULT, Struct
+from msgspec.structs import fields as struct_fields
 
 import contoursolve
 from contoursolve import CONTROLS
@@ -16,7 +21,7 @@ from contoursolve.controls import GEOMETRY_RULES, NCT_99M, ControlName
 from contoursolve.diagnosis import Depth, Policy
 from contoursolve.families import Branches, BranchesName
 from contoursolve.geometry import Length
-from contoursolve.postprocess import Arcs, ArcsName, Numbering, NumberingName, PostName
+from contoursolve.postprocess import POSTS, Arcs, ArcsName, Numbering, NumberingName, PostName
 from contoursolve.postprocess.formulas.formula_request import POST_NAMES
 from contoursolve.program import Depths, FollowKeywords, Rules, SolveOptions, Units
 from contoursolve.reading import ParsedContour
@@ -268,3 +273,83 @@ def test_verify_checks_forms_that_are_not_built_in(run, block, status):
 def test_tables_that_are_none_are_told_in_a_line(run, control, said):
     status, output = run("solve", "p.nc", "--control", control)
     assert (status, said in output, "Traceback" in output) == (2, True, False), output
+
+
+# Every field of the tables --------------------------------------------------------------------------------
+
+PAGE = Path(__file__).parents[2] / "docs" / "adding-a-control.md"
+FILLED = {"Control.taken", "Modes.settings", "Post.offset", "Post.target", "Rule.file"}
+"""What the package fills in when a program is read or written, or asks for in the examples of rules."""
+
+
+@pytest.fixture(scope="module")
+def signed():
+    """The control of the page in which the sign of a corner word tells its shape."""
+    found = {}
+    exec(
+        PAGE.read_text(encoding="utf-8").partition("<!-- file: signed.py -->\n```python\n")[2].partition("```")[0],
+        found,
+    )
+    return found["SIGNED"]
+
+
+def test_the_sign_of_a_corner_word_tells_its_shape_at_every_door(signed):
+    program = "G00 X20. Z0.\nG01 Z-20. ,R{}\nX40.\nZ-60.\n"
+    rounded, cut = (program.format(size) for size in ("5.", "-5."))
+    theirs = {rounded: rounded, cut: cut.replace(",R-", ",C")}
+    for own, their in theirs.items():
+        contour = contoursolve.solve(own, control=signed).answer.contour
+        assert contour == contoursolve.solve(their, control="fanuc-lathe").answer.contour
+        written = contoursolve.convert(their, control="fanuc-lathe", to=signed).text
+        assert contoursolve.solve(written, control=signed).answer.contour.length == pytest.approx(contour.length)
+        assert f"Z-20. {own.splitlines()[1][10:]}\n" in written
+        assert contoursolve.expand(own, control=signed, post="fanuc").text.count("G01") >= 2
+    (finding,) = contoursolve.check(program.format("-25."), control=signed)
+    assert finding.message.startswith("the chamfer ,R-25.")
+    assert "write ,R-10. for ,R-25." in "".join(each.description for each in finding.fixes)
+    found = contoursolve.family(cut, vary={",R": [-4.0, 4.0]}, control=signed)
+    assert numpy.isnan(found["corner 1.center Z"]).tolist() == [True, False]
+    (interval,) = contoursolve.ranges(cut, ",R", control=signed).intervals
+    assert (interval.low.value, interval.high.value) == pytest.approx((-10, 10))
+    assert contoursolve.system(cut, control=signed).function()(R=5) is not None
+
+
+def is_table(each):
+    return is_dataclass(each) or (isinstance(each, type) and issubclass(each, Struct))
+
+
+def fields_of(kind):
+    """The fields that one writes, with their defaults."""
+    if is_dataclass(kind):
+        rows = ((each.name, each.default, each.default_factory, MISSING) for each in fields(kind) if each.init)
+    elif issubclass(kind, Struct):
+        rows = ((each.name, each.default, each.default_factory, NODEFAULT) for each in struct_fields(kind))
+    else:
+        rows = ()
+    return [(name, default if make is none else make()) for name, default, make, none in rows]
+
+
+def test_every_field_of_the_tables_has_an_example_that_runs(signed):
+    """In a control of the package, as it is or with a setting, or on the page about adding one."""
+    tables = [each for each in map(partial(getattr, contoursolve.tables), dir(contoursolve.tables)) if is_table(each)]
+    used = {f"{kind.__name__}.{name}": False for kind in (contoursolve.Control, *tables) for name, _ in fields_of(kind)}
+    controls = [*(CONTROLS[name] for name in CONTROLS), signed]
+    changed = [change(each) for each in controls for row in each.settings for change in row.changes.values()]
+    seen, left = {}, [*controls, *changed, *POSTS.values()]
+    while left:
+        each = left.pop()
+        if id(each) in seen:
+            continue
+        seen[id(each)] = each
+        if isinstance(each, Mapping):
+            left += [*each.keys(), *each.values()]
+        elif isinstance(each, tuple | list | frozenset):
+            left += each
+        for name, default in fields_of(type(each)):
+            left.append(value := getattr(each, name))
+            used[f"{type(each).__name__}.{name}"] = used.get(f"{type(each).__name__}.{name}") or bool(value or default)
+        left += [each.language] if isinstance(each, contoursolve.tables.ChainFinder) else []
+    written = {
+        name for name in used if name.partition(".")[0] in {kind.__name__ for kind in (contoursolve.Control, *tables)}
+    }
+    assert {name for name in written if not used[name]} == FILLED

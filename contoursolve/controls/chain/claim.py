@@ -23,6 +23,7 @@ from contoursolve.controls.chain.language import (
     LEAVES,
     LEFT_OUT,
     LINE_LINE,
+    NEGATIVE,
     NEGATIVE_RADIUS,
     NO_TANGENT,
     ON_PARALLEL_AXES,
@@ -211,7 +212,7 @@ def _kept_corner(
     language: Language, own: Mapping[str, Word], member: Member, modes: Modes
 ) -> tuple[dict[str, Given], dict[str, Word]]:
     """The corner that a word makes that stays in force, where the block has no corner word; and that word."""
-    is_own = member.corner is not None or any(word in own for word in language.corner.words)
+    is_own = member.corner is not None or any(name in own for name in language.corner.shapes)
     if is_own or member.is_straight or not member.is_joined or member.here.motion == 0:
         return {}, {}
     for address, corner in language.corner.stays.items():
@@ -248,7 +249,7 @@ def _calls(language: Language, member: Member) -> Mapping[str, str]:
     angles = [address for address in language.angle.synonyms if member.block.find(address)] or language.angle.synonyms[
         :1
     ]
-    return _calls_in(
+    called = _calls_in(
         language,
         member.here.plane,
         angles[-1] if angles else "",
@@ -256,6 +257,13 @@ def _calls(language: Language, member: Member) -> Mapping[str, str]:
         is_signed=member.is_signed,
         is_incremental=member.here.is_incremental and not is_absolute,
     )
+    if not language.corner.negative:
+        return called
+    numbers = {word.address: word.number for word in member.block.words}
+    return {
+        address: NEGATIVE + name if name in language.corner.negative and (numbers.get(address) or 0) < 0 else name
+        for address, name in called.items()
+    }
 
 
 @lru_cache(maxsize=256)
@@ -289,9 +297,10 @@ _ORDERS = ("first", "second")
 
 def _givens(language: Language, words: Mapping[str, Word], member: Member, builder: ContourBuilder) -> dict[str, Given]:
     """The values of a block's words, with those that the control supplies. R counts by its size: its sign picks the
-    centre of an ordinary arc, and means nothing in an over-defined circle (assumed)."""
+    centre of an ordinary arc, and means nothing in an over-defined circle (assumed). So does a corner whose sign tells
+    its shape."""
     stated = builder.values(words, member.here)
-    sizes = {name: given for name, given in stated.items() if name == "R" or name.startswith(SIGNED)}
+    sizes = {name: given for name, given in stated.items() if name == "R" or name.startswith((SIGNED, NEGATIVE))}
     stated |= {name: replace(given, value=abs(given.value)) for name, given in sizes.items()}
     asked = {name.removesuffix("-step") for name, word in words.items() if word.is_asked}
     element = member.element

@@ -10,6 +10,7 @@ from contoursolve.controls.chain.language import (
     AIMED,
     CENTER_AT,
     LINE_LINE,
+    NEGATIVE,
     POINT,
     SIGNED,
     TURN,
@@ -387,6 +388,9 @@ def _meanings(language: Language, elements: Sequence[Element], names: Sequence[N
         what = "rounding" if language.corner.shapes[name] is CornerShape.FILLET else "chamfer"
         told = f"{what} before a line along the other axis; its sign tells which way that runs"
         yield from ((each.prefix + name, told) for each in names)
+    for name, shape in language.corner.negative.items():
+        told = f"{'rounding' if shape is CornerShape.FILLET else 'chamfer'}, of a negative number"
+        yield from ((each.prefix + NEGATIVE + name, told) for each in names)
     if language.corner.codes:
         # The word that states the size in a block of its own has another meaning elsewhere.
         rows = language.lexicon.addresses

@@ -76,6 +76,8 @@ WAY = "way"
 
 SIGNED = "corner-"
 """The begin of the names of corner words whose sign tells which way the next line runs."""
+NEGATIVE = "negative-"
+"""The begin of the names of corner words whose sign tells the shape, where it is a minus."""
 LEAVES = ("@leaves-first", "@leaves-second")
 """Behind such a corner, this block must move this axis of the plane alone."""
 
@@ -268,6 +270,8 @@ class CornerWords:
     that one runs. I, J and K state a distance along their own axis."""
     is_signed_by_shape: bool = False
     """Whether these words have a sign only between two such lines, and are other corner words elsewhere."""
+    negative: Mapping[str, CornerShape] = field(default_factory=dict)
+    """The shape that a corner word gives with a negative number, whose size is the number without its sign."""
     words_in_rapid: Callable[[Modes], bool] = _never
     """Tells whether its words make corners beside rapids, too."""
     codes_in_rapid: bool = False
@@ -295,7 +299,7 @@ class CornerWords:
         for address, shape in self.signed.items():
             orders = ("first", "second") if address in _CENTERS else (address,)
             shapes |= {SIGNED + order: shape for order in orders}
-        return shapes
+        return shapes | {NEGATIVE + name: shape for name, shape in self.negative.items()}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
