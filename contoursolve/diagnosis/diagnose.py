@@ -104,7 +104,7 @@ def diagnose(
 
 
 _UNREAD = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
-"""What states something that is compared with nothing."""
+"""Findings about facts that are compared with nothing."""
 
 _CUT = "no change that was tried mends it alone; not all could be tried"
 """The note where a search for fixes ended before all that it thought of was tried."""

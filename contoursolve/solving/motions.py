@@ -333,7 +333,7 @@ def drawings(
 
 
 _DRAWINGS = "drawings"
-"""Where a profile keeps its drawings: beside its fields, as it does what it works out itself."""
+"""The place of the drawings of a profile: beside its fields, as it keeps what it works out itself."""
 
 
 def _in_order(profile: Profile, doubted: frozenset[str], hints: Mapping[str, float]) -> Iterator[NaturalDrawing]:
