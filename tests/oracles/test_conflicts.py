@@ -140,9 +140,6 @@ SIEMENS = Spelling(
     *("siemens-840d", "G17 G90 G0 X10 Y5\n", {"X": "X{:.5f}", "Y": "Y{:.5f}", "AN": "ANG={:.5f}"}, FANUC.blocks),
     *(" RND=.01", "", FACTS),
 )
-TANGENT_ARC = SIEMENS._replace(blocks=("G01", "CT"), corner="")._replace(
-    facts={"LEN": "length of line = {1:.5f}", "R": "radius of arc = {1:.5f}"}
-)
 MITSUBISHI = FANUC._replace(control="mitsubishi", before="G17 G90 G00 X10. Y5.\n")._replace(
     words={"X": "X{:.5f}", "Y": "Y{:.5f}", "AN": "A{:.5f}"}
 )
@@ -162,7 +159,6 @@ PATHS = {
     "arc, FCT": (KLARTEXT, "A ~A"),
     "Fanuc": (FANUC, "L L L"),
     "SINUMERIK": (SIEMENS, "L L L"),
-    "CT": (TANGENT_ARC, "L ~A"),
     "Mitsubishi": (MITSUBISHI, "L L L"),
     "NCT": (NCT, "L L L"),
 }
@@ -198,13 +194,8 @@ def written(kind: str, seed: int, most: int) -> Written:
     for name in random.sample(kept, random.choice((1, 1, 2))):
         words[name] = round(words[name] + random.choice((-1, 1)) * random.uniform(1.5, 6), 3)
     words |= {name: abs(value) for name, value in words.items() if name.endswith("R")}
-    touching = [name for name in path.words if name.endswith("T")]
-    text, facts, named = program(spelling, path, words)
-    if spelling.blocks and touching:  # that they touch is a code, and goes without saying
-        firm = [path.says[name] for name in ("", *touching)]
-        path = path._replace(says=path.says | {"": lambda v, _: [each for say in firm for each in say(v, 0.0)]})
-        touching = []
-    return Written(path, words | dict.fromkeys(touching, 0.0), text, facts, named)
+    touching = {name: 0.0 for name in path.words if name.endswith("T")}
+    return Written(path, words | touching, *program(spelling, path, words))
 
 
 def program(spelling: Spelling, path: Path, words: Words) -> tuple[str, tuple[str, ...], dict[str, str]]:
