@@ -6,7 +6,7 @@ import re
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Unpack
 
 from msgspec.structs import replace
 
@@ -30,8 +30,6 @@ from contoursolve.program import (
     find_control,
     find_settings,
     for_kind,
-    restate_control,
-    run,
     stated_settings,
     takes,
 )
@@ -375,66 +373,66 @@ def convert(
     name: str = "<program>",
     **options: Unpack[ReadingKeywords],
 ) -> postprocess.Conversion:
-    """A program with every contour in another control's own words, as far as it has them.
+    """A whole program in another control's own words.
 
-    All else stays as it was.
+    Contours keep their corners and angles, as far as the other control has words for them; head, end, feeds, speeds,
+    tools, offsets and comments are written as that control writes them.
 
     Args:
         text: the program, with its line ends, or the `Path` of its file, with the settings as for `solve`.
         to: the other control, such as `fanuc-lathe`, or its tables.
-        comments: whether the original blocks are kept as comments.
+        comments: whether the blocks of contours that are written out are kept as comments.
         control: and all others as for `solve`, with the same errors.
 
-    Each program is followed as its own control reads it. `comparison` tells whether they are one path, to within the
-    rounding. `text` is None where they are not. It is None where a contour could not be solved, too, and where the
-    target would cut another path (`summary`).
+    What has no counterpart stands in its place as a comment, and is listed in `not_converted`. The new program is read
+    again as the other control reads it. `comparison` is that of both paths, without the blocks that are not converted.
+    `text` is None where they are not the same.
 
-    Raises ValueError if the target has no words for contours, or is for another kind of machine.
+    Raises ValueError if nothing tells for which control the program is, if the target is not programmed in lines and
+    arcs, or is for another kind of machine.
 
     >>> print(convert("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P5.", "fanuc-lathe", comments=False).text)
     G00 X40. Z0.
-    G01 X40. Z-30. ,R5.
-    G01 X100. ,A120.
+    G01 Z-30. ,R5.
+    X100. ,A120.
+    <BLANKLINE>
     """
     text, name, told = _text(text, name, SolveOptions(**options))
     # Only this function needs them.
-    from contoursolve.comparison import compare, follow  # noqa: PLC0415
     from contoursolve.postprocess import (  # noqa: PLC0415
         Conversion,
         ConversionError,
+        Summary,
+        convert_program,
         language_of,
         machine_of,
-        post_of,
     )
 
     target = to if isinstance(to, Control) else configure(find_control(to), told.settings)
-    if language_of(target) is None:
+    if language_of(target) is None and target.writing is None:
         raise ConversionError(
-            f"contours cannot be written in the words of {target.title} ({target.name}): its blocks are of another kind"
+            f"programs are not written in the words of {target.title} ({target.name}): its blocks are of another kind"
         )
     control = choose_alike(told.control, gcode.parse(text, name), told.request(name), told.settings)
-    if control is not None:
-        target = for_kind(target, told.settings or {}, machine_of(control).value)
-    if control is not None and machine_of(control) is not machine_of(target):
+    if control is None:
+        raise ConversionError("nothing in the program tells for which control it is: state that with --control")
+    target = for_kind(target, told.settings or {}, machine_of(control).value)
+    if machine_of(control) is not machine_of(target):
         one, other = (f"{each.title} ({each.name}, a {machine_of(each).value})" for each in (control, target))
         switches = (each.name for each in (control, target) if any(one.name == "machine" for one in each.settings))
         advice = "".join(f"; for a lathe, set {name}.machine=lathe" for name in switches)
         raise ConversionError(f"a program is converted for the same kind of machine, not from {one} to {other}{advice}")
-    post = post_of(target)
-    kept: dict[str, Any] = {"units": told.units, "rules": told.rules}
-    found = expand(text, post=post, comments=comments, control=control, name=name, **kept)
-    found = replace(found, text=found.text and restate_control(found.text, target.name, target.modes.settings))
-    if found.text is None or control is None:
-        return Conversion(found.text, found.control, target.name, found.summary, None)
-    asked = replace(told, strict=True).request(name)
-    axes = tuple(sorted({*control.modes.axes, *target.modes.axes}))
-    old, new = (
-        follow(run(gcode.parse(program, name), replace(asked, control=each)), each, asked.unit, axes)
-        for program, each in ((text, control), (found.text, target))
+    asked = replace(told, strict=True, depth="verdict").request(name)
+    found = convert_program(text, name, (control, target), asked, _CONVERTED_WITHIN, has_comments=comments)
+    summary = Summary(
+        replaced=found.in_words + len(found.written_out), in_words=found.in_words, written_out=[*found.written_out]
     )
-    comparison = compare(old, new, _CONVERTED_WITHIN)
-    is_same = comparison.is_equal
-    return Conversion(found.text if is_same else None, found.control, target.name, found.summary, comparison)
+    written = found.text
+    if written is not None and "\r\n" in text:
+        written = written.replace("\n", "\r\n")
+    return Conversion(
+        written, control.name, target.name, summary, found.comparison, found.left, found.notes, found.lines
+    )
 
 
 _CONVERTED_WITHIN = 0.002

@@ -3,7 +3,7 @@
 import click
 
 from contoursolve import api
-from contoursolve.cli.expand import report_fixed, report_left, report_misread, report_told, target_of
+from contoursolve.cli.expand import target_of
 from contoursolve.cli.options import (
     FILE,
     FOUND_ERRORS,
@@ -18,28 +18,36 @@ from contoursolve.cli.printing import print_bytes, say, style_of_output
 from contoursolve.controls import CONTROLS, ChainFinder, ControlName
 from contoursolve.diagnosis import count, join
 from contoursolve.gcode import open_program_file, write_whole
-from contoursolve.postprocess import Conversion, Post, post_of
+from contoursolve.postprocess import Conversion, words_of_control
 from contoursolve.program import Rules, Units
 from contoursolve.reading import Control
 
-_TARGETS = tuple(name for name, control in CONTROLS.items() if isinstance(control.find, ChainFinder))
+_TARGETS = tuple(name for name, control in CONTROLS.items() if isinstance(control.find, ChainFinder) or control.writing)
 
 
-@click.command(short_help="Write a program's contours in another control's own words.")
-@click.argument("program", metavar="OLD", type=FILE)
-@control_option("For which control; convert writes nothing for yasnac-lx3, cnc-pilot and heidenhain.", "--to", _TARGETS)
+@click.command(short_help="Write a program in another control's own words.")
+@click.argument("program", metavar="OLD", required=False, type=FILE)
+@control_option("For which control; convert writes nothing for yasnac-lx3 and cnc-pilot.", "--to", _TARGETS)
 @control_option("The control of OLD. Without it, found from OLD where that is clear.")
 @units_option
 @rules_option
 @settings_option
 @click.option("-o", "--output", metavar="NEW", help="Where to write; without it, or with -, to standard output.")
 @click.option("--force", "is_forced", is_flag=True, help="Replace NEW if it exists.")
-@click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments.")
+@click.option(
+    "--no-comments", is_flag=True, help="Do not keep the blocks of contours that are written out as comments."
+)
+@click.option(
+    "--words",
+    "is_table",
+    is_flag=True,
+    help="Print the words of the control of --to for tools, feeds, offsets and the rest, with where each stands.",
+)
 @click.pass_context
 def convert(
     context: click.Context,
     /,
-    program: str,
+    program: str | None,
     to: ControlName | Control | None,
     control: ControlName | Control | None,
     units: Units,
@@ -48,24 +56,32 @@ def convert(
     output: str | None,
     is_forced: bool,
     no_comments: bool,
+    is_table: bool,
 ) -> None:
     """Write OLD (a file, or - for standard input) for another control of the same kind of machine.
 
-    Each contour is written in the words of the other control: lines by their ends or angles, corners by ,C and ,R. A
-    contour that it has no words for is written out as G01, G02 and G03, and named. All other lines stay as they are.
-    What the other control does not know in them is named, too.
+    Each contour is written in the words of the other control: lines by their ends or angles, corners as its corner
+    words. A contour that it has no words for is written out as lines and arcs, and named. Head, end, feeds, speeds,
+    tools, offsets and comments are written as that control writes them.
 
-    The new program is read again as the other control reads it. If its path is not that of OLD to within 0.002 mm,
-    nothing is written.
+    What has no counterpart stands in its place as a comment that begins with NOT CONVERTED, and is listed with its
+    line. The new program is read again as the other control reads it. If its path is not that of OLD to within
+    0.002 mm, but for what is listed, nothing is written.
 
-    Exit status: 0 written, 1 nothing was written, 2 could not run.
+    Exit status: 0 all of it is converted, 1 something is not, or nothing was written, 2 could not run.
 
     \b
     contoursolve convert shaft.nc --to fanuc-lathe -o shaft_fanuc.nc
     contoursolve convert plate.nc --control nct-99m --to fanuc-mill
+    contoursolve convert --to isg --words
     """
     if to is None:
         raise click.UsageError(f"say for which control: --to {'|'.join(_TARGETS)}")
+    if is_table:
+        say("\n".join(words_of_control(CONTROLS[to] if isinstance(to, str) else to)))
+        return
+    if program is None:
+        raise click.UsageError("name a program (- for standard input)")
     target = target_of(program, output, is_forced=is_forced)
     with open_program_file(program) as source, naming(source.name):
         found = api.convert(
@@ -79,7 +95,7 @@ def convert(
             name=source.name,
         )
     if found.text is None:
-        _report_failure(found, source.name, to)
+        _report_failure(found)
         context.exit(FOUND_ERRORS)
     # In the encoding of the old program: what stays as it was does so byte for byte.
     pieces = (source.mark, source.encode(found.text))
@@ -88,15 +104,12 @@ def convert(
     else:
         write_whole(target, pieces, keeps_backup=False)
         say(f"{target} written", err=True)
-    _report(found, to)
+    _report(found)
+    context.exit(FOUND_ERRORS if found.not_converted else 0)
 
 
-def _report_failure(found: Conversion, name: str, to: str | Control) -> None:
+def _report_failure(found: Conversion) -> None:
     """Print on standard error why nothing was written."""
-    style = style_of_output()
-    report_told(found.summary, _post(to))
-    report_left(found.summary, name, style)
-    report_misread(found.summary, _post(to), style, is_kept=False)
     difference = found.comparison.difference if found.comparison else None
     if difference is not None:
         lines = [
@@ -108,21 +121,19 @@ def _report_failure(found: Conversion, name: str, to: str | Control) -> None:
     say("nothing was written", err=True)
 
 
-def _report(found: Conversion, to: str | Control) -> None:
+def _report(found: Conversion) -> None:
     """Print on standard error what was converted, and how it was compared."""
-    summary, post = found.summary, _post(to)
-    report_fixed(summary, style_of_output())
-    report_told(summary, post)
-    if not summary.replaced:
-        say("no contour block: nothing to convert", err=True)
-        return
-    done = f"{count(summary.in_words, 'contour')} in the words of {post.name}"
+    style, summary = style_of_output(), found.summary
+    for each in found.not_converted:
+        say(f"program line {each.line}: {style('warning', 'warning')}: {each.sentence}", err=True)
+    for note in found.notes:
+        say(f"{style('info', 'info')}: {note}", err=True)
+    done = f"{count(summary.in_words, 'contour')} in the words of {found.to}"
     if summary.written_out:
-        lines = join([str(line) for line in summary.written_out])
-        done += f", {len(summary.written_out)} written out (program line {lines})"
+        out = join([str(line) for line in summary.written_out])
+        done += f", {len(summary.written_out)} written out (program line {out})"
     assert found.comparison is not None
-    say(f"{done}; the same path, at most {found.comparison.deviation:.1g} mm off", err=True)
-
-
-def _post(to: str | Control) -> Post:
-    return post_of(CONTROLS[to] if isinstance(to, str) else to)
+    left = [str(line) for line in dict.fromkeys(each.line for each in found.not_converted)]
+    lines = "lines" if len(left) > 1 else "line"
+    but = f" but for what is not converted (program {lines} {join(left)})" if left else ""
+    say(f"{done}; the same path{but}, at most {found.comparison.deviation:.1g} mm off", err=True)

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 if TYPE_CHECKING:
     from contoursolve.controls import ControlName
-    from contoursolve.postprocess import Summary
+    from contoursolve.postprocess import NotConverted, Summary
     from contoursolve.program import OpenProgram
     from contoursolve.tool_radius import ToolReport, ToolRequest
 
@@ -23,11 +24,12 @@ MOST_TOLD = 3
 
 class Product(Struct, frozen=True):
     """A text that was made of a program, and what is to be said of it; without a text, why there is none. `details` are
-    all lines of it, where the message names some."""
+    all lines of it, where the message names some; `not_converted` is what has no counterpart on another control."""
 
     text: str | None
     message: str = ""
     details: str = ""
+    not_converted: "tuple[NotConverted, ...]" = ()
 
 
 def project_settings(path: Path | None) -> dict[str, str] | str:
@@ -107,7 +109,6 @@ def _expansion(program: "OpenProgram", text: str | None, summary: "Summary") -> 
 def converted(program: "OpenProgram", control: str, settings: Mapping[str, str]) -> Product:
     """A program in the words of another control, with the settings of both, or why there is none."""
     from contoursolve.api import convert  # noqa: PLC0415 - as above
-    from contoursolve.controls import CONTROLS  # noqa: PLC0415 - as above
 
     try:
         found = convert(
@@ -116,9 +117,10 @@ def converted(program: "OpenProgram", control: str, settings: Mapping[str, str])
     except ValueError as error:
         return Product(None, str(error))
     difference = found.comparison.difference if found.comparison else None
-    if difference is not None:
-        return Product(found.text, f"the new program is another path: {difference.reason}")
-    return _telling(found.text, found.summary, CONTROLS[control].title, "convert")
+    if found.text is None:
+        return Product(None, f"the new program is another path: {difference.reason}" if difference else "")
+    told = [f"program line {each.line}: {each.sentence}" for each in found.not_converted]
+    return replace(_listing(found.text, [*told, *found.notes], "convert"), not_converted=found.not_converted)
 
 
 def _telling(text: str | None, summary: "Summary", target: str, command: str) -> Product:
@@ -127,6 +129,11 @@ def _telling(text: str | None, summary: "Summary", target: str, command: str) ->
     left = [f"program line {each.lines[0]}: {each.reason}" for each in summary.left]
     left += [f"program line {each.line}: {each.sentence(target)}" for each in summary.unfamiliar]
     left += [f"program line {each.line}: {each.sentence}" for each in summary.fixed]
+    return _listing(text, left, command)
+
+
+def _listing(text: str | None, left: "list[str]", command: str) -> Product:
+    """A text with what is to be said of it, of which a message names the first."""
     more = len(left) - MOST_TOLD
     told = "; ".join(left[:MOST_TOLD])
     if more <= 0:

@@ -1,12 +1,20 @@
 from .chain_wordings import (
     language_of as language_of,
 )
+from .conversion.convert_program import (
+    Converted as Converted,
+    convert_program as convert_program,
+)
+from .conversion.program_words import (
+    words_of_control as words_of_control,
+)
 from .expansion_report import (
     Conversion as Conversion,
     ConversionError as ConversionError,
     Expansion as Expansion,
     ExpansionOptions as ExpansionOptions,
     Left as Left,
+    NotConverted as NotConverted,
     Summary as Summary,
 )
 from .formulas.formula_request import (

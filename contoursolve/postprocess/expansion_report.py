@@ -127,15 +127,40 @@ class ConversionError(ProgramError, ValueError):
     """A program cannot be written for a control at all."""
 
 
+class NotConverted(Struct, frozen=True):
+    """Something of a program that has no counterpart on another control.
+
+    Attributes:
+        line: its line in the program, from 1.
+        text: the words, as they are typed.
+        reason: why they are not converted.
+        is_block: whether it is a whole block, with its motion if it has one.
+    """
+
+    line: int
+    text: str
+    reason: str
+    is_block: bool = False
+
+    @property
+    def sentence(self) -> str:
+        """What stands as a comment, and why."""
+        return f"{self.text} is not converted: {self.reason}"
+
+
 class Conversion(Struct, frozen=True):
     """A program in another control's own words.
 
     Attributes:
-        text: the program; None where it cannot be written so, or would not be the same path.
-        control: the control that it was for; None where nothing tells it.
+        text: the program; None where its path would not be the same.
+        control: the control that it was for.
         to: the name of the other control.
-        summary: how many contours were replaced, and what was left and why.
-        comparison: that of both paths, with its `deviation` (mm); None where there is no second one.
+        summary: how many contours it has, how many of them in words of the other control, and which are written out.
+        comparison: that of both paths, with its `deviation` (mm), without the blocks that are not converted; None where
+            nothing could be compared.
+        not_converted: what has no counterpart, in the order of the program. It stands as a comment in its place.
+        notes: what the program does not say and is written, and what rests on an assumption.
+        lines: for each line of the text, the line of the program for which it stands; 0 for its frame.
     """
 
     text: str | None
@@ -143,6 +168,9 @@ class Conversion(Struct, frozen=True):
     to: str
     summary: Summary
     comparison: "paths.Comparison | None"
+    not_converted: tuple[NotConverted, ...] = ()
+    notes: tuple[str, ...] = ()
+    lines: tuple[int, ...] = ()
 
     __hash__ = hash_of
 

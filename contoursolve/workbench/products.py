@@ -151,7 +151,9 @@ def _convert(view: ProgramView, action: Mapping[str, Any]) -> Data:
     if control not in CONTROLS:
         raise ActionError(f"{control!r} is no control here")
     settings = {name: value for name, value in view.settings.items() if name != CONTROL}
-    return _program(view, converted(view.program, control, settings), f"-{control}{ending_of(CONTROLS[control])}")
+    made = converted(view.program, control, settings)
+    left = [{"line": each.line, "text": each.text, "reason": each.reason} for each in made.not_converted]
+    return {**_program(view, made, f"-{control}{ending_of(CONTROLS[control])}"), "not_converted": left}
 
 
 def _program(view: ProgramView, made: Product, ending: str) -> Data:

@@ -46,7 +46,7 @@ _CODES = BASIC_CODES | {
     Effect.FRAME: {92: "reference point offset", 68: "rotation", 69: "end of rotation"}
     | dict.fromkeys((*range(20, 25), 351), "mirroring"),
     Effect.NONE: {162: "centres from where an arc begins", 164: "no centre correction", 165: "centre correction"}
-    | dict.fromkeys((8, 9, 60, 61, 260, 261, 360, 361), "exact stop or blending")
+    | dict.fromkeys((8, 9, 60, 61, 260, 261, 359, 360, 361), "exact stop or blending")
     | dict.fromkeys((93, 94, 95, 96, 97, 194), "kind of feed or speed")
     | dict.fromkeys((25, 26, 138, 139, 150, 151, 236, 237, 238, 239), "compensation at corners"),
     Effect.CORNER: {CHAMFER: "chamfer", ROUNDING: "rounding"},

@@ -1,0 +1,1 @@
+"""Whole programs of one control, written for another one."""

@@ -1,0 +1,786 @@
+"""A whole program of one control in the words of another, read back: what leads elsewhere is written more plainly."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import IntEnum
+from pathlib import PurePath
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.comparison import Comparison, Motion, ToolPath, Travel, Unfollowed, along, compare, follow
+from contoursolve.diagnosis import Answer
+from contoursolve.diagnostics import Severity
+from contoursolve.gcode import Block, parse
+from contoursolve.geometry import CornerShape, Length, Plane
+from contoursolve.postprocess.contour_drawing import draw, size_as
+from contoursolve.postprocess.conversion.block_meaning import Meaning, MeaningReader, is_message
+from contoursolve.postprocess.conversion.block_writer import (
+    BlockWriter,
+    CornerWord,
+    NoWordsError,
+    WrittenMove,
+    diameter_code,
+    first_feed,
+)
+from contoursolve.postprocess.conversion.program_words import ControlKind, ProgramFunction, cell_of, kind_of_control
+from contoursolve.postprocess.emit import Format
+from contoursolve.postprocess.expansion_report import NotConverted
+from contoursolve.postprocess.post_processors import Arcs, MachineKind, machine_of, post_of
+from contoursolve.postprocess.written import Moves, translate
+from contoursolve.program import Request, Result, run
+from contoursolve.reading import Control, Effect, State, advance, blocks_of, leave
+from contoursolve.solving import ArcSegment
+from contoursolve.tolerance import LENGTH
+
+
+class Plainness(IntEnum):
+    """How plainly a line is written: what is not the same path in one way is tried in the next."""
+
+    OWN_WORDS = 0
+    PLAIN = 1
+    LEFT = 2
+
+
+class Converted(Struct, frozen=True):
+    """A program in another control's words.
+
+    Attributes:
+        text: the program; None where its path would be wrong.
+        left: what has no counterpart, by program line.
+        in_words: how many contours are in the target's own words.
+        written_out: the first program lines of contours that are plain lines and arcs there.
+        notes: what was taken as the program does not say it, and what rests on an assumption.
+        comparison: that of both paths without the lines that are left; None where nothing was written.
+        lines: the program line for each line of the text; 0 for one of its frame.
+    """
+
+    text: str | None
+    left: tuple[NotConverted, ...]
+    in_words: int
+    written_out: tuple[int, ...]
+    notes: tuple[str, ...]
+    comparison: Comparison | None
+    lines: tuple[int, ...] = ()
+    verbatim: frozenset[int] = frozenset()
+    """The program lines that stay as they are."""
+
+
+@dataclass(slots=True)
+class _Line:
+    """One line of the program: what it says, the states around it, its path, and the contour that begins there."""
+
+    block: Block
+    meaning: Meaning
+    before: State
+    after: State
+    answer: Answer | None
+    """That of the contour to which it belongs."""
+    travels: tuple[Travel, ...]
+    lost: tuple[Unfollowed, ...]
+
+
+_CORNERS_OF_KLARTEXT = (CornerShape.FILLET, CornerShape.CHAMFER_SETBACK)
+_MOST_ROUNDS = 60
+
+
+def convert_program(
+    text: str,
+    name: str,
+    controls: tuple[Control, Control],
+    asked: Request,
+    within: float,
+    *,
+    has_comments: bool = True,
+    number: int = 1,
+) -> Converted:
+    """A program of the first control for the second one; `within` is how far apart both paths may be, mm, and `number`
+    the program number where the program has a name. With `has_comments`, contours that are written out have their
+    blocks above them as comments."""
+    source, target = controls
+    result = run(parse(text, name), replace(asked, control=source))
+    axes = tuple(sorted({*source.modes.axes, *target.modes.axes}))
+    old = follow(result, source, asked.unit, axes)
+    lines = [*_lines(result, source, asked.unit, old)]
+    levels = dict[int, Plainness]()
+    found = None
+    for _ in range(_MOST_ROUNDS):
+        writer = _Program(lines, controls, asked, levels, name, number, has_comments=has_comments)
+        found = writer.write()
+        blamed, comparison = _judge(found, target, asked, old, within)
+        found = replace(found, comparison=comparison)
+        if not blamed:
+            return found
+        moved = [line for line in blamed if _retreat(line, lines, levels)]
+        if not moved:
+            break
+    assert found is not None
+    return replace(found, text=None)
+
+
+def _retreat(line: int, lines: Sequence[_Line], levels: dict[int, Plainness]) -> bool:
+    """Write a line more plainly; whether that is possible."""
+    own = next((each for each in lines if each.block.line == line), None)
+    if own is None:
+        return False
+    key = own.answer.lines[0] if own.answer is not None else line
+    level = levels.get(key, Plainness.OWN_WORDS)
+    if level is Plainness.LEFT:
+        return False
+    is_contour = own.answer is not None and level is Plainness.OWN_WORDS
+    levels[key] = Plainness.PLAIN if is_contour else Plainness.LEFT
+    return True
+
+
+def _judge(
+    found: Converted, target: Control, asked: Request, old: ToolPath, within: float
+) -> tuple[list[int], Comparison | None]:
+    """The program lines to blame for an error of the new program or another path, and the comparison of both paths."""
+    assert found.text is not None
+    program = parse(found.text, "new", syntax=target.modes.syntax)
+    result = run(program, replace(asked, control=target, start=None))
+    errors = [each.span.line for each in result.diagnostics if each.severity is Severity.ERROR]
+    blamed = [found.lines[line - 1] if 0 < line <= len(found.lines) else 0 for line in errors]
+    if blamed:
+        return [*dict.fromkeys(blamed)], None
+    left = {each.line for each in found.left if each.is_block}
+    new = follow(result, target, asked.unit, old.axes)
+    first, second = _comparable(old, new, found, left)
+    comparison = compare(first, second, within)
+    if comparison.is_equal:
+        return [], comparison
+    difference = comparison.difference
+    lines = [0]
+    if difference is not None:
+        at = [found.lines[difference.new.line - 1]] if difference.new is not None else []
+        lines = [*at, *([difference.old.line] if difference.old is not None else [])] or [0]
+    return [*dict.fromkeys(lines)][:1], comparison
+
+
+def _comparable(old: ToolPath, new: ToolPath, found: Converted, left: set[int]) -> tuple[ToolPath, ToolPath]:
+    """Both paths without the lines that are left: an axis that is not known behind one is not known in either."""
+    origins, kept = found.lines, found.verbatim
+    first = [
+        each
+        for each in old.steps
+        if not each.file and (each.line in kept if isinstance(each, Unfollowed) else each.line not in left)
+    ]
+    second = [each for each in new.steps if isinstance(each, Travel) or origins[each.line - 1] in kept]
+    by_line = dict[int, list[int]]()
+    for place, step in enumerate(second):
+        by_line.setdefault(origins[step.line - 1], []).append(place)
+    seen = dict[int, int]()
+    for step in first:
+        places, at = by_line.get(step.line, []), seen.get(step.line, 0)
+        seen[step.line] = at + 1
+        own = second[places[at]] if at < len(places) else None
+        if isinstance(own, Travel) and isinstance(step, Travel):
+            second[places[at]] = _as_unknown(own, step)
+    return replace(old, steps=tuple(first)), replace(new, steps=tuple(second))
+
+
+def _as_unknown(step: Travel, like: Travel) -> Travel:
+    """A step without the places that another one does not know."""
+    start = tuple(None if other is None else at for at, other in zip(step.start, like.start, strict=True))
+    end = tuple(None if other is None else at for at, other in zip(step.end, like.end, strict=True))
+    return replace(step, start=start, end=end) if (start, end) != (step.start, step.end) else step
+
+
+def _lines(result: Result, source: Control, unit: Length, old: ToolPath) -> Iterator[_Line]:
+    """The lines of a program with what each of them says and does."""
+    reader = MeaningReader(source, kind_of_control(source))
+    travels, lost = dict[int, list[Travel]](), dict[int, list[Unfollowed]]()
+    for step in old.steps:
+        if not step.file and isinstance(step, Travel):
+            travels.setdefault(step.line, []).append(step)
+        elif not step.file and isinstance(step, Unfollowed):
+            lost.setdefault(step.line, []).append(step)
+    contours = {answer.lines[0]: answer for answer in result.answers if not answer.claim.blocks[0].file}
+    state = source.initial_state(unit)
+    for block in result.start.blocks if result.start else ():
+        state = advance(state, block, source.modes)
+    answer, end, behind = None, 0, state
+    for block in result.program.blocks:
+        before = state
+        if block.line in contours:
+            answer = contours[block.line]
+            end = answer.lines[-1]
+            finish = answer.contour.end if answer.contour else None
+            behind = leave(answer.claim, finish, source.modes, "the contour is not solved")
+            parts = {part.block.line: part.state for part in blocks_of(answer.claim, state, source.modes)}
+        if answer is not None and block.line <= end:
+            before = parts.get(block.line, state)
+            after = behind if block.line == end else state
+            is_own = block.line in parts
+            meaning = reader.read(block, before, after, is_contour=is_own)
+            yield _Line(
+                block, meaning, before, after, answer if is_own else None,
+                tuple(travels.get(block.line, ())), tuple(lost.get(block.line, ())),
+            )  # fmt: skip
+            state = after
+            answer = None if block.line == end else answer
+            continue
+        state = advance(state, block, source.modes) if block.words or block.macro or block.faults else state
+        meaning = reader.read(block, before, state, is_contour=False)
+        yield _Line(
+            block, meaning, before, state, None, tuple(travels.get(block.line, ())), tuple(lost.get(block.line, ()))
+        )
+
+
+_HEADS = (
+    re.compile(r"^\s*%_N_(?P<name>\w+?)_(?:MPF|SPF)\s*$", re.IGNORECASE),
+    re.compile(r"^\s*(?:N?\d+\s+)?BEGIN\s+PGM\s+(?P<name>\S+)\s+(?:MM|INCH)\s*$", re.IGNORECASE),
+    re.compile(r"^\s*(?:O|:)(?P<number>\d{1,8})\s*(?:\((?P<told>[^)]*)\))?\s*$", re.IGNORECASE),
+    re.compile(r"^\s*%(?P<number>\d{1,8})\s*$"),
+    re.compile(r"^\s*%(?P<name>[A-Za-z]\w*)\s*(?:\((?P<told>[^)]*)\))?\s*$"),
+    re.compile(r"^\s*<(?P<name>\w+)>\s*$"),
+)
+_TAPE = re.compile(r"^\s*%\s*$")
+_PATH = re.compile(r"^\s*;\s*\$PATH=", re.IGNORECASE)
+_END_PGM = re.compile(r"^\s*(?:N?\d+\s+)?END\s+PGM\b", re.IGNORECASE)
+
+
+class _Program:
+    """One attempt to write all lines, some of them more plainly than others."""
+
+    def __init__(
+        self,
+        lines: Sequence[_Line],
+        controls: tuple[Control, Control],
+        asked: Request,
+        levels: Mapping[int, Plainness],
+        name: str,
+        number: int,
+        *,
+        has_comments: bool,
+    ) -> None:
+        source, self.target = controls
+        self.source, self.lines, self.levels, self.number = source, lines, levels, number
+        self.has_comments = has_comments
+        self.kinds = kind_of_control(source), kind_of_control(self.target)
+        first = next((_unit(each) for each in lines if _unit(each)), None) or _unit_of_head(lines) or asked.unit
+        self.unit = first
+        self.writer = BlockWriter(self.target, self.kinds[1], first, self.kinds[0], first_feed(source))
+        self.in_words, self.written_out = 0, list[int]()
+        self.translated = dict[int, Moves | None]()
+        self.name = "" if name.startswith("<") else PurePath(name).stem
+        self.is_opened = False
+        self.has_frame = False
+        self.is_alike = self.kinds[0] is self.kinds[1] or any({*self.kinds} <= each for each in _ALIKE)
+        self.verbatim = set[int]()
+        """The lines that stay as they are."""
+        self.speeds_told = set[int]()
+
+    def write(self) -> Converted:
+        """The whole program."""
+        writer = self.writer
+        head, told = self._head()
+        self._begin(head, told)
+        for place, line in enumerate(self.lines):
+            self._line(place, line)
+        self._end()
+        texts = writer.lines
+        if writer.is_klartext:
+            texts = [f"{number} {text}" for number, text in enumerate(texts)]
+        assumed = [*self._assumptions()]
+        notes = [*writer.notes, *([f"{', '.join(assumed)}: assumed, as we saw no page of a manual"] if assumed else [])]
+        return Converted(
+            "\n".join(texts) + "\n",
+            tuple(writer.found),
+            self.in_words,
+            tuple(self.written_out),
+            tuple(notes),
+            None,
+            tuple(writer.origins),
+            frozenset(self.verbatim),
+        )
+
+    def _assumptions(self) -> Iterator[str]:
+        """What is written by rows that no page seen prints."""
+        for function, line in self.writer.used.items():
+            cells = [cell_of(function, kind) for kind in self.kinds]
+            if self.kinds[0] is not self.kinds[1] and any(
+                cell is not None and cell.source.evidence.value == "assumed" for cell in cells
+            ):
+                cell = cells[1]
+                text = cell.texts[0].replace(" {}", "").replace("{}", "") if cell and cell.texts else ""
+                yield f"{text or function.value} ({function.value}, program line {line})"
+
+    # The frame
+
+    def _head(self) -> tuple[dict[str, str], int]:
+        """The name and the number of the program, and its line; 0 for none."""
+        for line in self.lines[:8]:
+            text = line.block.text
+            for pattern in _HEADS:
+                match = pattern.match(text)
+                if match is not None:
+                    return {name: value for name, value in match.groupdict().items() if value}, line.block.line
+        return {}, 0
+
+    def _begin(self, head: Mapping[str, str], line: int) -> None:
+        writer, kind = self.writer, self.kinds[1]
+        writer.begin(line)
+        self.head_line = line
+        is_whole = bool(head) or any(_TAPE.match(each.block.text) for each in self.lines) or self._has_end()
+        self.has_frame = is_whole or writer.is_klartext
+        if not self.has_frame:
+            return
+        number = head.get("number", "")
+        name = head.get("name", "")
+        told = head.get("told", "").strip()
+        if kind.is_fanuc:
+            digits = number or (re.sub(r"^PROG", "", name) if re.fullmatch(r"PROG\d{1,5}", name) else "")
+            said = name if name and not digits else told
+            width = 5 if kind in (ControlKind.HAAS_LATHE, ControlKind.HAAS_MILL) else 4
+            writer.put("%", is_comment=True)
+            comment = f" {writer.comments(said)[0]}" if said else ""
+            writer.put(f"O{int(digits or self.number):0{width}d}{comment}", is_comment=True)
+            return
+        own = name or (f"PROG{int(number)}" if number else self.name or "PROG")
+        own = re.sub(r"\W", "_", own.upper())[:24]
+        if kind is ControlKind.SINUMERIK:
+            own = own if re.match(r"[A-Z_]{2}", own) else f"PROG_{own}"[:24]
+            writer.put(f"%_N_{own}_MPF", is_comment=True)
+        elif kind is ControlKind.ISG:
+            writer.put(f"%{own}", is_comment=True)
+        elif writer.is_klartext:
+            unit = "MM" if self.unit is Length.MM else "INCH"
+            writer.put(f"BEGIN PGM {own} {unit}")
+            self.own_name = f"{own} {unit}"
+        if told:
+            writer.comment(told)
+
+    own_name = ""
+
+    def _has_end(self) -> bool:
+        return any(each.meaning.has(ProgramFunction.END) for each in self.lines)
+
+    def _end(self) -> None:
+        writer = self.writer
+        writer.begin(0)
+        if not self.has_frame:
+            return
+        if self.kinds[0] is ControlKind.KLARTEXT and not self._has_end():
+            writer.put("M30")
+        if self.kinds[1].is_fanuc:
+            writer.put("%", is_comment=True)
+        elif writer.is_klartext:
+            writer.put(f"END PGM {self.own_name}")
+
+    def _opening(self, line: _Line) -> list[str]:
+        """The codes of the first block: whatever the program leaves to how its control starts is written, too."""
+        writer, target, meaning = self.writer, self.target, line.meaning
+        if writer.is_klartext:
+            return []
+        is_alike = self.is_alike
+        codes = list[str]()
+        has_plane = any(code.effect is Effect.PLANE for code, _ in meaning.codes)
+        if not is_alike and not has_plane and self.kinds[1] not in _ALIKE_LATHES:
+            plane = next(
+                (row for row in target.modes.codes.values() if row.plane and row.plane.code == line.before.plane.code),
+                None,
+            )
+            codes += [writer.code(plane.number)] if plane is not None else []
+        has_absolute = any(code.effect in (Effect.ABSOLUTE, Effect.INCREMENTAL) for code, _ in meaning.codes)
+        has_code = any(row.effect is Effect.ABSOLUTE for row in target.modes.codes.values())
+        if not is_alike and has_code and not has_absolute:
+            codes.append(writer.code(90))
+        says_unit = any(_unit(each) for each in self.lines[:30])
+        if not is_alike and not says_unit and self.kinds[0] is not ControlKind.KLARTEXT:
+            codes.append(writer.word(ProgramFunction.MM if self.unit is Length.MM else ProgramFunction.INCH))
+            writer.notes.append(
+                f"the program states no unit: {codes[-1]} is written, as {self.unit.value} is what it was read in"
+            )
+        elif not is_alike and self.kinds[0] is ControlKind.KLARTEXT:
+            codes.append(writer.word(ProgramFunction.MM if self.unit is Length.MM else ProgramFunction.INCH))
+        says_feed = any(
+            each.meaning.has(
+                ProgramFunction.FEED_A_MINUTE,
+                ProgramFunction.FEED_A_TURN,
+                ProgramFunction.CUTTING_SPEED,
+                ProgramFunction.TURNING_SPEED,
+            )
+            for each in self.lines
+        )
+        has_feed = any(each.meaning.has(ProgramFunction.FEED) for each in self.lines)
+        if not is_alike and not says_feed and has_feed:
+            mode = first_feed(self.source)
+            codes.append(writer.word(mode))
+            if self.kinds[0] is not ControlKind.KLARTEXT:
+                writer.notes.append(f"the program states no feed mode: {codes[-1]} ({mode.value}) is written")
+            writer.feeds.mode = mode
+        if not is_alike and machine_of(target) is MachineKind.LATHE and (text := diameter_code(target)):
+            codes.append(writer.code(51) if text == "G51" else text)
+        return codes
+
+    # Lines
+
+    def _line(self, place: int, line: _Line) -> None:
+        writer, block, meaning = self.writer, line.block, line.meaning
+        text = block.text.strip()
+        if block.line == self.head_line and self.head_line:
+            self._comments(meaning, is_head=True)
+            return
+        if _TAPE.match(text) or _PATH.match(text) or _END_PGM.match(text):
+            return
+        if not text:
+            if not writer.is_klartext:
+                writer.begin(block.line)
+                writer.put_blank()
+            return
+        writer.begin(block.line, is_skippable=block.is_skippable, label=meaning.number)
+        if not (block.words or block.macro or block.faults) or is_message(block) or self._is_silent(line):
+            self._comments(meaning)
+            return
+        reason = self._reason(line)
+        if not reason:
+            self._write(place, line)
+        else:
+            self._keep_or_leave(line, reason)
+        writer.here = {axis: at for axis, at in writer.here.items() if _is_known(line.after, axis)}
+
+    def _keep_or_leave(self, line: _Line, reason: str) -> None:
+        """A block that is not converted: between relatives that read it alike it stays as it is, else as a comment."""
+        if not self._is_read_alike(line):
+            self._leave(line, reason)
+            return
+        self.writer.put(_without_number(line.block))
+        self.verbatim.add(line.block.line)
+        self.is_opened = True
+
+    def _write(self, place: int, line: _Line) -> None:
+        """Write what a line says in the words of the target; what it has no words for is left."""
+        writer, meaning = self.writer, line.meaning
+        speed = self._speed_behind(place) if writer.is_klartext else None
+        if writer.is_klartext and line.block.line in self.speeds_told:
+            meaning = _without(meaning, ProgramFunction.SPEED)
+        kept = writer.state, len(writer.lines), len(writer.found), writer.label
+        opening = [] if self.is_opened else self._opening(line)
+        has_states = bool(meaning.codes) or meaning.has(*_HEAD)
+        try:
+            if opening and not has_states:
+                label, skip = writer.label, writer.skip
+                writer.label = writer.skip = ""
+                writer.put(" ".join(opening))
+                writer.label, writer.skip, opening = label, skip, []
+            self._put(line, meaning, speed, opening)
+            self.is_opened = True
+        except NoWordsError as error:
+            writer.state, length, found, writer.label = kept
+            del writer.lines[length:], writer.origins[length:], writer.found[found:]
+            writer.trailing = ""
+            self._keep_or_leave(line, str(error))
+
+    def _put(self, line: _Line, meaning: Meaning, speed: Decimal | None, opening: Sequence[str]) -> None:
+        """The lines of a block, with its comments and what of it is not converted."""
+        writer = self.writer
+        moves = [*self._moves(line)]
+        *above, last = meaning.comments or [""]
+        for text in above:
+            writer.comment(text)
+        for word in meaning.lost:
+            writer.leave(word, "no counterpart is known")
+        writer.trailing = " ".join(writer.comments(last)) if last else ""
+        radius = meaning.radius
+        if radius is not None and radius.number != writer.tool and writer.tool and not writer.needs_d:
+            writer.leave(radius.text, "the radius is not that of the tool, and the target takes it from the tool")
+        counts = line.answer is None and line.after.is_incremental and not any(move.arc for move in moves)
+        writer.write(meaning, moves, speed, [code for code in opening if code], is_incremental=counts)
+        if writer.trailing:
+            writer.trailing = ""
+            writer.comment(last)
+
+    def _is_read_alike(self, line: _Line) -> bool:
+        """Whether a block that has no row stays as it is: both controls are relatives that know all its codes."""
+        if not self.is_alike or self.levels.get(line.block.line) is Plainness.LEFT or line.answer is not None:
+            return False
+        if line.block.faults or line.block.callers:
+            return False
+        pairs = [(self.source.modes.codes.get(n), self.target.modes.codes.get(n)) for n in _codes_of(line.block)]
+        # A name is a cycle or a subprogram, which only a control of the same kind calls so.
+        pairs = [each for each in pairs if each != (None, None) or self.kinds[0] is not self.kinds[1]]
+        return all(one is not None and other is not None and one.effect is other.effect for one, other in pairs)
+
+    def _is_silent(self, line: _Line) -> bool:
+        """Whether a line of Klartext is the pole of arcs, which each arc has itself, or says nothing more."""
+        said = line.meaning.restated
+        is_said = said is not None and not (said.ends or said.around or said.reason)
+        return is_said and line.meaning.is_silent and not line.travels and line.answer is None
+
+    def _comments(self, meaning: Meaning, *, is_head: bool = False) -> None:
+        for text in meaning.comments:
+            if not (is_head and self.has_frame):
+                self.writer.comment(text)
+
+    def _leave(self, line: _Line, reason: str) -> None:
+        self._comments(line.meaning)
+        block = line.block
+        bare = block.syntax.comment.sub("", block.text).strip().lstrip("/").strip()
+        bare = re.sub(r"^\d+\s+", "", bare) if self.kinds[0] is ControlKind.KLARTEXT else bare
+        self.writer.leave(bare, reason, is_block=True)
+
+    def _reason(self, line: _Line) -> str:
+        """Why a line is not converted at all; empty if it is."""
+        key = line.answer.lines[0] if line.answer is not None else line.block.line
+        if self.levels.get(key) is Plainness.LEFT:
+            return "the target would cut another path there"
+        if line.block.callers:
+            return "it is the profile of a cycle"
+        if line.meaning.reason:
+            return line.meaning.reason
+        if line.answer is not None and line.answer.contour is None:
+            errors = [each for each in line.answer.diagnostics if each.is_error]
+            return f"{errors[0].code}: {errors[0].message}" if errors else "the contour is not solved"
+        is_offset = any(each.function.is_offset for each in line.meaning.functions)
+        return line.lost[0].reason if line.lost and not is_offset else ""
+
+    def _speed_behind(self, place: int) -> Decimal | None:
+        """The next speed behind a tool call, which Klartext has in it."""
+        if not self.lines[place].meaning.has(ProgramFunction.TOOL_CHANGE):
+            return None
+        for number, line in enumerate(self.lines[place:]):
+            if number and line.meaning.has(ProgramFunction.TOOL_CHANGE):
+                return None
+            speed = line.meaning.value(ProgramFunction.SPEED)
+            if speed is not None:
+                self.speeds_told.add(line.block.line)
+                return speed
+        return None
+
+    def _moves(self, line: _Line) -> Iterator[WrittenMove]:
+        answer = line.answer
+        if answer is not None:
+            level = self.levels.get(answer.lines[0], Plainness.OWN_WORDS)
+            own = self._own_words(line, answer) if level is Plainness.OWN_WORDS else None
+            if own is not None:
+                yield from own
+                return
+            if answer.lines[0] not in self.written_out:
+                self.written_out.append(answer.lines[0])
+            if self.has_comments:
+                self.writer.comment(line.block.text)
+            for travel in line.travels:
+                yield self._travel(travel)
+            return
+        yield from self._plain(line)
+
+    def _travel(self, travel: Travel) -> WrittenMove:
+        """A step of the path as one move, by coordinates."""
+        if travel.free:
+            raise NoWordsError("where it begins is not known")
+        ends = {
+            axis: float(end)
+            for axis, start, end in zip(self._axes(travel), travel.start, travel.end, strict=True)
+            if end is not None and start != end
+        }
+        in_plane = travel.plane.axes if travel.plane is not None and travel.bend is not None else ()
+        ends |= {
+            axis: float(end)
+            for axis, end in zip(self._axes(travel), travel.end, strict=True)
+            if axis in in_plane and end is not None
+        }
+        return WrittenMove(travel.motion is Motion.RAPID, ends, arc=travel if travel.bend is not None else None)
+
+    def _axes(self, _travel: Travel) -> tuple[str, ...]:
+        return tuple(sorted({*self.source.modes.axes, *self.target.modes.axes}))
+
+    def _plain(self, line: _Line) -> Iterator[WrittenMove]:
+        """The moves of a line that is no contour."""
+        block, modes = line.block, self.source.modes
+        if line.meaning.has(ProgramFunction.DWELL):
+            return
+        if modes.follow is not None:
+            yield from self._of_klartext(line)
+            return
+        here = line.after
+        lexicon = modes.words(here)
+        words = [
+            (word, lexicon.addresses[word.address])
+            for word in block.words
+            if word.address in lexicon.addresses and lexicon.addresses[word.address].axis
+        ]
+        arcs = [each for each in line.travels if each.bend is not None]
+        if arcs:
+            by_radius = block.find(modes.radius) is not None
+            for travel in arcs:
+                yield replace(self._travel(travel), is_by_radius=by_radius)
+            return
+        if not words:
+            return
+        places, counts = dict[str, float](), dict[str, float]()
+        for word, row in words:
+            value = lexicon.value(word, here.unit)
+            if value is None:
+                raise NoWordsError(f"{word.text.strip()} is not known")
+            if row.is_step(is_incremental=here.is_incremental):
+                counts[row.axis] = float(value)
+                at = here.axes[row.axis].value
+                if at is not None:
+                    places[row.axis] = float(at)
+            else:
+                places[row.axis] = float(value)
+        if here.motion is None and not line.travels:
+            raise NoWordsError("no motion is in force")
+        yield WrittenMove(here.motion == 0, places, counts)
+
+    def _of_klartext(self, line: _Line) -> Iterator[WrittenMove]:
+        """The moves of a line of Klartext that is no contour."""
+        block, modes, said = line.block, self.source.modes, line.meaning.restated
+        if said is None or not said.ends:
+            return
+        if said.around is not None:
+            for travel in line.travels:
+                yield replace(self._travel(travel), is_by_radius=block.find(modes.radius) is not None)
+            return
+        rows = [modes.lexicon.addresses.get(word.address) for word in block.words]
+        steps = {row.axis for row in rows if row is not None and row.is_increment}
+        ends = dict(said.ends)
+        yield WrittenMove(said.is_rapid, ends, {axis: self._step(line, axis) for axis in steps if axis in ends})
+
+    def _step(self, line: _Line, axis: str) -> float:
+        one, other = line.before.axes[axis].value, line.after.axes[axis].value
+        if one is None or other is None:
+            raise NoWordsError(f"where {axis} is before it is not known")
+        return float(other - one)
+
+    # Contours
+
+    def _own_words(self, line: _Line, answer: Answer) -> list[WrittenMove] | None:
+        """The moves of a line of a contour in the words of the target; None where it has none for the contour."""
+        first = answer.lines[0]
+        if first not in self.translated:
+            self.translated[first] = None
+            if not self.writer.is_klartext:
+                self.translated[first] = self._translate(answer)
+            if self.writer.is_klartext or self.translated[first] is not None:
+                self.in_words += 1
+        if self.writer.is_klartext:
+            return [*self._with_corners(line, answer)]
+        moves = self.translated[first]
+        if moves is None:
+            return None
+        parts = [*blocks_of(answer.claim, answer.claim.before, self.source.modes)]
+        names = next((part for part in parts if part.block.line == line.block.line), None)
+        found = list[WrittenMove]()
+        for name, blocks in moves.items():
+            if names is None or not names.makes(name):
+                continue
+            for each in blocks:
+                ends = dict(zip(answer.plane.axes, each.end, strict=True))
+                found.append(WrittenMove(each.code == 0, ends, texts=each.words, code=each.code))
+        return found
+
+    def _translate(self, answer: Answer) -> Moves | None:
+        if answer.contour is None or answer.start.is_relative or self.writer.state.is_incremental:
+            return None
+        parts = [*blocks_of(answer.claim, answer.claim.before, self.source.modes)]
+        if len({part.is_rapid for part in parts}) > 1 or len({part.state.is_incremental for part in parts}) > 1:
+            return None
+        state = self.writer.state
+        if {*state.plane.axes} != {*answer.plane.axes}:
+            return None
+        numbers, post = self.target.modes.lexicon.numbers, post_of(self.target)
+        plane = replace(answer.plane, diameters=_diameters(answer.plane, state.plane), centers=answer.plane.centers)
+        form = Format(
+            plane,
+            state.unit,
+            post.digits(state.unit, numbers),
+            post.writes_point(numbers),
+            Arcs.RADIUS if self._states_radius(answer) else Arcs.CENTER,
+            radius=self.target.modes.radius,
+            words=self.target.modes.lexicon.spelling,
+        )
+        place = tuple(
+            self.writer.here.get(axis, start)
+            for axis, start in zip(answer.plane.axes, answer.contour.start, strict=True)
+        )
+        return translate(answer, self.target, (place[0], place[1]), form, is_rapid=parts[0].is_rapid)
+
+    def _states_radius(self, answer: Answer) -> bool:
+        return any(word.address == self.source.modes.radius for block in answer.claim.blocks for word in block.words)
+
+    def _with_corners(self, line: _Line, answer: Answer) -> Iterator[WrittenMove]:
+        """The elements of a line with the words of Klartext for the corners behind them."""
+        drawn, is_rapid = draw(answer), any(each.motion is Motion.RAPID for each in line.travels)
+        parts = [*blocks_of(answer.claim, answer.claim.before, self.source.modes)]
+        part = next((each for each in parts if each.block.line == line.block.line), None)
+        for element in drawn.elements:
+            segment = element.segment
+            if part is None or not part.makes(segment.name):
+                continue
+            corner = element.corner
+            said = None
+            if corner is not None:
+                shape = next((each for each in _CORNERS_OF_KLARTEXT if size_as(each, element) is not None), None)
+                if shape is None or element is drawn.elements[-1]:
+                    raise NoWordsError("Klartext has no word for its corner")
+                said = CornerWord(shape, float(size_as(shape, element) or 0.0))
+            ends = dict(zip(answer.plane.axes, segment.end, strict=True))
+            if isinstance(segment, ArcSegment):
+                like = next(each for each in line.travels)
+                axes = self._axes(like)
+                arc = along(replace(like, plane=answer.plane, element=segment.name), segment, axes)
+                yield WrittenMove(False, ends, arc=arc, is_by_radius=self._states_radius(answer), corner=said)
+                continue
+            changed = {
+                axis: end
+                for axis, end, start in zip(answer.plane.axes, segment.end, segment.start, strict=True)
+                if abs(end - start) > LENGTH
+            }
+            yield WrittenMove(is_rapid, changed or ends, corner=said)
+
+
+_ALIKE_LATHES = {ControlKind.FANUC_LATHE, ControlKind.HAAS_LATHE}
+_ALIKE_MILLS = {ControlKind.FANUC_MILL, ControlKind.HAAS_MILL, ControlKind.MITSUBISHI_MILL}
+_HEAD = (ProgramFunction.MM, ProgramFunction.INCH, ProgramFunction.FEED_A_MINUTE, ProgramFunction.FEED_A_TURN)
+_ALIKE = (_ALIKE_LATHES, _ALIKE_MILLS)
+
+
+def _codes_of(block: Block) -> list[int]:
+    """The numbers of the G codes of a block; -1 for one that cannot be read."""
+    return [-1 if word.number is None else int(word.number) for word in block.words if word.address == "G"]
+
+
+def _without_number(block: Block) -> str:
+    """A block without its number and its skip, which are written apart."""
+    return re.sub(r"^\s*(?:/\d?)?\s*(?:[Nn]\d+\s*)?", "", block.text.strip())
+
+
+def _diameters(plane: Plane, other: Plane) -> tuple[bool, ...]:
+    """By axis of a plane, whether another state counts it as a diameter."""
+    known = dict(zip(other.axes, other.diameters, strict=False))
+    return tuple(bool(known.get(axis, False)) for axis in plane.axes)
+
+
+def _is_known(state: State, axis: str) -> bool:
+    return axis in state.axes and state.axes[axis].value is not None
+
+
+def _unit(line: _Line) -> Length | None:
+    return (
+        Length.MM
+        if line.meaning.has(ProgramFunction.MM)
+        else Length.INCH
+        if line.meaning.has(ProgramFunction.INCH)
+        else None
+    )
+
+
+def _unit_of_head(lines: Sequence[_Line]) -> Length | None:
+    """The unit in the first line of Klartext."""
+    for line in lines[:3]:
+        match = re.search(r"\bBEGIN\s+PGM\s+\S+\s+(MM|INCH)\b", line.block.text, re.IGNORECASE)
+        if match is not None:
+            return Length.MM if match[1].upper() == "MM" else Length.INCH
+    return None
+
+
+def _without(meaning: Meaning, function: ProgramFunction) -> Meaning:
+    kept = [each for each in meaning.functions if each.function is not function]
+    return Meaning(
+        meaning.block, kept, meaning.codes, meaning.motion, meaning.number, meaning.comments, meaning.lost,
+        meaning.reason, meaning.restated, meaning.radius, meaning.tool_name, meaning.is_metric_feed,
+    )  # fmt: skip
