@@ -198,6 +198,12 @@ def written(kind: str, seed: int, most: int) -> Written:
     return Written(path, words | touching, *program(spelling, path, words))
 
 
+def klartext(*blocks: str) -> str:
+    """A program in Klartext of these free elements."""
+    numbered = (f"{number} {block}\n" for number, block in enumerate(blocks, 2))
+    return KLARTEXT.before + "".join(numbered) + KLARTEXT.behind
+
+
 def program(spelling: Spelling, path: Path, words: Words) -> tuple[str, tuple[str, ...], dict[str, str]]:
     """The text of a program, its facts, and the name of each word, by its text."""
     blocks, named, facts = [], dict[str, str](), list[str]()
@@ -341,7 +347,7 @@ def test_the_sets_that_are_listed_are_the_smallest_that_no_contour_fits(kind, se
 
 
 def test_a_length_is_the_distance_of_its_ends_whatever_direction_is_stated():
-    text = program("1:FL {} 2:FL {}", {"1:X": "X+40 Y+25 AN+30 LEN38", "2:X": "X+80 Y+5"})[0]
+    text = klartext("FL X+40 Y+25 AN+30 LEN38", "FL X+80 Y+5")
     (answer,) = contoursolve.solve(text, control="heidenhain").answers
     assert [(tie.addresses, round(tie.off_by_mm, 3)) for tie in answer.diagnosis.ties] == [
         (("X", "Y", "AN"), 2.321),
@@ -357,7 +363,7 @@ def test_a_length_is_the_distance_of_its_ends_whatever_direction_is_stated():
 
 
 def test_of_an_arc_that_is_said_too_often_each_set_is_compared_alone():
-    text = program("1:FC DR+ {}", {"1:X": "R25 CCX+5 CCY+2 X-10 Y+20"})[0].replace("X+10 Y+5 RL", "X+30 Y+0 RL")
+    text = klartext("FC DR+ R25 CCX+5 CCY+2 X-10 Y+20").replace("X+10 Y+5 RL", "X+30 Y+0 RL")
     (answer,) = contoursolve.solve(text, control="heidenhain").answers
     told = {tie.addresses: (round(tie.off_by_mm, 3), tie.is_conflict) for tie in answer.diagnosis.ties}
     assert told == {
@@ -370,14 +376,14 @@ def test_of_an_arc_that_is_said_too_often_each_set_is_compared_alone():
 
 
 def test_a_tangency_is_off_by_an_angle_and_no_number_is_advised_for_it():
-    text = program("1:FL {} 2:FLT {}", {"1:X": "X+30 Y+5", "2:X": "X+60 Y+15"})[0]
+    text = klartext("FL X+30 Y+5", "FLT X+60 Y+15")
     (answer,) = contoursolve.solve(text, control="heidenhain").answers
     (finding,) = answer.diagnostics
     assert finding.message == "FLT disagrees with X+30, Y+5, X+60 and Y+15 by 18.435 deg"
     assert not [
         each for each in (finding.help, *finding.notes, *(fix.description for fix in finding.fixes)) if "=" in each
     ]
-    text = program("1:FL {} 2:FCT DR+ {}", {"1:X": "X+30 Y+5", "2:X": "R10 CCX+31 CCY+15 X+40 Y+15"})[0]
+    text = klartext("FL X+30 Y+5", "FCT DR+ R10 CCX+31 CCY+15 X+40 Y+15")
     (answer,) = contoursolve.solve(text, control="heidenhain").answers
     messages = [each.message for each in answer.diagnostics]
     assert messages[0] == "FCT disagrees with X+30, CCX+31, CCY+15 and R10 by 5.711 deg"
