@@ -16,6 +16,7 @@ from contoursolve.cli.options import (
     explain_option,
     files_named,
     follow,
+    is_sketch,
     load,
     named_options,
     status_of,
@@ -110,6 +111,8 @@ def check(
     --fix writes the fixes that keep the contour into the programs, and reports what is left. --diff only shows them.
     For standard input and --block, the fixed program goes to standard output, the findings to standard error.
 
+    A sketch (a .toml file) is checked, too: contradictions and missing data, in the lines of its file.
+
     Exit status: 0 no error, 1 an error is found (see --fail-on), 2 a program could not be examined. With --fix it is
     that of the programs afterwards, with --diff as they are. What a baseline hides does not count.
 
@@ -129,6 +132,10 @@ def check(
     names = [name for files in named for name in files]
     loaders, fixing, hiding = load(names, blocks), read_fixing(options), _Hiding(new_baseline, baseline)
     options |= {"strict": is_strict or bool(blocks), "depth": "findings"}
+    if any(map(is_sketch, names)):
+        from contoursolve.cli.sketched import refuse_options  # noqa: PLC0415 - most runs have programs
+
+        refuse_options(context, is_fixing=fixing is not None)
     if fixing:
         fixing.check_usage(format_, has_input=not names or STANDARD_INPUT in names)
     is_silent = new_baseline is not None or (fixing is not None and fixing.is_diff)
@@ -141,6 +148,10 @@ def check(
     is_shown = not telling.is_alone and is_screen(sys.stderr) and not is_torn
 
     def examine(program: Program) -> Run | Collected:
+        if is_sketch(program.name):
+            from contoursolve.cli.sketched import examined_sketch  # noqa: PLC0415 - most runs have programs
+
+            return examined_sketch(program)
         return follow(program, start, assignments, options)
 
     with click.progressbar(loaders, label="checking", file=sys.stderr, hidden=not is_shown) as loaded:

@@ -36,7 +36,11 @@ _OPTIONS = (
     click.option(
         "--part", type=click.Choice(["turned", "milled"]), help="DXF: the part; without it, as NAME makes it."
     ),
-    click.option("--unit", type=click.Choice(["mm", "inch"]), help="DXF: the unit, where the drawing tells none."),
+    click.option(
+        "--unit",
+        type=click.Choice(["mm", "inch", "m"]),
+        help="DXF: the unit, where the drawing tells none or a wrong one.",
+    ),
     click.option("--zero", type=_Place(), help="DXF: the place that is zero; its Y is the axis of a turned part."),
     click.option("--chain", type=click.IntRange(1), metavar="N", help="DXF: the chain, where there are several."),
     click.option("--join", type=click.FloatRange(0, 1, min_open=True), metavar="MM", help="DXF: ends so near meet."),

@@ -387,6 +387,11 @@ _NUMBERED = re.compile(r"O\d{4,}", re.IGNORECASE | re.ASCII)
 _WILD = re.compile(r"[*?\[]")
 
 
+def is_sketch(name: str | None) -> bool:
+    """Whether a name is that of a sketch's file."""
+    return name is not None and name.lower().endswith((".toml", ".json"))
+
+
 def named_after(program: str | None, suffix: str) -> Path:
     """The file in this folder for what is made of a program, where nobody gave it a name."""
     is_named = program is not None and program != STANDARD_INPUT

@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ from contoursolve.cli.options import (
     common_options,
     explain_option,
     follow,
+    is_sketch,
     load,
     named_after,
     print_findings,
@@ -23,7 +25,7 @@ from contoursolve.cli.options import (
 from contoursolve.cli.printing import is_screen, say
 from contoursolve.diagnosis import Answer, count
 from contoursolve.diagnostics import importing
-from contoursolve.gcode import check_target, write_whole
+from contoursolve.gcode import Program, check_target, write_whole
 from contoursolve.output import Collected, beside_of, summary_line
 from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
 from contoursolve.program import Result
@@ -120,6 +122,8 @@ def draw(
     program with several contours makes one drawing, each contour with its number and line; --line and --each draw them
     one by one. PNG needs the extra contoursolve[picture].
 
+    Of a sketch (a .toml file), the drawing shows what is known, what can still slide, and what contradicts the rest.
+
     DXF is for CAD and needs the extra contoursolve[dxf]: every solved contour in full precision, each element on a
     layer of its own; virtual and computed intersections on the layer construction. The drawing's X and Y are the
     plane's axes: on a lathe Z to the right and X up, as radius. It is in mm, or in inches if all contours are.
@@ -143,6 +147,8 @@ def draw(
     source = Path(program) if program else None
     if not is_each:
         check_target(target, source, is_forced=_may_replace(target, output, is_forced=is_forced))
+    if is_sketch(program):
+        _draw_sketched(context, loader(), target, Theme(theme))
     run = follow(loader(), start, assignments, options)
     result, tool = run.collect(), run.tool if isinstance(run, Collected) else None
     print_findings(result, program)
@@ -160,6 +166,23 @@ def draw(
     if not files:
         say(f"{target}: not written")
     context.exit(FOUND_ERRORS if result.has_errors or not files else 0)
+
+
+def _draw_sketched(context: click.Context, program: Program, target: Path, theme: Theme) -> None:
+    """Draw what is known of a sketch, say what is missing, and end the command."""
+    if target.suffix.lower() == _DXF:
+        raise CouldNotRunError(f"{target}: a drawing for CAD is made of a program; `contoursolve write` makes one")
+    from contoursolve.cli.sketched import picture_of, refuse_options  # noqa: PLC0415 - most runs have programs
+
+    refuse_options(context)
+    picture, result = picture_of(program, theme)
+    print_findings(result, program.name)
+    if picture is None:
+        say(f"{target}: not written, for nothing is known where it begins")
+    else:
+        write_whole(target, [bytes_of(picture, target)], keeps_backup=False)
+        say(f"{target}: {picture.title}")
+    context.exit(FOUND_ERRORS if result.has_errors or picture is None else 0)
 
 
 def _pictures(
@@ -209,6 +232,13 @@ def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -
     return [] if drawn is None else [(target, *drawn)]
 
 
+def _date_of(program: str | None) -> str:
+    """The day on which a file was changed, in UTC; empty for what is no file."""
+    if program is None or not Path(program).is_file():
+        return ""
+    return datetime.fromtimestamp(Path(program).stat().st_mtime, UTC).date().isoformat()
+
+
 @click.command(short_help="Make a page about a program, to read, send and print.")
 @click.argument("program", required=False, type=FILE)
 @click.option(
@@ -239,9 +269,10 @@ def report(
 ) -> None:
     """Make one page of HTML about PROGRAM (a file, or - for standard input).
 
-    Every contour with its picture, its elements and its findings with their fixes; the program's text, linked with
-    them; and the manual's places with how well each is known. The page opens without a network, in light and dark,
-    and prints. report writes none for a program without a contour. Needs the extra contoursolve[report].
+    First the title block, the drawing, all points and the findings, those that say the same as one: one sheet of paper
+    for a program of 30 lines. Then each contour that has errors with its picture (with --explain each contour), the
+    program's text, and the manual's places with how well each is known. The page opens without a network, in light and
+    dark, and prints. report writes none for a program without a contour. Needs the extra contoursolve[report].
 
     \b
     contoursolve report shaft.nc
@@ -264,7 +295,8 @@ def report(
     with click.progressbar(
         length=len(result.answers), label="drawing", file=sys.stderr, hidden=not is_screen(sys.stderr)
     ) as bar:
-        pieces = report_page(result, __version__, lambda: bar.update(1), is_explained=is_explained, tool=tool)
+        options = {"is_explained": is_explained, "tool": tool, "date": _date_of(program)}
+        pieces = report_page(result, __version__, lambda: bar.update(1), **options)
         write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
     say(summary_line(result, is_explained=True, tool=tool))
     say(f"{target} written")

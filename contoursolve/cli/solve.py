@@ -10,6 +10,7 @@ from contoursolve.cli.options import (
     common_options,
     explain_option,
     follow,
+    is_sketch,
     load,
     named_options,
     status_of,
@@ -54,6 +55,8 @@ def solve(
     Where several contours fit a block, it prints all. It works out a word with ? for its value, such as P?, from the
     other words and from facts.
 
+    PROGRAM may be a sketch (a .toml file): solve prints what is known of it, and what is missing.
+
     Exit status: 0 no error, 1 an error is found, 2 nothing could be examined.
 
     \b
@@ -61,8 +64,15 @@ def solve(
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
     contoursolve solve --start "X40. Z0." --fact "length of line 1 = 30" --block "G111 X100. A180. B120. K?"
     """
+    loader = load([program] if program else [], blocks)[0]
+    if is_sketch(program):
+        from contoursolve.cli.sketched import refuse_options, solve_sketched  # noqa: PLC0415 - most runs have programs
+
+        refuse_options(context)
+        tally = solve_sketched(loader(), format_, is_explained=is_explained)
+        context.exit(status_of(tally, tally.severities[Severity.ERROR]))
     options["strict"], tally = bool(blocks), Totals()
-    run = follow(load([program] if program else [], blocks)[0](), start, assignments, options)
+    run = follow(loader(), start, assignments, options)
     if format_ == "json":
         from contoursolve.output import stream_json  # noqa: PLC0415 - most runs print text
 

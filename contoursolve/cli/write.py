@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from contoursolve import gcode
 from contoursolve.cli.drawing import drawing_options, read_drawn
 from contoursolve.cli.expand import target_of
 from contoursolve.cli.options import (
@@ -15,22 +16,24 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     control_option,
     format_option,
+    is_sketch,
+    print_findings,
     settings_option,
 )
-from contoursolve.cli.printing import print_json, print_lines, say, style_of_output
+from contoursolve.cli.printing import print_json, print_lines, say
 from contoursolve.controls import ControlName
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import members
-from contoursolve.gcode import STANDARD_INPUT, write_whole
-from contoursolve.output import Style
+from contoursolve.gcode import STANDARD_INPUT, decode, read_bytes, write_whole
 from contoursolve.postprocess import NumberGround, WrittenContour, WrittenContours, WrittenWord
 from contoursolve.program import find_settings, read_setting
 from contoursolve.reading import Control
 from contoursolve.sketches import (
-    ContourSketch,
     UnfinishedError,
-    solve_sketch,
+    read_sketch_file,
+    sketch_result,
     write as write_contour,
+    write_sketch,
 )
 
 SCHEMA = "contoursolve/write/1"
@@ -86,7 +89,9 @@ def write(
     try:
         several = (write_contour(drawn, to, settings=settings),) if to else write_contour(drawn, settings=settings)
     except UnfinishedError:
-        print_lines(_open_lines(drawn, style_of_output()))
+        text = decode(read_bytes(sketch), sketch) if is_sketch(sketch) else write_sketch(drawn)
+        result = sketch_result(read_sketch_file(gcode.parse(text, sketch if is_sketch(sketch) else "sketch")))[1]
+        print_findings(result, sketch if is_sketch(sketch) else None)
         context.exit(FOUND_ERRORS)
     found = several[0]
     if format_ == "json":
@@ -116,27 +121,6 @@ def _report(found: WrittenContours) -> None:
     if reason and found.candidates[0].is_plain and not all(each.is_plain for each in found.candidates):
         reason += " (--all lists them)"
     print_lines((first, *said, *filter(None, (reason,))), err=True)
-
-
-def _open_lines(sketch: ContourSketch, style: Style) -> Iterator[str]:
-    """The lines of what keeps a sketch from having one contour, as findings are printed, and what would choose one."""
-    known = solve_sketch(sketch)
-    for each in known.findings:
-        yield f"{style(f'{each.severity.value}[{each.code}]', each.severity.value)}: {each.message}"
-        for number, field in each.fields:
-            name = sketch.name_of(number) if number else "the sketch"
-            yield f" --> {name}{f', {field}' if field != _WHOLE else ''}"
-        yield f"  = help: {each.help}"
-    if known.missing and not known.findings:
-        yield f"{style('error', 'error')}: {known.missing}"
-    for solution in known.solutions:
-        number, place = solution.guess
-        guess = ", ".join(f"{axis} = {at}" for axis, at in place.items())
-        yield f"  = {solution.name}: guess = {{ {guess} }} in {sketch.name_of(number)} chooses it"
-
-
-_WHOLE = "kind"
-"""The field that stands for a whole element."""
 
 
 def _candidate_lines(candidate: WrittenContour) -> Iterator[str]:

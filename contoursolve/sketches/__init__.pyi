@@ -9,6 +9,10 @@ from .dxf_in import (
 from .finishing import (
     SketchEntry as SketchEntry,
 )
+from .in_file import (
+    read_sketch_file as read_sketch_file,
+    sketch_result as sketch_result,
+)
 from .known_part import (
     PartState as PartState,
     SketchAnswer as SketchAnswer,
@@ -35,6 +39,7 @@ from .sketch_file import (
 from .view import (
     draw_sketch as draw_sketch,
     sketch_view as sketch_view,
+    state_text as state_text,
 )
 from .words_out import (
     UnfinishedError as UnfinishedError,

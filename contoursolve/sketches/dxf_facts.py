@@ -13,8 +13,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.sketches.dxf_chain import DxfChain
-from contoursolve.sketches.sketch import SketchElement, Value
-from contoursolve.solving import ArcSegment, LineSegment, Point, direction, foot
+from contoursolve.sketches.sketch import SketchCorner, SketchElement, Value
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, direction, foot
 
 _STRAIGHT, _SLOPED, _ANGULAR, _DIAMETER, _RADIUS, _BY_POINTS, _ORDINATE = range(7)
 """Types of dimensions, as DXF numbers them (group 70)."""
@@ -62,11 +62,57 @@ class DrawnFact(Struct, frozen=True):
         return {self.field: self.value, **counts}
 
 
+class Chamfer(Struct, frozen=True):
+    """A chamfer after an element, by the element's place: its setback, its ends, and the corner that it cuts."""
+
+    after: int
+    setback: float
+    ends: tuple[Point, Point]
+
+
+def chamfered(chain: DxfChain, near: float) -> tuple[DxfChain, tuple[Chamfer, ...]]:
+    """The chain without lines that cut as much from both their neighbours, which go on to the corner; and these."""
+    kept, found = list(chain.elements), list[Chamfer]()
+    place = 1
+    while place < len(kept) - 1:
+        before, own, after = kept[place - 1 : place + 2]
+        corner = _corner_of(before, own, after, near)
+        if corner is not None:
+            found.append(Chamfer(place - 1, dist(corner, own.start), (own.start, own.end)))
+            kept[place - 1 : place + 2] = [replace(before, end=corner), replace(after, start=corner)]
+        place += 1
+    return replace(chain, elements=tuple(kept)), tuple(found)
+
+
+def _corner_of(before: Segment, own: Segment, after: Segment, near: float) -> Point | None:
+    """The corner that a chamfer cuts; None of what is none."""
+    if not (isinstance(own, LineSegment) and isinstance(before, LineSegment) and isinstance(after, LineSegment)):
+        return None
+    way, other = direction(before.start, before.end), direction(after.end, after.start)
+    turn = way[0] * other[1] - way[1] * other[0]
+    if abs(turn) < _SHARP:
+        return None
+    gap = own.end[0] - own.start[0], own.end[1] - own.start[1]
+    setbacks = (gap[0] * other[1] - gap[1] * other[0]) / turn, (gap[0] * way[1] - gap[1] * way[0]) / turn
+    is_square = abs(way[0] * other[0] + way[1] * other[1]) < _SHARP
+    room = (max if is_square else min)(before.length, after.length)
+    if abs(setbacks[0] - setbacks[1]) > near or min(setbacks) <= near or own.length >= room:
+        return None
+    return own.start[0] + way[0] * setbacks[0], own.start[1] + way[1] * setbacks[0]
+
+
+_SHARP = 1e-3
+"""1 (a sine). Lines that turn by less have no corner; lines that turn from a right angle by less are square."""
+
+
 class Chained:
     """A chain with its places: the start, the end of each element, then the centres of its arcs. Of a closed chain the
     last end is the start. `near` is how near the points of dimensions lie."""
 
-    def __init__(self, chain: DxfChain, axes: tuple[str, str], near: float, *, is_turned: bool) -> None:
+    def __init__(
+        self, chain: DxfChain, axes: tuple[str, str], near: float, *, is_turned: bool, chamfers: Sequence[Chamfer] = ()
+    ) -> None:
+        self.chamfers = {each.after: each for each in chamfers}
         self.elements, self.axes, self.near = chain.elements, axes, near
         self.is_turned, self.is_closed = is_turned, chain.is_closed
         count = len(self.elements)
@@ -126,7 +172,14 @@ class Chained:
 
     def level_with(self, axis: int, at: Point) -> list[int]:
         """These ends, and all that lines along the other axis show to have the same coordinate."""
-        found, grown = set[int](), self.ends_at(at)
+        # Where a chamfer ends, its corner has the same coordinate as the line that it cuts.
+        cut = {
+            place + 1
+            for place, each in self.chamfers.items()
+            for line, end in zip(self.elements[place : place + 2], each.ends, strict=True)
+            if self.is_along(line, 1 - axis) and dist(end, self.over(at)) <= self.near
+        }
+        found, grown = set[int](), self.ends_at(at) | cut
         level = [place for place, each in enumerate(self.elements) if self.is_along(each, 1 - axis)]
         while found != grown:
             found = {*grown}
@@ -317,6 +370,7 @@ def elements_of(chained: Chained, facts: Sequence[DrawnFact], *, has_guess: bool
                 {name: value for fact in own for name, value in fact.words().items()},
                 arc.turn.value if arc else None,
                 any(fact.field == "tangent" for fact in own),
+                _corner(chained.chamfers.get(place)),
                 guess=chained.place(place + 1) if has_guess else {},
                 facts=tuple(
                     f"angle from line {(fact.origin or 0) + 1} to line {place + 1} = {fact.value}"
@@ -326,3 +380,7 @@ def elements_of(chained: Chained, facts: Sequence[DrawnFact], *, has_guess: bool
             )
         )
     return tuple(found)
+
+
+def _corner(chamfer: Chamfer | None) -> SketchCorner | None:
+    return SketchCorner("chamfer", number(chamfer.setback)) if chamfer is not None else None

@@ -17,6 +17,7 @@ from contoursolve.gcode import MOST_OF_OTHERS, open_regular
 from contoursolve.sketches.dxf_chain import (
     JOINED,
     Contents,
+    DrawnCurve,
     DxfChain,
     DxfError,
     Net,
@@ -28,7 +29,9 @@ from contoursolve.sketches.dxf_chain import (
 )
 from contoursolve.sketches.dxf_facts import (
     Chained,
+    Chamfer,
     DrawnFact,
+    chamfered,
     coordinates,
     dimensions,
     elements_of,
@@ -42,6 +45,11 @@ from contoursolve.solving import ArcSegment, Point
 from contoursolve.tolerance import LARGEST
 
 _Unit = Literal["mm", "inch"]
+_Stated = Literal["mm", "inch", "m"]
+_STATED: Mapping[_Stated, tuple[_Unit, float]] = {"mm": ("mm", 1.0), "inch": ("inch", 1.0), "m": ("mm", 1000.0)}
+"""Units that may be said of a drawing: the unit of the sketch, and how many of it are one of the drawing."""
+_LONGEST = 10_000.0
+"""mm. A part is hardly longer; metres in a header are what many programs write where nobody said a unit."""
 _Part = Literal["turned", "milled"]
 _MM: Mapping[_Unit, float] = {"mm": 1.0, "inch": 25.4}
 _UNITS: Mapping[int, tuple[_Unit, float]] = {
@@ -84,7 +92,7 @@ def read_dxf(
     *,
     part: _Part,
     layer: str | None = None,
-    unit: _Unit | None = None,
+    unit: _Stated | None = None,
     zero: Point | None = None,
     chain: int | None = None,
     join: float = JOINED,
@@ -99,7 +107,8 @@ def read_dxf(
         drawing: the path of a file, or its bytes.
         part: `turned` or `milled`.
         layer: the name of a layer, or a pattern such as `contour*`; all layers without it.
-        unit: of the drawing, where it tells none.
+        unit: of the drawing, where it tells none or a wrong one: mm, inch or m. A header that says metres is not
+            believed without it where the part would be longer than 10 m.
         zero: the place of the drawing that is zero of the part; its Y is the axis of a turned part.
         chain: the number of the chain, the largest is 1; needed where there are several.
         join: mm; ends so near are one place.
@@ -111,8 +120,8 @@ def read_dxf(
         ValueError: another part or unit.
         MissingExtraError: without the package of `contoursolve[dxf]`.
     """
-    if part not in DRAWINGS or unit not in (None, *_MM):
-        raise ValueError(f"part is turned or milled, and unit mm or inch, not {part!r} and {unit!r}")
+    if part not in DRAWINGS or unit not in (None, *_STATED):
+        raise ValueError(f"part is turned or milled, and unit mm or inch, or m, not {part!r} and {unit!r}")
     document, notes = _opened(drawing)
     named, scale = _unit(document, unit, notes)
     near = join / _MM[named]
@@ -125,6 +134,18 @@ def read_dxf(
     if not wanted:
         raise DxfError(_no_lines(contents, layers, layer), layers)
     curves = [each for each in contents.curves if each.layer in wanted]
+    length = _longest(curves)
+    if unit is None and scale == _STATED["m"][1] and length > _LONGEST:
+        scale, notes[-1] = (
+            1.0,
+            (
+                f"warning: the header says metres, and the part would be {length / 1000:.6g} m long: it is read in mm; "
+                "--unit mm says so, --unit m takes metres"
+            ),
+        )
+        place = _Placing(zero or (0.0, 0.0), scale)
+        contents = read_contents(document.modelspace(), place, scale, hidden)
+        curves = [each for each in contents.curves if each.layer in wanted]
     for segment in (each.segment for each in curves):
         if not all(abs(each) * _MM[named] <= LARGEST for each in (*segment.start, *segment.end)):
             raise DxfError(f"{segment.name} lies farther away than a control can travel: {told(segment.end)}", layers)
@@ -147,14 +168,35 @@ def read_dxf(
     notes += [f"left out, beside the contour: {count} {kind}" for kind, count in beside.items()]
     is_backward = part == "turned" and not chosen.is_closed and chosen.elements[0].start[0] < chosen.elements[-1].end[0]
     chosen = _directed(chosen, is_reversed=is_backward != reverse)
-    chained = Chained(chosen, DRAWINGS[part].plane.axes, JOINED / _MM[named], is_turned=part == "turned")
+    axes, distance = DRAWINGS[part].plane.axes, JOINED / _MM[named]
+
+    def chained_by(chain: DxfChain, chamfers: Sequence[Chamfer]) -> tuple[Chained, set[str]]:
+        own = Chained(chain, axes, distance, is_turned=part == "turned", chamfers=chamfers)
+        return own, {fact.given for fact in dimensions(own, contents.dimensions, place)[0]}
+
+    chained, given_by = chained_by(chosen, ())
+    plain, chamfers = chamfered(chosen, near)
+    of_corners, given_by_corners = chained_by(plain, chamfers)
+    # Where a dimension ends at the end of a chamfer, the drawing says the line itself.
+    chained, chamfers = (of_corners, chamfers) if given_by_corners >= given_by else (chained, ())
+    notes += [f"read as a chamfer of {each.setback:.6g} {named}: {_name(chosen, each.ends)}" for each in chamfers]
     known = list(coordinates(chained))
-    sketch, given = _sketch(chained, known, contents.dimensions, place, named, notes)
+    sketch, given = _sketch(chained, chosen, known, contents.dimensions, place, named, notes)
     return DxfSketch(sketch, given, tuple(notes), dict(layers), tuple(_measured(chained, known)))
 
 
+def _name(chain: DxfChain, ends: tuple[Point, Point]) -> str:
+    return next(each.name for each in chain.elements if (each.start, each.end) == ends)
+
+
 def _sketch(
-    chained: Chained, known: Sequence[DrawnFact], entities: Sequence[Any], place: Any, unit: _Unit, notes: list[str]
+    chained: Chained,
+    chain: DxfChain,
+    known: Sequence[DrawnFact],
+    entities: Sequence[Any],
+    place: Any,
+    unit: _Unit,
+    notes: list[str],
 ) -> tuple[ContourSketch, tuple[str, ...]]:
     """The sketch with the numbers of dimensions, and these; where they fix no contour, or another one, with the
     coordinates. A guess chooses among several solutions. What is told of dimensions is added to the notes."""
@@ -183,11 +225,17 @@ def _sketch(
         answer = solve_sketch(found).answer
         path = answer.contour.elements if answer is not None and answer.contour is not None else ()
         ends = [(each.end[0] / _MM[unit], each.end[1] / _MM[unit]) for each in path]
-        drawn = [each.end for each in chained.elements]
+        drawn = [each.end for each in chain.elements]
         if len(ends) == len(drawn) and max(map(dist, ends, drawn)) <= chained.near:
             return found, given
     notes.append("the numbers of dimensions do not fix the contour: the coordinates of the drawing are given")
     return sketch(known), ()
+
+
+def _longest(curves: Sequence[DrawnCurve]) -> float:
+    """How far lines and arcs reach along an axis."""
+    places = [at for each in curves for at in each.points()]
+    return max((max(own) - min(own) for own in zip(*places, strict=True)), default=0.0)
 
 
 class _Placing(Struct, frozen=True):
@@ -245,13 +293,13 @@ def _strictly(data: bytes) -> Any:
     return read(io.StringIO(data.decode(encoding, "surrogateescape"), newline=None))
 
 
-def _unit(document: Any, wanted: _Unit | None, notes: list[str]) -> tuple[_Unit, float]:
+def _unit(document: Any, wanted: _Stated | None, notes: list[str]) -> tuple[_Unit, float]:
     """The unit of the sketch, and how many of it are one of the drawing. Raises DxfError."""
     stated = _UNITS.get(document.header.get("$INSUNITS", 0))
     if wanted is not None:
-        if stated is not None and stated != (wanted, 1.0):
+        if stated is not None and stated != _STATED[wanted]:
             notes.append(f"the drawing says that its unit is {stated[1]:g} {stated[0]}; {wanted} is taken, as you say")
-        return wanted, 1.0
+        return _STATED[wanted]
     if stated is None:
         raise DxfError("the drawing does not tell its unit; say mm or inch (unit)")
     if stated[1] != 1:

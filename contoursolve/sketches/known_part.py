@@ -34,7 +34,7 @@ from contoursolve.sketches.finishing import (
     with_examples,
     written_place,
 )
-from contoursolve.sketches.sketch import ContourSketch, SketchElement
+from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchElement
 from contoursolve.sketches.terms import on_drawing
 from contoursolve.solving import (
     ArcSegment,
@@ -236,8 +236,10 @@ class _Reading:
         self.points |= {(number, "CC"): each.center for number, each in enumerate(path, 1) if isinstance(each, Arc)}
         self.loose: NaturalDrawing | None = None
         self.gap: SketchFinding | None = None
+        self.with_ranges = False
 
     def result(self, *, with_ranges: bool) -> SketchAnswer:
+        self.with_ranges = with_ranges
         answer, listed = self.answer, _contours(self.answer)
         several = [contour for contour, _ in listed]
         chosen = self._chosen(several) if len(several) > 1 else None
@@ -445,7 +447,11 @@ class _Reading:
     # Findings ------------------------------------------------------------------------------------------------
 
     def _finding(self, finding: Diagnostic) -> SketchFinding:
-        """A finding in the words of the sketch, with its fixes."""
+        """A finding in the words of the sketch, with its fixes: numbers that agree first, then what may go."""
+        fixes = tuple(self._fixes(finding))
+        agreeing = [*filter(None, map(self._agreeing, fixes if finding.is_error and self.with_ranges else ()))]
+        # An angle of a drawing is rarely the number that is wrong.
+        agreeing.sort(key=lambda each: each.title.startswith(_ANGLES))
         return SketchFinding(
             finding.code,
             finding.severity,
@@ -453,8 +459,29 @@ class _Reading:
             on_drawing(finding.help, self.sketch),
             self._fields(finding),
             finding.values.get("off_by_mm"),
-            tuple(self._fixes(finding)),
+            (*agreeing, *fixes),
         )
+
+    def _agreeing(self, fix: SketchFix) -> SketchFix | None:
+        """For a fix that deletes one number, one that writes what the rest gives; None where that, typed in to three
+        decimals, does not agree."""
+        (number, now), *others = fix.elements.items()
+        old = self.sketch.elements[number - 1]
+        gone = [name for name in old.words if name not in now.words]
+        if others or len(gone) != 1 or replace(old, words=now.words) != now or old.words[gone[0]] == ASKED:
+            return None
+        name, open_ = gone[0], self.sketch.changed(number, words={**old.words, gone[0]: ASKED})
+        found = examined(open_)
+        value = asked_values(as_program(open_), found).get((number, name)) if found is not None else None
+        if value is None:
+            return None
+        told = value.normalize()
+        mended = self.sketch.changed(number, words={**old.words, name: told})
+        checked_ = examined(mended)
+        if checked_ is None or checked_.contour is None:
+            return None
+        title = f"write {name}{told:f} for {name}{old.words[name]} in {self.sketch.name_of(number)}"
+        return SketchFix(title, {number: mended.elements[number - 1]})
 
     def _fixes(self, finding: Diagnostic) -> Iterator[SketchFix]:
         """The fixes of a finding that change elements."""
@@ -490,6 +517,9 @@ def _off_of(number: int, loose: NaturalDrawing) -> float | None:
     """The largest amount, mm, by which a fact of an element is off; None where all are true."""
     most = max((off for given, off in loose.off_mm.items() if given.startswith(f"{number}:")), default=0.0)
     return most if most > NOTHING else None
+
+
+_ANGLES = ("write AN", "write IAN", "write CCA", "write PA", "write RAN")
 
 
 _OPEN = (Status.UNDERDETERMINED, Status.AMBIGUOUS)

@@ -6,6 +6,7 @@ from typing import Any
 
 from contoursolve.diagnosis import length_text, status_text
 from contoursolve.diagnostics import checked, members, plain
+from contoursolve.geometry import Length
 from contoursolve.pictures import (
     Mark,
     MarkKind,
@@ -18,7 +19,7 @@ from contoursolve.pictures import (
     Weight,
     draw_sketched,
 )
-from contoursolve.sketches.known_part import PartState, SketchAnswer, SketchFix, solve_sketch
+from contoursolve.sketches.known_part import PartState, SketchAnswer, SketchFix, SketchPart, solve_sketch
 from contoursolve.sketches.sketch import ContourSketch
 from contoursolve.sketches.sketch_file import plain_element
 from contoursolve.sketches.terms import entry_text
@@ -95,11 +96,15 @@ def _others(found: SketchAnswer) -> Iterator[Part]:
         yield Mark(at, kind, runs, runs[:1], role)
 
 
+def state_text(part: SketchPart, found: SketchAnswer) -> str:
+    """The state of an element or a corner, with the amount by which it contradicts the rest."""
+    unit = found.answer.unit if found.answer is not None else Length.MM
+    off = f", off by {length_text(part.off_mm, unit)}" if part.off_mm is not None else ""
+    return f"{_STATES[part.state][1]}{off}"
+
+
 def _told(found: SketchAnswer) -> Iterator[str]:
-    assert found.answer is not None
-    for each in found.elements:
-        off = f", off by {length_text(each.off_mm, found.answer.unit)}" if each.off_mm is not None else ""
-        yield f"{each.name}: {_STATES[each.state][1]}{off}."
+    yield from (f"{each.name}: {state_text(each, found)}." for each in found.elements)
     yield from (f"{each[0].upper()}{each[1:]}." for each in (found.missing, *found.remarks) if each)
 
 

@@ -14,6 +14,7 @@ from ezdxf import units
 from contoursolve import ArcSegment, LineSegment, read_dxf
 from contoursolve.errors import DxfError
 from contoursolve.geometry import Turn
+from contoursolve.sketches import SketchCorner
 
 ROOT = Path(__file__).parents[2]
 
@@ -198,6 +199,28 @@ def test_units_are_those_of_the_drawing_or_asked(unit, end, words, said):
     assert read_dxf(data(document), part="milled", unit="inch").sketch.unit == "inch"
 
 
+@pytest.mark.parametrize(("end", "unit", "mm"), [(60, None, 60), (60, "mm", 60), (60, "m", 60_000), (9, None, 9_000)])
+def test_metres_of_a_header_are_not_believed_of_a_part_longer_than_ten(end, unit, mm):
+    document, space = drawing(units.M)
+    space.add_line((0, 0), (end, 1))
+    found = read_dxf(data(document), part="milled", unit=unit)
+    assert found.sketch.elements[0].words["X"] == mm
+    assert any("60 m long: it is read in mm; --unit mm" in each for each in found.notes) == (end == 60 and unit is None)
+
+
+@pytest.mark.parametrize(
+    ("corner", "size"),
+    [([(50, 26), (46, 30)], 4), ([(50, 26), (45, 30)], None), ([(50, 10), (30, 30)], 20), ([(50, 30)], None)],
+)
+def test_a_line_that_cuts_as_much_from_both_its_neighbours_is_a_chamfer(corner, size):
+    document, space = drawing()
+    space.add_lwpolyline([(0, 0), (50, 0), *corner, (0, 30)], close=True)
+    found = read_dxf(data(document), part="milled")
+    second = found.sketch.elements[1].corner
+    assert second == (SketchCorner("chamfer", Decimal(str(size))) if size else None)
+    assert [*path_of(found)[1].end] == pytest.approx([*corner[0]])
+
+
 # What is refused, and what is told ----------------------------------------------------------------------------------
 
 
@@ -275,7 +298,7 @@ def test_an_axis_is_never_guessed():
     document, space = drawing()
     space.add_lwpolyline([(0, 20), (-30, 20), (-30, 30), (-5, 30), (0, 25)], close=True)
     found = read_dxf(data(document), part="turned")
-    assert ("the axis is Y0 of the drawing" in found.notes, len(found.sketch.elements)) == (True, 5)
+    assert ("the axis is Y0 of the drawing" in found.notes, len(found.sketch.elements)) == (True, 4)
     document, space = drawing()
     space.add_line((0, -5), (-30, 30))
     assert "lies on both sides of Y0, from Y-5 to Y30, and is not the same on both" in refused(document, part="turned")

@@ -3,12 +3,58 @@
 import json
 from pathlib import Path
 
+import calling
 import pytest
 
 import contoursolve
 from contoursolve.sketches import SketchError, read_sketch, sketch_schema, solve_sketch, write_sketch
 
 ROOT = Path(__file__).parents[2]
+
+SPINDLE = """sketch = 1
+part = "turned"
+start = { Z = -33, X = 40 }
+
+[[element]]
+kind = "line"
+AN = 165
+X = 46 # of the drawing
+Z = -45
+
+[[element]]
+kind = "arc"
+tangent = true
+turn = "ccw"
+R = 20
+
+[[element]]
+kind = "line"
+tangent = true
+X = 52
+Z = -70
+"""
+
+
+def test_commands_take_a_sketch_and_name_values_that_agree_when_they_are_typed_in(tmp_path):
+    """`check` names the lines of the file; each number that it proposes makes a contour; what is missing is drawn."""
+    file, lines = tmp_path / "spindle.toml", SPINDLE.splitlines()
+    file.write_text(SPINDLE, encoding="utf-8")
+    status, told, _ = calling.run("check", file, "--format", "json")
+    finding = json.loads(told)["diagnostics"][0]
+    agreeing = [each for each in finding["fixes"] if each["description"].startswith("write ")]
+    assert (status, lines[finding["line"] - 1].split(" =")[0] in ("kind", "AN", "X", "Z")) == (1, True)
+    assert agreeing
+    for each in agreeing:
+        (change,) = each["beside"]
+        typed = [*lines[: change["line"] - 1], change["text"], *lines[change["line"] :]]
+        file.write_text("\n".join(typed), encoding="utf-8")
+        assert calling.run("check", file)[0] == 0
+    assert "the contour is finished" in calling.run("solve", file)[1]
+    file.write_text(SPINDLE.replace("AN = 165\n", "").replace("X = 52\n", ""), encoding="utf-8")
+    drawn = tmp_path / "spindle.svg"
+    status, told, _ = calling.run("draw", file, "-o", drawn)
+    assert (status, "missing" in told, "missing" in drawn.read_text(encoding="utf-8")) == (1, True, True)
+    assert calling.run("solve", file, "--control", "isg")[0] == 2
 
 
 def test_numbers_keep_their_digits():
