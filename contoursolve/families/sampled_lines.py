@@ -28,6 +28,9 @@ STRIDE = 16
 SECTIONS = 8
 """Parts into which the way between two neighbours is divided of which one has the contour."""
 
+ROUNDS = 3
+"""Times that it is divided, each time the part in which the contour begins to exist."""
+
 
 class Boundary(Struct, frozen=True):
     """A line between values that were solved, with and without the contour. `points` are values of both words; the
@@ -74,16 +77,17 @@ def crossings_of(
         found.append(numpy.where(is_first[:, None, None], pairs, pairs[:, ::-1]))
     nodes = numpy.concatenate(found)
     inside, outside = numpy.stack([axes[word][nodes[:, :, word]] for word in (0, 1)], axis=2).transpose(1, 0, 2)
-    sections, number = 1, numpy.zeros((len(nodes), 1))
-    if solve is not None and len(nodes):
-        sections = SECTIONS
-        shares = numpy.linspace(0.0, 1.0, sections + 1)[1:-1, None, None]
+    for _ in range(ROUNDS):
+        if solve is None or not len(nodes):
+            break
+        shares = numpy.linspace(0.0, 1.0, SECTIONS + 1)[1:-1, None, None]
         between = inside + shares * (outside - inside)
-        is_solved = is_contour(solve(between.reshape(-1, 2))).reshape(sections - 1, -1)
-        number = numpy.where(is_solved.all(axis=0), sections - 1, is_solved.argmin(axis=0))[:, None]
-    step = (outside - inside) / sections
-    beyond = numpy.where(number == sections - 1, outside, inside + (number + 1) * step)
-    return Crossings(nodes, inside + (number + 0.5) * step, beyond)
+        is_solved = is_contour(solve(between.reshape(-1, 2))).reshape(SECTIONS - 1, -1)
+        number = numpy.where(is_solved.all(axis=0), SECTIONS - 1, is_solved.argmin(axis=0))[:, None]
+        step = (outside - inside) / SECTIONS
+        outside = numpy.where(number == SECTIONS - 1, outside, inside + (number + 1) * step)
+        inside = inside + number * step
+    return Crossings(nodes, (inside + outside) / 2, outside)
 
 
 def boundaries_of(template: Template, outcomes: Outcomes, crossings: Crossings) -> Iterator[Boundary]:

@@ -1,8 +1,10 @@
 """A report: one page of HTML about a whole program, for a screen or for paper. It loads nothing and runs no script, so
 that it opens anywhere and says the same in ten years."""
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from math import dist
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -13,7 +15,7 @@ from msgspec import Struct
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count
 from contoursolve.diagnostics import Diagnostic, Evidence, Label, LateModule, Severity, Span, checked
-from contoursolve.gcode import Block
+from contoursolve.gcode import Block, own_comments
 from contoursolve.output.contours import given_table, path_of
 from contoursolve.output.html import (
     checks_table,
@@ -34,6 +36,7 @@ from contoursolve.output.listing import sources_of, summary_line
 from contoursolve.output.plain_text import Name, printable
 from contoursolve.pictures import About, named_words
 from contoursolve.program import Result
+from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
     from contoursolve import tool_radius
@@ -70,6 +73,12 @@ class PageAnchors(Struct, frozen=True):
     findings: Mapping[int, int]
     marks: Mapping[int, Sequence[Marked]]
     tool: "tool_radius.ToolReport | None" = None
+    shown: frozenset[int] = frozenset()
+    """The numbers of the contours that have a picture and tables of their own."""
+
+    def contour(self, number: int) -> str:
+        """The address of a contour: its own part of the page, or its row in the table of points."""
+        return f"#contour-{number}" if number in self.shown else f"#points-{number}"
 
     def line(self, number: int) -> str | None:
         """The address of a line; None for what was stated apart from the program."""
@@ -80,8 +89,9 @@ class PageAnchors(Struct, frozen=True):
         return f"finding-{self.findings[id(finding)]}"
 
 
-def _find_places(result: Result, tool: "tool_radius.ToolReport | None") -> PageAnchors:
-    """The places of everything that a result holds."""
+def _find_places(result: Result, tool: "tool_radius.ToolReport | None", *, is_explained: bool) -> PageAnchors:
+    """The places of everything that a result holds. A contour has a part of its own where it is asked for, alone, or
+    has errors."""
     numbered = list(enumerate(result.answers, 1))
     marks: dict[int, list[Marked]] = {}
     for finding in result.diagnostics:
@@ -93,6 +103,14 @@ def _find_places(result: Result, tool: "tool_radius.ToolReport | None") -> PageA
         {id(each): number for number, each in enumerate(result.diagnostics, 1)},
         marks,
         tool,
+        frozenset(
+            number
+            for number, answer in numbered
+            if is_explained
+            or len(numbered) == 1
+            or answer.contour is None
+            or any(e.is_error for e in answer.diagnostics)
+        ),
     )
 
 
@@ -104,14 +122,18 @@ def report_page(
     *,
     is_explained: bool = False,
     tool: "tool_radius.ToolReport | None" = None,
+    date: str = "",
 ) -> Iterator[str]:
-    """The page in pieces, explained with equations, with the path of a tool; `progress` is called after each
-    contour."""
-    yield from _page(result, version, progress, _find_places(result, tool), is_explained=is_explained).iter_chunks()
+    """The page in pieces, explained with equations and a picture of each contour, with the path of a tool; `progress`
+    is called after each contour, `date` is that of the file."""
+    places = _find_places(result, tool, is_explained=is_explained)
+    yield from _page(result, version, progress, places, date, is_explained=is_explained).iter_chunks()
     yield "\n"
 
 
-def _page(result: Result, version: str, progress: Progress, places: PageAnchors, *, is_explained: bool) -> h.Element:
+def _page(
+    result: Result, version: str, progress: Progress, places: PageAnchors, date: str, *, is_explained: bool
+) -> h.Element:
     lighting = _lighting(result)
     has_chains = any(answer.claim.form.is_general for answer in result.answers)
     style = page_style(has_chains=has_chains, has_tool=places.tool is not None)
@@ -129,14 +151,17 @@ def _page(result: Result, version: str, progress: Progress, places: PageAnchors,
             h.style[Markup(style + style_rules("report.css") + lighting)],
         ],
         h.body(".contoursolve")[
-            h.header[h.h1[name], h.p(".lead")[summary], _conditions(result, places)],
+            h.header[h.h1[short(_title_of(result)) or name], h.p(".lead")[summary], _conditions(result, places, date)],
             h.nav(aria_label="Parts of this page")[
                 h.a(href="#contours")["Contours"],
+                h.a(href="#findings")["Findings"] if result.diagnostics else None,
                 h.a(href="#program")["Program"],
                 h.a(href="#sources")["Sources"],
             ],
             h.main[
-                _contours(result, places, progress, is_lit=bool(lighting), is_explained=is_explained),
+                _contours(result, places),
+                _findings_in_short(result, places),
+                _each_contour(result, places, progress, is_lit=bool(lighting), is_explained=is_explained),
                 _others(result, places),
                 _program(result, places),
                 _sources(result),
@@ -162,10 +187,41 @@ def _lighting(result: Result) -> str:
         return ""
 
 
-def _conditions(result: Result, places: PageAnchors) -> h.Element:
-    """The control, and everything apart from the program that the result depends on."""
+_NUMBERS = re.compile(r"^\s*[O:]\s*(\d{1,8})\b|^\s*%_N_(\w+?)_[MS]PF|BEGIN\s+PGM\s+(\S+)", re.IGNORECASE)
+_HEAD = 4
+"""Lines at the head of a program in which its number and its name stand."""
+
+
+def _number_of(result: Result) -> str:
+    """The number or the name that a program has on its control; empty where it has none."""
+    found = (_NUMBERS.search(block.text) for block in result.program.blocks[:_HEAD])
+    return next((f"O{each[1]}" if each[1] else each[2] or each[3] for each in found if each), "")
+
+
+def _title_of(result: Result) -> str:
+    """The first comment at the head of a program."""
+    comments = (own for block in result.program.blocks[:_HEAD] for own in own_comments(block))
+    return next(
+        (each for each in (told.strip("(); \t") for told in comments) if each and "contoursolve" not in each.lower()),
+        "",
+    )
+
+
+def _conditions(result: Result, places: PageAnchors, date: str) -> h.Element:
+    """The title block: the number, the file, the control, and everything else that the result depends on."""
     control = CONTROLS.get(result.control or "")
-    rows = [("program", result.program.name)]
+    name, blocks = PurePath(result.program.name).name, result.program.blocks
+    rows = [("program", each) for each in [_number_of(result)] if each]
+    rows.append(("file", f"{name}, {count(len(blocks), 'line')}"))
+    rows += [("date of the file", date)] if date else []
+    units = dict.fromkeys(answer.unit.value for answer in result.answers)
+    diameters = dict.fromkeys(
+        axis
+        for answer in result.answers
+        for axis, is_diameter in zip(answer.plane.axes, answer.plane.diameters, strict=True)
+        if is_diameter
+    )
+    rows += [("unit", ", ".join([*units, *(f"{axis} = Ø" for axis in diameters)]))] if units else []
     rows.append(("control", f"{control.title} ({control.name})" if control else result.control or "not known"))
     if result.policy is not Policy.ENFORCE:
         rows.append(("rules of the manual", result.policy.value))
@@ -174,19 +230,18 @@ def _conditions(result: Result, places: PageAnchors) -> h.Element:
         rows.append(("start", result.start.text))
     rows += [("further fact", fact.text) for fact in result.facts]
     rows += [("tool", told) for told in dict.fromkeys(each.title for each in _runs(places))]
-    return h.dl[([h.dt[name], h.dd[short(value)]] for name, value in rows)]
+    return h.dl[(h.div[h.dt[name], h.dd[short(value)]] for name, value in rows)]
 
 
-def _contours(
-    result: Result, places: PageAnchors, progress: Progress, *, is_lit: bool, is_explained: bool
-) -> h.Element | None:
+def _contours(result: Result, places: PageAnchors) -> h.Element:
+    """The drawing, one line a contour, and every point."""
     together = figure(result, is_inline=True, tool=places.tool) if len(result.answers) > 1 or _runs(places) else None
     if not result.answers:
         return h.section(id="contours")[h.h2["Contours"], together or h.p["The program has no contour."]]
     header = ("contour", "line", "form", "status", "ends at", "findings")
     rows = [
         (
-            h.a(href=f"#contour-{number}")[f"contour {number}"],
+            h.a(href=places.contour(number))[f"contour {number}"],
             _line_link(answer.lines[0], places),
             short(answer.form_text),
             _status(answer),
@@ -195,15 +250,61 @@ def _contours(
         )
         for number, answer in enumerate(result.answers, 1)
     ]
-    is_long = len(result.answers) >= LONG
-    return h.section(".long" if is_long else "", id="contours")[
+    return h.section(id="contours")[
         h.h2["Contours"],
-        table("Every contour, with what became of it", header, rows),
         together,
+        table("Every contour, with what became of it", header, rows) if len(rows) > 1 else None,
+        _points(result, places),
+    ]
+
+
+def _points(result: Result, places: PageAnchors) -> Iterator[h.Element]:
+    """The table of all points of the contours that have no table of their own, one for each plane and unit."""
+    tables: dict[tuple[str, ...], list[tuple[int, Sequence[str]]]] = {}
+    for number, answer in enumerate(result.answers, 1):
+        if answer.contour is not None and number not in places.shown:
+            path = path_of(answer, answer.contour)
+            # Where it begins is told already, if the one before ends there.
+            goes_on = number > 1 and _goes_on(result.answers[number - 2], answer)
+            rows = [(number, row) for row in path.rows if row[1] != "point" and not (goes_on and row[0] == "start")]
+            tables.setdefault((str(answer.plane.axes), answer.unit.value), []).extend(rows)
+            tables[str(answer.plane.axes), answer.unit.value].insert(0, (0, path.header))
+    for (axes, _), rows in tables.items():
+        headers = [row for number, row in rows if not number]
+        widest = max(headers, key=len)
+        begun = set[int]()
+        shown: list[list[h.Node]] = []
+        for number, row in ((number, row) for number, row in rows if number):
+            name: h.Node = f"contour {number}"
+            if number not in begun:
+                begun.add(number)
+                name = h.span(id=f"points-{number}")[name]
+            shown.append([name, *row, *[""] * (len(widest) - len(row))])
+        caption = "All points" if len(tables) == 1 else f"All points, {axes}"
+        yield table(caption, ("contour", *widest), shown, numbers=range(3, len(widest) + 1))
+
+
+def _goes_on(before: Answer, after: Answer) -> bool:
+    """Whether a contour begins where the one before it ends."""
+    one, other = before.contour, after.contour
+    return one is not None and other is not None and dist(one.end, other.start) <= LENGTH
+
+
+def _each_contour(
+    result: Result, places: PageAnchors, progress: Progress, *, is_lit: bool, is_explained: bool
+) -> h.Element | None:
+    """The contours that are asked for, or that have errors, each with its picture."""
+    if not places.shown:
+        for _ in result.answers:
+            progress()
+        return None
+    return h.section(".long" if len(places.shown) >= LONG else "", id="each")[
+        h.h2["Contours one by one"] if len(result.answers) > 1 else h.h2["The contour"],
         h.p(".hint")[_HINT] if is_lit else None,
         (
             _contour(answer, number, result, places, progress, is_explained=is_explained)
             for number, answer in enumerate(result.answers, 1)
+            if number in places.shown or progress() is NotImplemented
         ),
     ]
 
@@ -288,20 +389,64 @@ def _line_link(line: int, places: PageAnchors) -> h.Node:
     return h.a(href=target)[f"program line {line}"] if target else f"program line {line}"
 
 
+def _findings_in_short(result: Result, places: PageAnchors) -> h.Element | None:
+    """The findings, the worst first: each with its line and its first fix, those that say the same as one."""
+    groups: dict[tuple[Severity, str, str], list[Diagnostic]] = {}
+    for finding in sorted(result.diagnostics, key=lambda each: ([*Severity].index(each.severity), each.span.line)):
+        said = _NUMBER.sub("", finding.fixes[0].description if finding.fixes else finding.help)
+        groups.setdefault((finding.severity, finding.code, said), []).append(finding)
+    if not groups:
+        return None
+    return h.section(".findings", id="findings")[
+        h.h2["Findings"], (_group(found, result, places) for found in groups.values())
+    ]
+
+
+_NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?|\bprogram lines?\b")
+_MOST_LINES = 12
+"""Lines that a group of findings names."""
+
+
+def _group(found: Sequence[Diagnostic], result: Result, places: PageAnchors) -> h.Element:
+    """Findings that say the same: the first one, what to do, and where the others are."""
+    first, others = found[0], found[1:]
+    severity, done = first.severity.value, first.fixes[0].description if first.fixes else first.help
+    links = [
+        [" " if place else "", h.a(href=f"#{places.finding(each)}")[str(result.place(each.span).line)]]
+        for place, each in enumerate(others[:_MOST_LINES])
+    ]
+    more = f" and {len(others) - _MOST_LINES} more" if len(others) > _MOST_LINES else ""
+    told = f"{count(len(others), 'finding')} more of this kind, program line{'s' * (len(others) > 1)} "
+    return h.div(class_=f"group {severity}")[
+        h.p[
+            h.span(class_=severity)[severity],
+            f", program line {result.place(first.span).line}: ",
+            h.a(href=f"#{places.finding(first)}")[short(first.message)],
+        ],
+        h.p[short(done)] if done else None,
+        h.p(".more")[told, links, more] if others else None,
+    ]
+
+
 def _others(result: Result, places: PageAnchors) -> h.Element | None:
-    """The section with the findings outside contours; None without any."""
-    own = {id(each) for answer in result.answers for each in answer.diagnostics}
+    """The section with the findings of which no contour with a part of its own tells; None without any."""
+    own = {
+        id(each)
+        for number, answer in enumerate(result.answers, 1)
+        if number in places.shown
+        for each in answer.diagnostics
+    }
     others = [finding for finding in result.diagnostics if id(finding) not in own]
     if not others:
         return None
     return h.section(id="others")[
-        h.h2["Findings outside contours"],
+        h.h2["Other findings"],
         (_finding(each, result, places, h.h3) for each in others),
     ]
 
 
 def _program(result: Result, places: PageAnchors) -> h.Element:
-    return h.section(id="program")[
+    return h.section(".program", id="program")[
         h.h2["Program"],
         h.p["The number of a line leads to its contour, a marked word to the finding about it."],
         h.div(".listing", tabindex="0", role="region", aria_label="Program text")[
@@ -337,7 +482,7 @@ def _sources(result: Result) -> h.Element:
 
 def _line(block: Block, places: PageAnchors) -> h.Element:
     contour, number = places.contours.get(block.line), str(block.line)
-    shown = h.a(href=f"#contour-{contour}", title=f"contour {contour}")[number] if contour is not None else number
+    shown = h.a(href=places.contour(contour), title=f"contour {contour}")[number] if contour is not None else number
     kind = "contour" if contour is not None else None
     return h.div(id=f"line-{block.line}", class_=kind)[
         h.span(".line")[shown], h.code[_text(block, places)], _findings(block, places)

@@ -33,13 +33,16 @@ _BESIDE = 20.0
 
 _SHORT = 22.0
 
+_HALF = 4.2
+"""Pixels of half the side of a square mark."""
+
 _OFF, _CROSS = 9.0, 5.0
 """Pixels from a line to the arrow of an angle of 0, and of half a cross."""
 
 
 def keep_signs(canvas: Canvas, scene: Scene) -> None:
     """No text stands on the cross of a centre or of a virtual intersection."""
-    crosses = (mark for mark in scene.each(Mark) if mark.kind not in _DOTS or mark.kind is MarkKind.TIP)
+    crosses = (m for m in scene.each(Mark) if scene.is_part or m.kind not in _DOTS or m.kind is MarkKind.TIP)
     canvas.signs += [Box(*at, *at).grow(_CROSS) for at in (canvas.view.place(mark.at) for mark in crosses)]
 
 
@@ -176,6 +179,8 @@ _DOTS: Mapping[MarkKind, tuple[float, bool]] = {
     MarkKind.START: (4.2, False),
     MarkKind.OTHER: (3.2, False),
     MarkKind.END: (4.0, True),
+    MarkKind.ROUND: (4.6, True),
+    MarkKind.SQUARE: (4.2, True),
     MarkKind.PLACE: (2.8, True),
     MarkKind.TIP: (2.8, True),
 }
@@ -185,6 +190,9 @@ _DOTS: Mapping[MarkKind, tuple[float, bool]] = {
 def _draw_point(canvas: Canvas, mark: Mark) -> None:
     """The sign of a point."""
     at = canvas.view.place(mark.at)
+    if mark.kind is MarkKind.SQUARE:
+        canvas.thick.append(Box(*at, *at).grow(_HALF).filled(mark.role))
+        return
     if mark.kind in _DOTS:
         radius, is_filled = _DOTS[mark.kind]
         canvas.thick.append(Dot(at, radius, mark.role, is_filled, mark.about))

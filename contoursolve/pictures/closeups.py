@@ -161,6 +161,8 @@ def _drawn(scene: Scene, view: Viewport, detail: Detail, frame: Box) -> tuple[It
     spot = (frame.left + frame.right) / 2, (frame.top + frame.bottom) / 2
     large = Viewport(middle, view.scale * detail.times, spot)
     canvas = Canvas(large, frame)
+    if scene.is_part:
+        canvas.keep_clear()
     trails = [each for each in scene.each(Trail) if each.weight in (Weight.MAIN, Weight.BESIDE)]
     for trail in trails:
         is_main, is_ink = trail.weight is Weight.MAIN, trail.role is Role.INK

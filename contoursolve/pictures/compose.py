@@ -14,6 +14,7 @@ from contoursolve.pictures.page import About, TextRun, visible
 from contoursolve.pictures.scene import Closeup, Scene, ToolDrawing, Trail, Weight, axis_names, coordinates, number
 from contoursolve.pictures.subject import Subject, fitting, shared_part, subject_of, trace_known
 from contoursolve.pictures.theme import Role
+from contoursolve.pictures.two_solutions import two_solutions
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import SAME, ArcSegment, Contour, Point, distance, trace
 
@@ -43,9 +44,10 @@ def compose(
     subject = subject_of(answer)
     ghosts: list[Trail] = []
     others: Others = {}
+    both = two_solutions(answer) if not is_shared else None
     if is_shared:
         subject = shared_part(subject)
-    else:
+    elif both is None:
         ghosts, others = _other_ways(subject) if subject.is_chain else _ghosts(subject)
     noted = noted_points(subject)
     scene = Scene(
@@ -53,8 +55,9 @@ def compose(
         axes=axis_names(answer.plane, answer.unit),
         parts=(
             *ghosts,
-            *subject.trails,
-            *list_marks(subject, noted, others),
+            *(both.trails if both is not None else subject.trails),
+            *(both.marks if both is not None else ()),
+            *(each for each in list_marks(subject, noted, others) if both is None or each.role not in _UNDECIDED),
             *list_dimensions(subject, noted),
             *list_auxiliary(subject),
         ),
@@ -68,6 +71,9 @@ def compose(
     scene = scene.with_beside(each for each in beside if each.plane == answer.plane)
     return replace(scene, most_labels=MOST_LABELS) if subject.is_chain else scene
 
+
+_UNDECIDED = Role.SEVERAL, Role.CANDIDATE
+"""Roles of points that two solutions have in two places."""
 
 _READABLE = 11.0
 """Pixels of the larger side of a corner that can be read."""

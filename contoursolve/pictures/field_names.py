@@ -2,15 +2,17 @@
 
 from collections.abc import Iterator, Sequence
 from itertools import product
+from math import cos, pi, sin
 
 import numpy
 
 from contoursolve.families import Outcomes, is_contour
 from contoursolve.pictures.curves import Curve, is_free, near, spots_of
 from contoursolve.pictures.fields import Mask, cell_at, cell_size, holds, role_of, words_of
-from contoursolve.pictures.page import SIZE, Anchor, Box, Spot, Text, TextRun, visible, width_of, wrap
+from contoursolve.pictures.page import SIZE, Anchor, Box, Dot, Item, Spot, Text, TextRun, line, visible, width_of, wrap
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.value_axes import LEFT, TOP
+from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE
+from contoursolve.solving import along, direction, distance
 
 _ASIDE = 4.0
 """Pixels between a line and its name."""
@@ -31,11 +33,14 @@ _LEAST = 40.0
 Named = tuple[list[Text], list[str]]
 """Names where they stand, and those for which there is no room."""
 
+NamedFields = tuple[list[Text], list[int]]
+"""The same of fields, by their outcomes."""
+
 
 def name_all(
     shown: Outcomes, curves: Sequence[Curve], taken: Sequence[Box], *, has_values: bool = False
-) -> tuple[list[Text], list[str], list[str]]:
-    """The names of fields and of lines where there is room beside what is taken, then those of fields and of lines
+) -> tuple[list[Text], list[int], list[str]]:
+    """The names of fields and of lines where there is room beside what is taken, then the fields and the lines
     for which there is none. Fields come first, or lines where more names have room then. Where there is a contour, the
     field needs no name if its values stand there."""
     off_lines = ~near(curves, *shown.shape)
@@ -50,15 +55,15 @@ def name_all(
     return [*fields[0], *lines[0]], fields[1], lines[1]
 
 
-def _boxes(named: Named) -> list[Box]:
+def _boxes(named: Named | NamedFields) -> list[Box]:
     """Boxes that the texts of a name cover, with a margin."""
     return [each.box.grow(_MARGIN) for each in named[0]]
 
 
-def _name_fields(shown: Outcomes, off_lines: Mask, taken: Sequence[Box]) -> Named:
+def _name_fields(shown: Outcomes, off_lines: Mask, taken: Sequence[Box]) -> NamedFields:
     """The name of each field in cells of it that are off every line; of one in several parts, in each that has room."""
     items: list[Text] = []
-    others: list[str] = []
+    others: list[int] = []
     counts = {int(each): int((shown == each).sum()) for each in numpy.unique(shown) if each >= 0}
     for outcome in sorted(counts, key=lambda each: -counts[each]):
         words, mask = words_of(outcome), shown == outcome
@@ -68,12 +73,41 @@ def _name_fields(shown: Outcomes, off_lines: Mask, taken: Sequence[Box]) -> Name
             free[max(top, 0) : max(bottom + 1, 0), max(left, 0) : max(right + 1, 0)] = False
         found = _fitting(words, free)
         if not found:
-            others.append(f"{', '.join(words)} ({counts[outcome] / shown.size:.1%})")
+            others.append(outcome)
         while found:
             items += found
             free &= ~_part(mask, cell_at(mask, found[0].at))
             found = _fitting(words, free)
     return items, others
+
+
+def number_fields(shown: Outcomes, narrow: Sequence[int], taken: Sequence[Box]) -> tuple[list[Item], list[str]]:
+    """Numbers for fields without room for their names, each in its field or beside it with a line to it, and their key:
+    what each number stands for, and its share."""
+    items, keys, boxes = list[Item](), list[str](), [*taken]
+    plane = Box(LEFT, TOP, LEFT + WIDE, TOP + HIGH)
+    for number, outcome in enumerate(narrow, 1):
+        mask = shown == outcome
+        at = _deepest(mask, 1, 1)
+        texts = [
+            Text((at[0] + far * cos(turn), at[1] + 4.0 + far * sin(turn)), (TextRun(str(number), Role.INK),), SIZE,
+                 Anchor.MIDDLE)
+            for far in _NUMBERED
+            for turn in ([step * pi / 8 for step in range(16)] if far else [0.0])
+        ]  # fmt: skip
+        free = (each for each in texts if plane.holds(each.box) and not any(map(each.box.meets, boxes)))
+        text = next((each for each in free if each is not texts[0] or holds(mask, each.box)), texts[0])
+        middle = (text.box.left + text.box.right) / 2, (text.box.top + text.box.bottom) / 2
+        if distance(middle, at) > _NUMBERED[1] / 2:
+            items += [line(at, along(middle, direction(middle, at), 7.0), Role.INK), Dot(at, 2.0, Role.INK)]
+        items.append(text)
+        boxes.append(text.box.grow(_MARGIN))
+        keys.append(f"{number}: {', '.join(words_of(outcome))} ({mask.mean():.1%})")
+    return items, keys
+
+
+_NUMBERED = (0.0, 16.0, 26.0, 40.0, 60.0)
+"""Pixels from a field to its number."""
 
 
 def _part(mask: Mask, cell: tuple[int, int]) -> Mask:

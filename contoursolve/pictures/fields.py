@@ -1,6 +1,6 @@
 """The outcomes over two words as fields of a plane: what each is painted as, and the boundaries between them."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from math import floor
 
@@ -11,7 +11,7 @@ from contoursolve.diagnosis import state_of, status_text
 from contoursolve.families import Outcomes, is_contour
 from contoursolve.pictures.curves import Curve, near
 from contoursolve.pictures.levels import Levels
-from contoursolve.pictures.page import Box, Item, Spot, Stroke
+from contoursolve.pictures.page import Box, Item, Shape, Spot, Stroke
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE
 from contoursolve.solving import REASONS, StatusCode
@@ -89,20 +89,95 @@ def paint(shown: Outcomes, levels: Levels | None = None, bands: Outcomes | None 
     return items
 
 
+def smoothed(shown: Outcomes, curves: Sequence[Curve], *, has_values: bool) -> list[Item]:
+    """Bands along both sides of each curve in the colours of the fields there, which cover the steps of the cells;
+    where the contour's values are shown, beyond it alone."""
+    reach, items = _REACH * max(*cell_size(shown)), list[Item]()
+    for curve in curves:
+        middle = len(curve.spots) // 2
+        for sign in (1.0,) if has_values else (-1.0, 1.0):
+            cell = cell_at(shown, _at(curve.spots[middle] + sign * reach * curve.ways[middle]))
+            if not (0 <= cell[0] < shown.shape[0] and 0 <= cell[1] < shown.shape[1]):
+                continue
+            role = role_of(int(shown[cell]))
+            if (role is Role.SOLVED_FIELD) is (sign > 0):
+                continue
+            aside = curve.spots + sign * reach * curve.ways
+            edge = numpy.concatenate([curve.spots[::_EVERY], curve.spots[-1:], aside[-1:], aside[::-1][::_EVERY]])
+            edge = numpy.clip(edge, (LEFT, TOP), (LEFT + WIDE, TOP + HIGH))
+            items.append(Shape(tuple(map(_at, edge)), role))
+    return items
+
+
+_REACH = 0.8
+"""1. How far beside a curve, in cells, the steps of cells are covered."""
+
+_EVERY = 6
+"""Pixels from one corner of such a band to the next."""
+
+
+def _at(place: NDArray[numpy.float64]) -> Spot:
+    return float(place[0]), float(place[1])
+
+
 def boundaries(shown: Outcomes, curves: Sequence[Curve]) -> list[Stroke]:
-    """Lines between fields, each as long as it is straight; where a curve says the same, only that."""
+    """Lines between fields, through the middles of the steps of cells; where a curve says the same, only that."""
     wide, high = cell_size(shown)
     close = near(curves, *shown.shape)
     has_contour = is_contour(shown)
     role, width = (Role.MUTED, 1.0) if curves else (Role.INK, 1.4)
+    rows = ((at + 1, first, at + 1, last) for at, first, last in _edges(shown, close, has_contour))
+    columns = ((first, at + 1, last, at + 1) for at, first, last in _edges(shown.T, close.T, has_contour.T))
     items: list[Stroke] = []
-    for row, first, last in _edges(shown, close, has_contour):
-        y = TOP + (row + 1) * high
-        items.append(Stroke((LEFT + first * wide, y), ((LEFT + last * wide, y),), role, width))
-    for column, first, last in _edges(shown.T, close.T, has_contour.T):
-        x = LEFT + (column + 1) * wide
-        items.append(Stroke((x, TOP + first * high), ((x, TOP + last * high),), role, width))
+    for places in _paths([*rows, *columns]):
+        first, *others = [(LEFT + column * wide, TOP + row * high) for row, column in places]
+        items.append(Stroke(first, tuple(others), role, width))
     return items[:_MOST_RUNS]
+
+
+_Run = tuple[int, int, int, int]
+_Node = tuple[int, int]
+_LONG = 2
+"""Cells. Two longer runs meet in a corner; shorter ones are steps of a line."""
+
+
+def _paths(runs: Sequence[_Run]) -> Iterator[list[tuple[float, float]]]:
+    """Straight runs between corners of cells, by rows and columns, as lines through the middles of their steps."""
+    at: dict[_Node, list[_Run]] = {}
+    for run in runs:
+        for node in (run[:2], run[2:]):
+            at.setdefault(node, []).append(run)
+    left = dict.fromkeys(runs)
+    begins = [node for node, own in at.items() if len(own) != 2]  # noqa: PLR2004 - where a line ends, or several meet
+    for node in [*begins, *at]:
+        for run in at[node]:
+            if run in left:
+                yield _smooth(_path(node, run, at, left))
+
+
+def _path(here: _Node, run: _Run, at: Mapping[_Node, Sequence[_Run]], left: dict[_Run, None]) -> list[_Node]:
+    """The corners along a line from one of its ends, until it ends, branches, or is closed."""
+    nodes = [here]
+    while True:
+        del left[run]
+        here = run[2:] if run[:2] == here else run[:2]
+        nodes.append(here)
+        following = [each for each in at[here] if each in left]
+        if len(at[here]) != 2 or not following:  # noqa: PLR2004 - as above
+            return nodes
+        run = following[0]
+
+
+def _smooth(nodes: Sequence[_Node]) -> list[tuple[float, float]]:
+    """The line through the middles of the runs between corners, and through corners of long ones."""
+    places: list[tuple[float, float]] = []
+    is_closed = nodes[0] == nodes[-1]
+    lengths = [abs(b[0] - a[0]) + abs(b[1] - a[1]) for a, b in pairwise(nodes)]
+    for number, (a, b) in enumerate(pairwise(nodes)):
+        places.append(((a[0] + b[0]) / 2, (a[1] + b[1]) / 2))
+        if number + 1 < len(lengths) and min(lengths[number : number + 2]) > _LONG:
+            places.append(b)
+    return [*places, places[0]] if is_closed else [nodes[0], *places, nodes[-1]]
 
 
 def _edges(shown: Outcomes, close: Mask, has_contour: Mask) -> Iterator[tuple[int, int, int]]:

@@ -38,8 +38,14 @@ _PIECES = 10
 CELL = 6.0
 """Pixels of a side of a cell in which what is drawn is counted."""
 
+_SAMPLED = 0.3
+"""1. How far apart, in sides of a cell, the places of a line are that are counted."""
+
 _FAR = (9.0, 15.0, 24.0, 36.0, 52.0, 72.0, 100.0, 140.0, 190.0)
 """Pixels from a place to the nearest point of its label, tried in this order."""
+
+_BESIDE = 36.0
+"""Pixels. A label of a part's drawing that is farther had better be short."""
 
 _WAYS = 16
 _TURNS = tuple(
@@ -106,13 +112,14 @@ def _place_label(
         for box, far, turned in _boxes_around(at, width, height, away):
             if leads and far < _TOUCHING:
                 continue
-            if best is not None and far * _PER_PIXEL >= best[0]:
+            is_last = index == len(sizes) - 1
+            if (best is not None and far * _PER_PIXEL >= best[0]) or (far > canvas.farthest and not is_last):
                 break
             own = far * _PER_PIXEL + turned * 2.0 + (8.0 if far > _TOUCHING and not leads else 0.0)
             if best is not None and own >= best[0]:
                 continue
             cost = own + canvas.cost(box.grow(1.5))
-            if cost > _ILLEGIBLE or (far > _TOUCHING and canvas.is_crossed(at, _nearest(box, at))):
+            if cost - own >= canvas.most or (far > _TOUCHING and canvas.is_crossed(at, _nearest(box, at))):
                 continue
             if far > _TOUCHING:
                 cost += canvas.crossings(_nearest(box, at), at)
@@ -211,10 +218,20 @@ class Canvas:
         self.papers: list[Item] = []
         self.thick: list[Item] = []
         self.texts: list[Text] = []
+        self.most = _ILLEGIBLE
+        """Cost above which a label would hide something illegibly."""
+        self.farthest = inf
+        """Pixels from a place to its label; farther, a shorter one comes first."""
+        self.head_weight = THIN_WEIGHT
+        """What an arrowhead weighs against labels."""
         self.homeless: list[str] = []
         """Labels for which there was no room."""
         self.named = ANYTHING
         """What is being drawn."""
+
+    def keep_clear(self) -> None:
+        """From now on no text stands on a path, an arrowhead or a sign of a point, whatever that costs."""
+        self.most, self.head_weight, self.farthest = PATH_WEIGHT, PATH_WEIGHT, _BESIDE
 
     @contextmanager
     def about(self, named: About) -> Iterator[None]:
@@ -239,7 +256,7 @@ class Canvas:
         self.thick.append(replace(shape, about=self.named))
         first = shape.corners[0]
         for corner in shape.corners[1:]:
-            self._mark(first, corner, THIN_WEIGHT)
+            self._mark(first, corner, self.head_weight)
 
     def write(self, text: Text) -> bool:
         """A text where it is wanted, if nothing is there yet; tells whether it stands."""
@@ -319,7 +336,7 @@ class Canvas:
                     continue
                 end = _on_ray(box, at, way) or at
                 cost = own + number * _ELSEWHERE + self.cost(box.grow(1.5))
-                if cost <= _ILLEGIBLE and not self.is_crossed(at, end):
+                if cost - own - number * _ELSEWHERE < self.most and not self.is_crossed(at, end):
                     cost += self.crossings(end, at)
                     if best is None or cost < best[0]:
                         best = cost, box, at, way
@@ -354,7 +371,7 @@ class Canvas:
         if clipped is None:
             return
         step = minus(clipped[1], clipped[0])
-        steps = max(1, ceil(hypot(*step) / (CELL * 0.7)))
+        steps = max(1, ceil(hypot(*step) / (CELL * _SAMPLED)))
         for number in range(steps + 1):
             place = self._cell(clipped[0], step, number / steps)
             if 0 <= place < len(self.cells):

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Length
 from contoursolve.pictures.callouts import draw_callouts, keep_signs
-from contoursolve.pictures.closeups import ROW, choose_details, draw_details, mark_details
+from contoursolve.pictures.closeups import ROW, Detail, choose_details, draw_details, mark_details
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
 from contoursolve.pictures.margins import Placement, arrange, draw_margins, placement_of
 from contoursolve.pictures.page import (
@@ -35,7 +35,7 @@ from contoursolve.pictures.page import (
     width_of,
     wrap,
 )
-from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
+from contoursolve.pictures.scene import Dimension, Leader, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
 from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.svg import steps_text
 from contoursolve.pictures.theme import CHAINS, DASHES, MEANINGS, TOOLS, Role
@@ -65,13 +65,15 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     top = list(_head_of(scene))
     margins = arrange(scene, max(item.box.bottom for item in top) + 6.0, held)
     frame, canvas = margins.frame, Canvas(margins.view, margins.frame, held.labels if held else None)
+    if scene.is_part:
+        canvas.keep_clear()
     _draw_path(canvas, scene)
     keep_signs(canvas, scene)
     draw_margins(canvas, margins)
     details, small = choose_details(scene.closeups, margins.view)
     has_row = bool(details) and (held is None or held.foot >= frame.bottom + ROW)
     mark_details(canvas, details if has_row else ())
-    draw_callouts(canvas, scene)
+    draw_callouts(canvas, _without(scene, details, margins.view) if scene.is_part and has_row else scene)
     # The axes stand beside the drawing's lower end where nothing else is.
     is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
     under = ROW + _GAP_ABOVE if has_row else -26.0 if is_free else _GAP_ABOVE
@@ -84,6 +86,16 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     height = max(height, held.height if held else 0.0)
     placement = placement_of(margins, canvas, below, height)
     return Sheet(scene.title, height, frame, canvas.items, (*top, *foot), placement)
+
+
+def _without(scene: Scene, details: Sequence[Detail], view: Viewport) -> Scene:
+    """The scene without what its details tell."""
+    told = [
+        each
+        for each in scene.each(Leader)
+        if any(detail.box.grow(1.0).holds(Box(*view.place(each.at), *view.place(each.at))) for detail in details)
+    ]
+    return replace(scene, parts=tuple(each for each in scene.parts if each not in told))
 
 
 def _thinned(scene: Scene) -> Scene:
@@ -119,14 +131,15 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
             width = 1.0 if thin.role is Role.MUTED else 1.4
             canvas.draw(line(*ends, thin.role, width, is_dashed=thin.is_dashed))
     for trail in sorted(trails, key=lambda each: each.weight is Weight.MAIN):
-        weight = PATH_WEIGHT if trail.weight is Weight.MAIN else THIN_WEIGHT
+        is_outline = trail.weight is Weight.MAIN or (scene.is_part and trail.weight is Weight.MIRRORED)
+        weight = PATH_WEIGHT if is_outline else THIN_WEIGHT
         is_named = scene.is_one_contour and trail.weight is Weight.MAIN
         for part in [replace(trail, segments=(each,)) for each in trail.segments] if is_named else [trail]:
             own = About(line=str(part.line)) if part.line else ANYTHING
             with canvas.about(About(element=part.segments[0].name) if is_named else own):
                 for stroke in _strokes(view, part) if part.weight is not Weight.PASSING else _passing(canvas, part):
                     canvas.draw(stroke, weight)
-    for trail in (trail for trail in trails if trail.weight is Weight.MAIN):
+    for trail in () if scene.is_part else (trail for trail in trails if trail.weight is Weight.MAIN):
         for segment in _pointed(trail.segments, view):
             at, way = middle(segment)
             step = way[0], -way[1]

@@ -22,8 +22,8 @@ from contoursolve.families import (
 )
 from contoursolve.numeric import Array
 from contoursolve.pictures.curves import Curve, PageLine, curves_of, is_free, spots_of, strokes
-from contoursolve.pictures.field_names import name_all
-from contoursolve.pictures.fields import boundaries, paint
+from contoursolve.pictures.field_names import name_all, number_fields
+from contoursolve.pictures.fields import boundaries, paint, smoothed
 from contoursolve.pictures.levels import Levels, level_lines, levels_of, names_of, strokes_of
 from contoursolve.pictures.page import SIZE, Anchor, Dot, Item, Text, TextRun, visible
 from contoursolve.pictures.sheet import Sheet
@@ -206,10 +206,12 @@ def _page(
         values = list(names_of(lines, levels, chart, taken, spots_of(curves)))
     taken += [each.box for each in values if isinstance(each, Text)]
     names, narrow, unnamed = name_all(shown, curves, taken, has_values=levels is not None)
-    told = (("too narrow to be named", narrow), ("lines without room for a name", unnamed))
-    fields = [*paint(shown, levels, bands), *boundaries(shown, curves)]
-    items = [*fields, *strokes_of(lines), *strokes(curves), *chart.axes(), *values, *marks, *names]
-    more = [(f"{what}: {'; '.join(names)}", Role.MUTED) for what, names in told if names]
+    numbers, keys = number_fields(shown, narrow, [*taken, *(each.box.grow(1.0) for each in names)])
+    told = (*keys, *(f"lines without room for a name: {'; '.join(unnamed)}" for _ in unnamed[:1]))
+    steps = smoothed(shown, curves, has_values=levels is not None)
+    fields = [*paint(shown, levels, bands), *steps, *boundaries(shown, curves)]
+    items = [*fields, *strokes_of(lines), *strokes(curves), *chart.axes(), *values, *marks, *names, *numbers]
+    more = [(each, Role.MUTED) for each in told]
     about = [(_range_told(field), Role.MUTED)] if field is not None else []
     return page_of(title, items, [*about, *remarks, *more], TOP + HIGH + BELOW, 4.0)
 

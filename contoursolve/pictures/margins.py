@@ -155,11 +155,13 @@ def _edges(
     """Coordinates by the edge at which they are written: where there are fewer distances, else where the points are."""
     found: dict[DrawingEdge, list[Ordinate]] = {side: [] for side in _SIDES}
     for axis in (FIRST, SECOND):
-        own = [each for each in ordinates if each.axis == axis]
+        own = [each for each in ordinates if each.axis == axis and not each.side]
+        for each in (each for each in ordinates if each.axis == axis and each.side):
+            found[DrawingEdge(axis, each.side)].append(each)
         less, more = (len(by_side[DrawingEdge(axis, sign)]) for sign in (-1, 1))
         mean = sum(each.at[1 - axis] for each in own) / len(own) if own else 0.0
         is_upper = mean > span.middle[1 - axis] if less == more else less > more
-        found[DrawingEdge(axis, 1 if is_upper else -1)] = own
+        found[DrawingEdge(axis, 1 if is_upper else -1)] += own
     return found
 
 

@@ -1,7 +1,7 @@
 """Several contours in one picture: those of a program with the moves between them, and one block for several values."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from pathlib import PurePath
 
@@ -14,10 +14,12 @@ from contoursolve.diagnosis import Answer, statuses_text
 from contoursolve.geometry import SECOND, Length, Plane, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import TextRun, visible
+from contoursolve.pictures.part_dimensions import dimension_part
 from contoursolve.pictures.scene import Closeup, Mark, MarkKind, Part, Scene, ToolDrawing, Trail, Weight, axis_names
 from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.turned_part import crosses_axis, cylinders_of, turn_part
+from contoursolve.pictures.turned_part import crosses_axis, cylinders_of, shows_both_halves, turn_part
+from contoursolve.pictures.two_solutions import two_solutions
 from contoursolve.program import CycleProfile, Result
 from contoursolve.solving import (
     ArcSegment,
@@ -37,6 +39,9 @@ MOST_CONTOURS = 400
 """Contours that are drawn; a picture of more says how many it leaves out."""
 
 MOST_LABELED = 60
+
+MOST_DIMENSIONS = 60
+"""Dimensions and names in one drawing."""
 
 MOST_MOVES = 2_000
 """Moves that are drawn."""
@@ -84,12 +89,13 @@ class DrawnContour(Struct, frozen=True):
 
 
 class PlaneMove(Struct, frozen=True):
-    """A move in a plane, whose axes it names, and whether it joins two solved contours at a feed."""
+    """A move in a plane, whose axes it names, and whether it cuts the part: at a feed between two solved contours, or
+    behind one where the tool is still compensated, or the work turns."""
 
     segment: Segment
     axes: tuple[str, str]
     is_rapid: bool
-    is_between: bool
+    is_cut: bool
 
 
 def compose_overview(
@@ -121,24 +127,30 @@ def compose_overview(
         more = [each for each in beside if each.plane == plane]
         # Of what has no place on the axis across, it is not known how far from the turning axis it is.
         is_turned = plane.diameters[SECOND] and not any(answer.start.free[SECOND] for _, answer in own)
+        cut = [move.segment for move in near if move.is_cut]
+        solved = [answer for _, answer in own[:MOST_CONTOURS] if answer.contour and not answer.start.is_relative]
+        paths = [each for one in drawn for each in one.segments]
+        shown_whole = is_turned and shows_both_halves(paths, is_whole)
+        part = dimension_part(solved, cut, paths, unit, is_turned=is_turned, is_whole=shown_whole)
         scene = Scene(
             told,
             axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
-            (*_profile_parts(result.profiles, plane, near), *_move_trails(near), *_contour_parts(drawn)),
+            (*_profile_parts(result.profiles, plane, near), *_move_trails(near), *_contour_parts(drawn), *part.parts),
             remarks=tuple(_remarks(drawn, len(own))),
-            meanings={Role.CONFLICTING: "no contour", **_meaning_of(near)},
+            meanings={Role.CONFLICTING: "no contour", Role.DERIVED: "(worked out by the control)"},
             has_turning_axis=is_turned,
-            closeups=tuple(_closeups(drawn)),
+            closeups=(*_closeups(drawn), *part.closeups),
+            is_part=True,
+            most_labels=MOST_DIMENSIONS,
             scale_unit=unit,
         ).with_beside(more)
-        between = [move.segment for move in near if move.is_between]
-        known = {(segment.start, segment.end) for segment in between}
-        between += [each for one in more for each in one.cut if (each.start, each.end) not in known]
-        scenes.append(_turned(scene, drawn, between, is_whole=is_whole) if is_turned else scene)
+        known = {(segment.start, segment.end) for segment in cut}
+        cut += [each for one in more for each in one.cut if (each.start, each.end) not in known]
+        scenes.append(_turned(scene, drawn, cut, is_whole=shown_whole) if is_turned else scene)
     return scenes
 
 
-def _turned(scene: Scene, drawn: Sequence[DrawnContour], cut: Iterable[Segment], *, is_whole: bool | None) -> Scene:
+def _turned(scene: Scene, drawn: Sequence[DrawnContour], cut: Iterable[Segment], *, is_whole: bool) -> Scene:
     """The scene of contours on a lathe: the part around its axis."""
     solved = [each for each in drawn if each.answer.contour is not None]
     cut = [*(segment for each in solved for segment in each.segments), *cut]
@@ -254,6 +266,9 @@ def _in_overview(trail: Trail, answer: Answer) -> Trail:
 
 
 def _trails(answer: Answer) -> list[Trail]:
+    both = two_solutions(answer)
+    if both is not None:
+        return [*both.trails]
     return [*list_trails(answer, find_known(answer))]
 
 
@@ -283,7 +298,7 @@ def _moves(result: Result) -> list[PlaneMove]:
     owners = {line: answer for answer in result.answers for line in answer.lines}
     found: dict[int, PlaneMove] = {}
     reached: Counter[int] = Counter()
-    for steps in (list(enumerate(path.steps)), list(enumerate(path.steps))[::-1]):
+    for is_forward, steps in ((True, list(enumerate(path.steps))), (False, list(enumerate(path.steps))[::-1])):
         owner: Answer | None = None
         is_rapid = False
         for number, step in steps:
@@ -298,9 +313,11 @@ def _moves(result: Result) -> list[PlaneMove]:
             is_rapid = motion is Motion.RAPID
             segment = flat_segment(step, axes, owner.plane.axes)
             if segment is not None:
-                reached[number] += owner.contour is not None and not is_rapid
-                is_between = reached[number] > 1  # from both sides
-                found[number] = PlaneMove(segment, owner.plane.axes, is_rapid, is_between)
+                is_solved = owner.contour is not None and not is_rapid
+                is_led = is_forward and bool(step.compensation or owner.plane.diameters[SECOND])
+                # From both sides, or from one where it is known to cut.
+                reached[number] += is_solved * (1 + is_led)
+                found[number] = PlaneMove(segment, owner.plane.axes, is_rapid, reached[number] > 1)
     # What runs several times is drawn once.
     once = {(move.segment, move.is_rapid): move for _, move in sorted(found.items(), key=lambda each: each[0])}
     return list(once.values())[:MOST_MOVES]
@@ -319,15 +336,12 @@ def plain_trail(result: Result, like: Answer) -> list[Trail]:
     return [Trail(found, Role.INK)] if found else []
 
 
-def _meaning_of(moves: Sequence[PlaneMove]) -> Mapping[Role, str]:
-    """Legend of thin lines, if any of the moves is a feed move."""
-    return {} if all(move.is_rapid for move in moves) else {Role.INK: "feed move"}
-
-
 def _move_trails(moves: Sequence[PlaneMove]) -> Iterator[Trail]:
-    """Moves as they are drawn: rapid ones as far as the picture goes."""
+    """Moves as they are drawn: what cuts as the part; all else thin, and straight moves as far as the picture goes."""
     for move in moves:
-        role, weight = (Role.RAPID, Weight.PASSING) if move.is_rapid else (Role.INK, Weight.BESIDE)
+        role = Role.RAPID if move.is_rapid else Role.INK
+        thin = Weight.BESIDE if isinstance(move.segment, ArcSegment) else Weight.PASSING
+        weight = Weight.MAIN if move.is_cut else thin
         yield Trail((move.segment,), role, weight)
 
 

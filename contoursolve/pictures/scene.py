@@ -69,6 +69,9 @@ class MarkKind(Enum):
     CENTER = "center"
     TIP = "tip"
     """The place where a tool is programmed, off the path."""
+    ROUND = "round"
+    SQUARE = "square"
+    """A place on what one of two solutions has alone."""
     OTHER = "other"
     """A place that one word gives to a point, other than the one that the others give."""
 
@@ -113,13 +116,15 @@ class Aligned(Struct, frozen=True):
 
 
 class Ordinate(Struct, frozen=True):
-    """The coordinate of a point on an axis: the line on which the point lies."""
+    """The coordinate of a point on an axis: the line on which the point lies. `side` says at which edge it is written,
+    -1 at the lower or left one, 1 at the other; 0 where there is room."""
 
     at: Point
     axis: int
     text: str
     role: Role
     about: About = ANYTHING
+    side: int = 0
 
 
 class Angle(Struct, frozen=True):
@@ -204,6 +209,9 @@ class Scene(Struct, frozen=True):
     closeups: tuple[Closeup, ...] = ()
     most_labels: int = 40
     """Labels on one page. Of a larger drawing, the words that are simply given are not drawn: who could read them?"""
+    is_part: bool = False
+    """Whether it is the drawing of a whole part: it has the part's dimensions and no directions of travel. A text
+    stands on no line of the path and on no arrow, and what a detail tells is told there alone."""
     scale_unit: Length | None = None
     """The unit of the bar that shows how large the drawing is; no bar without one."""
 

@@ -31,6 +31,9 @@ class Role(Enum):
     """An element of a chain for which there are too few data, in the red of such a control."""
     GUESSED = "guessed"
     """An element of a sketch that a guess has chosen among several."""
+    SOLUTION_A = "solution-a"
+    SOLUTION_B = "solution-b"
+    """What one of two solutions has alone."""
     SOLVED_FIELD = "solved-field"
     REFUSED_FIELD = "refused-field"
     OTHER_FIELD = "other-field"
@@ -54,8 +57,8 @@ class Role(Enum):
 LEVELS = tuple(role for role in Role if role.value.startswith("level-"))
 """Roles of values in maps alone."""
 
-CHAINS = (Role.DETERMINED, Role.SEVERAL, Role.OPEN, Role.GUESSED)
-"""Roles of elements of chains alone."""
+CHAINS = (Role.DETERMINED, Role.SEVERAL, Role.OPEN, Role.GUESSED, Role.SOLUTION_A, Role.SOLUTION_B)
+"""Roles of elements of chains, and of two solutions."""
 
 TOOLS = (Role.TRACK, Role.TOOL, Role.REST)
 """Roles of pictures with a tool alone."""
@@ -70,6 +73,8 @@ MEANINGS: Mapping[Role, str] = {
     Role.SEVERAL: "one of several solutions",
     Role.OPEN: "too few data",
     Role.GUESSED: "chosen by a guess",
+    Role.SOLUTION_A: "solution A alone",
+    Role.SOLUTION_B: "solution B alone",
     Role.REST: "stays in the corner",
     Role.CANDIDATE: "one of several solutions",
     Role.RAPID: "rapid move",
@@ -90,6 +95,7 @@ DASHES: Mapping[Role, tuple[float, ...]] = {
     Role.SEVERAL: (14.0, 4.0),
     Role.OPEN: (3.0, 5.0),
     Role.GUESSED: (1.0, 4.0),
+    Role.SOLUTION_B: (9.0, 4.0),
     Role.TRACK: (9.0, 2.5),
 }
 """Pixels on and off of a role's thin lines; solid without. They tell the states apart without colour."""
@@ -110,6 +116,8 @@ _COLORS: dict[Role, tuple[str, ...]] = {
     Role.SEVERAL: ("#3d7a00", "#9be31c"),
     Role.OPEN: ("#c8102e", "#ff7a85"),
     Role.GUESSED: ("#0e6d84", "#67e8f9"),
+    Role.SOLUTION_A: ("#0062ad", "#66b3ff"),
+    Role.SOLUTION_B: ("#a85500", "#ffb057"),
     Role.TOOL: ("#0f6f78", "#5eead4"),
     Role.TRACK: ("#0f6f78", "#5eead4"),
     Role.REST: ("#8a4b00", "#fcd34d"),

@@ -2,14 +2,18 @@
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from itertools import islice, pairwise
 
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Length, Turn
 from contoursolve.pictures.scene import Leader, Part, Rectangle, Scene, Thin, Trail, Weight, number
 from contoursolve.pictures.theme import Role
-from contoursolve.solving import ArcSegment, Point, Segment, extremes
+from contoursolve.solving import ArcSegment, Point, Segment, distance, extremes, middle, on_arc
 from contoursolve.tolerance import LENGTH
+
+MOST_EDGES = 60
+"""Edges that are drawn across a part."""
 
 MOST_DIAMETERS = 8
 """Diameters that have labels: those of the longest cylinders."""
@@ -38,24 +42,24 @@ def turn_part(
     segments: Sequence[Segment],
     cylinders: Sequence[Cylinder],
     *,
-    is_whole: bool | None = None,
+    is_whole: bool,
 ) -> Scene:
     """The scene of turned contours with what their part looks like: `segments` is what is cut of it. `is_whole` draws
-    both halves, also where nobody asked if the contours stay half as large."""
+    both halves."""
     if not segments:
         return scene
     shown = [each for trail in scene.each(Trail) if trail.weight is not Weight.PASSING for each in trail.segments]
     span = _span_of(shown)
-    shows_both = is_whole if is_whole is not None else _is_worth(span)
     parts: list[Part] = []
-    if shows_both:
+    if is_whole:
         parts += [Trail(tuple(map(_mirrored, segments)), Role.MUTED, Weight.MIRRORED)]
-    if shows_both or 0 <= span.low[SECOND] <= max(*span.size) * _NEAR:
+    if is_whole or 0 <= span.low[SECOND] <= max(*span.size) * _NEAR:
         parts += [
-            Thin(at, (at[0], -at[1] if shows_both else 0.0), Role.MUTED, is_dashed=False) for at in _ends(segments)
+            Thin(at, (at[0], -at[1] if is_whole else 0.0), Role.MUTED, is_dashed=False)
+            for at in [*_ends(segments), *(islice(_edges(segments), MOST_EDGES) if is_whole else ())]
         ]
-    long = [each for each in cylinders if each[0].length >= _LONG * max(*span.size)]
-    parts += _diameters(long, is_below=shows_both)
+    if not is_whole:
+        parts += _diameters([each for each in cylinders if each[0].length >= _LONG * max(*span.size)])
     return replace(scene, parts=(*parts, *scene.parts))
 
 
@@ -78,6 +82,11 @@ def crosses_axis(segments: Sequence[Segment]) -> bool:
 def _span_of(segments: Sequence[Segment]) -> Rectangle:
     across, up = zip(*(at for segment in segments for at in extremes(segment, 0, 1)), strict=True)
     return Rectangle((min(across), min(up)), (max(across), max(up)))
+
+
+def shows_both_halves(segments: Sequence[Segment], is_whole: bool | None) -> bool:
+    """Whether both halves are drawn: as wanted, else where the contours stay at least half as large."""
+    return is_whole if is_whole is not None else bool(segments) and _is_worth(_span_of(segments))
 
 
 def _is_worth(span: Rectangle) -> bool:
@@ -112,11 +121,29 @@ def _ends(segments: Sequence[Segment]) -> list[Point]:
     return [places[key] for key, times in met.items() if times % 2 and abs(places[key][1]) > LENGTH]
 
 
+def _edges(segments: Sequence[Segment]) -> Iterator[Point]:
+    """The places at which neighbours do not go on smoothly: circles that are seen from the side."""
+    for before, after in pairwise(segments):
+        if distance(before.end, after.start) > _SAME or abs(after.start[SECOND]) <= LENGTH:
+            continue
+        out, on = _way(before, 1.0), _way(after, 0.0)
+        if abs(out[0] * on[1] - out[1] * on[0]) > _SHARP:
+            yield after.start
+
+
+def _way(segment: Segment, share: float) -> Point:
+    """The direction of travel after a share of an element."""
+    return (on_arc(segment, share) if isinstance(segment, ArcSegment) else middle(segment))[1]
+
+
+_SHARP = 1e-3
+"""1 (a sine). Less is no edge."""
+
 _SAME = 0.001
 """mm. Ends that are nearer to each other are joined."""
 
 
-def _diameters(cylinders: Sequence[Cylinder], *, is_below: bool) -> Iterator[Leader]:
+def _diameters(cylinders: Sequence[Cylinder]) -> Iterator[Leader]:
     """The labels of the longest cylinders, one for each diameter, at the longest line that has it."""
     longest: dict[str, Segment] = {}
     for segment, told in cylinders:
@@ -124,6 +151,5 @@ def _diameters(cylinders: Sequence[Cylinder], *, is_below: bool) -> Iterator[Lea
             longest[told] = segment
     chosen = sorted(longest.items(), key=lambda each: (-round(each[1].length, 6), each[0]))[:MOST_DIAMETERS]
     for told, segment in chosen:
-        across = segment.start[FIRST] + (0.5 if is_below else _ASIDE) * (segment.end[FIRST] - segment.start[FIRST])
-        up = -abs(segment.end[SECOND]) if is_below else segment.end[SECOND]
-        yield Leader((across, up), (0.0, -1.0), told, Role.INK)
+        across = segment.start[FIRST] + _ASIDE * (segment.end[FIRST] - segment.start[FIRST])
+        yield Leader((across, segment.end[SECOND]), (0.0, -1.0), told, Role.INK)

@@ -233,7 +233,7 @@ def _sketch(
 
 
 def _longest(curves: Sequence[DrawnCurve]) -> float:
-    """How far lines and arcs reach along an axis."""
+    """The reach of lines and arcs along an axis."""
     places = [at for each in curves for at in each.points()]
     return max((max(own) - min(own) for own in zip(*places, strict=True)), default=0.0)
 

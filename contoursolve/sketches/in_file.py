@@ -1,4 +1,4 @@
-"""What is found in a sketch, as findings in the lines of its file."""
+"""Findings about a sketch, in the lines of its file."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
