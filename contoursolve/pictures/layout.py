@@ -81,6 +81,8 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     enlarged = [*draw_details(whole, margins.view, details, frame.bottom + _GAP_ABOVE)] if has_row else []
     told = {item.words for item in enlarged if isinstance(item, Text)}
     homeless = [each for each in canvas.homeless if each not in told]
+    told |= {text.words for text in canvas.texts}
+    small = [each for each in small if not (scene.is_part and each in told)]
     foot = [*enlarged, *_foot_of(scene, homeless, small, below, margins.view.scale)]
     height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
     height = max(height, held.height if held else 0.0)

@@ -74,6 +74,18 @@ def test_the_page_is_made_of_headings_in_order():
     assert page.elements[0] == ("html", {"lang": "en"})
 
 
+def test_findings_that_say_the_same_are_one_and_right_contours_have_one_line():
+    wrong = "G00 X40. Z0.\nG01 Z-10. ,R50.\nX60.\nG00 X100. Z0.\nG01 Z-10. ,R50.\nX120.\nG00 X40. Z50.\n"
+    right = "G01 Z-20. ,R2.\nX90.\n"
+    result = contoursolve.solve(wrong + right, control="fanuc-lathe")
+    page = page_of(result)
+    groups = [each for each in page.all("div") if (each.get("class") or "").startswith("group")]
+    assert (len(result.answers), sum(each.is_error for each in result.diagnostics), len(groups)) == (3, 2, 1)
+    assert "1 finding more of this kind, program line " in page.shown
+    assert [each["id"] for each in page.all("article")] == ["contour-1", "contour-2"]
+    assert "points-3" in page.text
+
+
 def test_rows_and_findings_have_the_names_of_the_picture():
     result = contoursolve.solve(BROKEN)
     page = page_of(result)
