@@ -94,7 +94,9 @@ def test_rows_and_findings_have_the_names_of_the_picture():
     assert {each["data-word"] for each in rows} == drawn == {word for a in result.answers for word in a.claim.words}
     assert {f"#{each['id']}" for each in rows} <= {each["href"] for each in page.all("a")}
     found = [each for each in page.all("section") if each.get("data-finding")]
-    assert len(found) == sum(len(answer.diagnostics) for answer in result.answers)
+    shown = [each for each in result.answers if f'id="contour-{1 + result.answers.index(each)}"' in page.text]
+    assert [*map(bool, (each.contour is None for each in shown))] == [True] * len(shown)
+    assert len(found) == sum(len(answer.diagnostics) for answer in shown)
     (corner,) = (each for each in found if "P" in each.get("data-word", "").split())
     assert corner["data-finding"] == "1"
     for name in ('data-word~="P"', 'data-element="line\\20 1"', 'data-finding~="1"'):
