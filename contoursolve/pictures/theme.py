@@ -33,7 +33,7 @@ class Role(Enum):
     """An element of a sketch that a guess has chosen among several."""
     SOLUTION_A = "solution-a"
     SOLUTION_B = "solution-b"
-    """What one of two solutions has alone."""
+    """Parts of one of two solutions that the other one has not."""
     SOLVED_FIELD = "solved-field"
     REFUSED_FIELD = "refused-field"
     OTHER_FIELD = "other-field"
