@@ -34,7 +34,7 @@ from contoursolve.pictures import (
 
 PROGRAMS = sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))
 SHAFT = next(path for path in PROGRAMS if path.stem == "shaft")
-MOST_BYTES = 60_000
+MOST_BYTES = 80_000
 SVG = "{http://www.w3.org/2000/svg}"
 CIRCLE = "G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
