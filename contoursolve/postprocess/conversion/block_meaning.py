@@ -1,4 +1,4 @@
-"""What the blocks of a program say beside their path, in functions that controls share."""
+"""The meaning of what the blocks of a program say beside their path, in functions that controls share."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -33,7 +33,7 @@ class Token(NamedTuple):
 
 @dataclass(slots=True)
 class Meaning:
-    """What a block says beside its path. `reason` is why all of it is not converted, `lost` the words that are not."""
+    """The meaning of a block beside its path. `reason` is why all of it is not converted, `lost` the words that are not."""
 
     block: Block
     functions: list[SaidFunction] = field(default_factory=list)
@@ -51,7 +51,7 @@ class Meaning:
     tool_name: str = ""
     """The name of a tool that has no number, as it is typed."""
     is_metric_feed: bool = False
-    """Whether its unit leaves the feed in mm."""
+    """Tells whether its unit leaves the feed in mm."""
 
     def has(self, *functions: ProgramFunction) -> bool:
         """Whether it says one of these functions."""
@@ -82,7 +82,7 @@ _MS, _DWELL = Decimal("0.001"), 4
 
 @cache
 def _patterns(kind: ControlKind) -> tuple[_Pattern, ...]:
-    """What is read on a kind of control, the most special first."""
+    """The words that are read on a kind of control, the most special first."""
     found = list[_Pattern]()
     for function in TABLE:
         cell = cell_of(function, kind)
@@ -116,7 +116,7 @@ class MeaningReader:
         self.has_ended = False
 
     def read(self, block: Block, before: State, after: State, *, is_contour: bool) -> Meaning:
-        """What a block says, between two states."""
+        """Read a block, between two states."""
         meaning = Meaning(block, comments=[*_comments_of(block)])
         if self.plain is not None:
             return self._klartext(meaning, before, after, self.plain, is_contour=is_contour)

@@ -91,7 +91,7 @@ class Feeds:
     mode: ProgramFunction
 
     def take(self, functions: Iterable[ProgramFunction], kind: ControlKind) -> None:
-        """What a block says of it: SINUMERIK counts revolutions with G96 and G97."""
+        """Take what a block says of it: SINUMERIK counts revolutions with G96 and G97."""
         for function in functions:
             if function in _FEEDS:
                 self.mode = function
@@ -117,11 +117,11 @@ class BlockWriter:
         self.is_klartext, self.is_lathe = kind is ControlKind.KLARTEXT, machine_of(control) is MachineKind.LATHE
         self.has_two_digits = kind is not ControlKind.SINUMERIK
         self.keeps_names = self.is_klartext or kind is source
-        """Whether tools may have names."""
+        """Tells whether tools may have names."""
         self.state = control.initial_state(unit)
         self.post = post_of(control)
         self.here: dict[str, float] = {}
-        """Where the tool really is, mm, as far as that is known."""
+        """The real place of the tool, mm, as far as that is known."""
         self.trailing = ""
         """A comment behind the next line."""
         self.lines: list[str] = []
@@ -147,7 +147,7 @@ class BlockWriter:
     # What stands in the program
 
     def begin(self, line: int, *, is_skippable: bool = False, label: str = "") -> None:
-        """What follows is written for a line of the program."""
+        """From here on, lines are written for a line of the program."""
         self.line, self.skip = line, "/" if is_skippable else ""
         self.label = label if not self.is_klartext else ""
 
@@ -188,7 +188,7 @@ class BlockWriter:
         return [f"; {each[1:]}" for each in found] if self.modes.syntax.remark == ";{}" else found
 
     def leave(self, text: str, reason: str, *, is_block: bool = False) -> None:
-        """What has no counterpart, as a comment in its place."""
+        """Write what has no counterpart, as a comment in its place."""
         self.found.append(NotConverted(self.line, text, reason, is_block))
         bare = text.strip()
         said = f"NOT CONVERTED: {bare}"

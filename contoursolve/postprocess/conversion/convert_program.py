@@ -37,7 +37,7 @@ from contoursolve.tolerance import LENGTH
 
 
 class Plainness(IntEnum):
-    """How plainly a line is written: what is not the same path in one way is tried in the next."""
+    """The plainness of a line: what is not the same path in one way is tried in the next."""
 
     OWN_WORDS = 0
     PLAIN = 1
@@ -298,7 +298,7 @@ class _Program:
         )
 
     def _assumptions(self) -> Iterator[str]:
-        """What is written by rows that no page seen prints."""
+        """The words that are written by rows that no page seen prints."""
         for function, line in self.writer.used.items():
             cells = [cell_of(function, kind) for kind in self.kinds]
             if self.kinds[0] is not self.kinds[1] and any(
@@ -523,7 +523,7 @@ class _Program:
         self.writer.leave(bare, reason, is_block=True)
 
     def _reason(self, line: _Line) -> str:
-        """Why a line is not converted at all; empty if it is."""
+        """The reason why a line is not converted at all; empty if it is."""
         key = line.answer.lines[0] if line.answer is not None else line.block.line
         if self.levels.get(key) is Plainness.LEFT:
             return "the target would cut another path there"
