@@ -144,7 +144,7 @@ class NotConverted(Struct, frozen=True):
 
     @property
     def sentence(self) -> str:
-        """What stands as a comment, and why."""
+        """The words that stand as a comment, and the reason."""
         return f"{self.text} is not converted: {self.reason}"
 
 

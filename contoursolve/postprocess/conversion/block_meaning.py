@@ -33,7 +33,7 @@ class Token(NamedTuple):
 
 @dataclass(slots=True)
 class Meaning:
-    """The meaning of a block beside its path. `reason` is why all of it is not converted, `lost` the words that are not."""
+    """The meaning of a block beside its path. `reason` is why it is not converted, `lost` the words that are not."""
 
     block: Block
     functions: list[SaidFunction] = field(default_factory=list)
