@@ -85,7 +85,7 @@ def export(record: Any, path: str | Path, *, tool: Any = None, result: str | Non
     * `.csv`, `.parquet`: the rows of a `Family`; Parquet needs `contoursolve[family]`.
     * `.html`: the page of a `Result` (see `report`), or the map of a `Family` over two words or of a `FeasibleRegion`:
       pointer and arrow keys choose values, and their contour is drawn. `result` colours the map, as for `draw`. It
-      holds at most 800 contours, and 400 kB of them. Needs `contoursolve[report]`.
+      holds at most 800 contours, and 400 kB of them.
 
     `tool` is a `ToolReport`; without it that of the result, if it has one. Raises ValueError for a record that has no
     file of this ending, or nothing to write. It does so for a `tool` or a `result` that the file has no use for. Raises
@@ -143,20 +143,17 @@ def _bytes_of(record: Any, ending: str, tool: Any, result: str | None) -> bytes:
         return f"{output.to_json(record, tool)}\n".encode()
     if isinstance(record, Result):
         return report(record, tool=tool).encode()
-    with importing("report", "a page"):
-        return output.map_page(record, result, version=_version()).encode()
+    return output.map_page(record, result, version=_version()).encode()
 
 
 def report(result: Result, *, tool: Any = None, is_explained: bool = False) -> str:
     """The page of HTML about a result: its contours with pictures, words, paths and findings, and the program.
 
     With `is_explained`, equations and constructions, too. `tool` is a `ToolReport`; without it that of the result, if
-    it has one. Raises MissingExtraError without the package of `contoursolve[report]`.
+    it has one.
     """
     check_type("result", result, Result)
-    with importing("report", "a report"):
-        pieces = output.report_page(result, _version(), is_explained=is_explained, tool=tool or result.tool)
-        return "".join(pieces)
+    return "".join(output.report_page(result, _version(), is_explained=is_explained, tool=tool or result.tool))
 
 
 def _version() -> str:

@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from contoursolve import __version__
+from contoursolve.cli.brief_help import LongCommand
 from contoursolve.cli.fixing import MACHINE_READ, fix_options, fixed, read_fixing
 from contoursolve.cli.options import (
     COULD_NOT_RUN,
@@ -45,7 +46,7 @@ _NOTHING = "nothing"
 """The format that leaves standard output to something else."""
 
 
-@click.command(short_help="Report findings only, for any number of programs.")
+@click.command(cls=LongCommand, short_help="Report findings only, for any number of programs.")
 @click.argument("programs", nargs=-1, metavar="PROGRAM...", type=FILE)
 @common_options
 @named_options

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from contoursolve.cli.brief_help import LongCommand
 from contoursolve.cli.options import (
     FILE,
     FOUND_ERRORS,
@@ -31,7 +32,7 @@ from contoursolve.program import SolveOptions, read_setting
 from contoursolve.reading import Control
 
 
-@click.command(short_help="Tell whether two programs describe the same path.")
+@click.command(cls=LongCommand, short_help="Tell whether two programs describe the same path.")
 @click.argument("old", metavar="OLD", type=FILE)
 @click.argument("new", metavar="NEW", type=FILE)
 @click.option(

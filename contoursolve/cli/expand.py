@@ -11,6 +11,7 @@ import click
 from msgspec.structs import replace
 
 from contoursolve.api import MOST_DECIMALS, follow_options
+from contoursolve.cli.brief_help import LongCommand
 from contoursolve.cli.options import (
     FILE,
     FOUND_ERRORS,
@@ -85,7 +86,7 @@ wording_options = together(
 """The options about what stands in the place of a block."""
 
 
-@click.command(short_help="Write a program's contours as plain G-code.")
+@click.command(cls=LongCommand, short_help="Write a program's contours as plain G-code.")
 @click.argument("program", metavar="OLD", required=False, type=FILE)
 @common_options
 @click.option("-o", "--output", metavar="NEW", help="Where to write; without it, or with -, to standard output.")

@@ -21,6 +21,7 @@ from contoursolve.cli.block_options import (
     read_range,
     usage,
 )
+from contoursolve.cli.brief_help import LongCommand
 from contoursolve.cli.options import CouldNotRunError, check_toolless, format_option, side_options
 from contoursolve.cli.pictures import bytes_of, check_picture, theme_option
 from contoursolve.cli.printing import print_json, say
@@ -164,7 +165,7 @@ def size(count: float) -> str:
     return f"{count:,.1f} TB"
 
 
-@click.command("family", short_help="Solve a block for many values of its words.")
+@click.command("family", cls=LongCommand, short_help="Solve a block for many values of its words.")
 @block_options
 @click.option(
     "--vary",

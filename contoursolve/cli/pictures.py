@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from contoursolve import __version__
+from contoursolve.cli.brief_help import LongCommand
 from contoursolve.cli.options import (
     FILE,
     FOUND_ERRORS,
@@ -75,7 +76,7 @@ WrittenFile = tuple[Path, bytes, str]
 """A file, its bytes, and what is in it."""
 
 
-@click.command(short_help="Draw the contours (SVG, PNG), or write them for CAD (DXF).")
+@click.command(cls=LongCommand, short_help="Draw the contours (SVG, PNG), or write them for CAD (DXF).")
 @click.argument("program", required=False, type=FILE)
 @click.option(
     "-o",
@@ -239,7 +240,7 @@ def _date_of(program: str | None) -> str:
     return datetime.fromtimestamp(Path(program).stat().st_mtime, UTC).date().isoformat()
 
 
-@click.command(short_help="Make a page about a program, to read, send and print.")
+@click.command(cls=LongCommand, short_help="Make a page about a program, to read, send and print.")
 @click.argument("program", required=False, type=FILE)
 @click.option(
     "-o",
@@ -272,7 +273,7 @@ def report(
     First the title block, the drawing, all points and the findings, those that say the same as one: one sheet of paper
     for a program of 30 lines. Then each contour that has errors with its picture (with --explain each contour), the
     program's text, and the manual's places with how well each is known. The page opens without a network, in light and
-    dark, and prints. report writes none for a program without a contour. Needs the extra contoursolve[report].
+    dark, and prints. report writes none for a program without a contour.
 
     \b
     contoursolve report shaft.nc
@@ -282,8 +283,8 @@ def report(
     target = output if output is not None else named_after(program, ".html")
     if target.suffix.lower() not in (".html", ".htm"):
         raise CouldNotRunError(f"{target}: pages end in .html")
-    with importing("report", "a report"):
-        from contoursolve.output import report_page  # noqa: PLC0415 - needs an extra
+    from contoursolve.output import report_page  # noqa: PLC0415 - htpy is slow to import
+
     may_replace = _may_replace(target, output, is_forced=is_forced)
     check_target(target, Path(program) if program else None, is_forced=may_replace)
     run = follow(loader(), start, assignments, options)

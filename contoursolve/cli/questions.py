@@ -17,6 +17,7 @@ from contoursolve.cli.block_options import (
     read_within,
     usage,
 )
+from contoursolve.cli.brief_help import LongCommand
 from contoursolve.cli.options import FILE, FOUND_ERRORS, check_toolless, format_option, load, settings_of, side_options
 from contoursolve.cli.printing import print_json, print_lines
 from contoursolve.families import feasible, find as find_values, region, tolerance_for, tolerances as effects_of
@@ -38,7 +39,7 @@ from contoursolve.program import check_start
 from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools, least_of, wanted_tool
 
 
-@click.command("ranges", short_help="Tell for which values of a word, or of two, a contour exists.")
+@click.command("ranges", cls=LongCommand, short_help="Tell for which values of a word, or of two, a contour exists.")
 @block_options
 @format_option
 @click.option(
@@ -118,7 +119,7 @@ def ranges(
     context.exit(0 if exists else FOUND_ERRORS)
 
 
-@click.command("find", short_help="Find the value of a word that brings a point where it is wanted.")
+@click.command("find", cls=LongCommand, short_help="Find the value of a word that brings a point where it is wanted.")
 @click.argument("program", required=False, type=FILE)
 @program_options
 @format_option
@@ -254,7 +255,7 @@ def _print_effects(
         print_lines(tolerances_lines(found))
 
 
-@click.command("tolerances", short_help="Tell the effect of tolerances, or how far a word may be off.")
+@click.command("tolerances", cls=LongCommand, short_help="Tell the effect of tolerances, or how far a word may be off.")
 @block_options
 @format_option
 @_point_option

@@ -4,6 +4,7 @@ from typing import Any
 
 import click
 
+from contoursolve.cli.brief_help import LongCommand
 from contoursolve.cli.options import (
     FILE,
     CouldNotRunError,
@@ -21,7 +22,7 @@ from contoursolve.diagnostics import Severity
 from contoursolve.output import Collected, Totals, closing_lines, stream_listing, tool_lines
 
 
-@click.command(short_help="Solve every contour block of a program.")
+@click.command(cls=LongCommand, short_help="Solve every contour block of a program.")
 @click.argument("program", required=False, type=FILE)
 @common_options
 @named_options
@@ -35,6 +36,7 @@ from contoursolve.output import Collected, Totals, closing_lines, stream_listing
     help="What to print; json is in mm, with X as radius.",
 )
 @click.option("--derivation", "is_derived", is_flag=True, help="Also print the calculation by hand.")
+@click.option("--full", "is_full", is_flag=True, help="Of a program with several contours, print all of each.")
 @explain_option("the equations, the construction, the checks, every reason and every fix")
 @click.pass_context
 def solve(
@@ -45,14 +47,16 @@ def solve(
     start: str | None,
     format_: str,
     is_derived: bool,
+    is_full: bool,
     is_explained: bool,
     assignments: tuple[str, ...],
     **options: Any,
 ) -> None:
     """Solve every contour block of PROGRAM (a file, or - for standard input).
 
-    solve prints what was given, the virtual intersections, and every element of the path, with what is proven of it.
-    Where several contours fit a block, it prints all. It works out a word with ? for its value, such as P?, from the
+    Of one contour, solve prints what was given, the virtual intersections, and every element of the path, with what is
+    proven of it. The paths of several contours are one table; --full prints all of each. Where several contours fit a
+    block, it prints all. It works out a word with ? for its value, such as P?, from the
     other words and from facts.
 
     PROGRAM may be a sketch (a .toml file): solve prints what is known of it, and what is missing.
@@ -78,7 +82,9 @@ def solve(
 
         print_pieces(stream_json(run, tally))
     else:
-        print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained, is_derived=is_derived))
+        shown = {"is_explained": is_explained, "is_derived": is_derived}
+        is_brief = program is not None and not (is_full or is_explained or is_derived)
+        print_lines(stream_listing(run, tally, style_of_output(), is_brief=is_brief, **shown))
         if isinstance(run, Collected) and run.tool is not None:
             tally.statuses.update(run.moves())
             print_lines(tool_lines(run.tool, run.frame))

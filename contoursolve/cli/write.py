@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from contoursolve import gcode
+from contoursolve.cli.brief_help import LongCommand
 from contoursolve.cli.drawing import drawing_options, read_drawn
 from contoursolve.cli.expand import target_of
 from contoursolve.cli.options import (
@@ -39,7 +40,7 @@ from contoursolve.sketches import (
 SCHEMA = "contoursolve/write/1"
 
 
-@click.command(short_help="Write a sketch as a program for a control.")
+@click.command(cls=LongCommand, short_help="Write a sketch as a program for a control.")
 @click.argument("sketch", metavar="SKETCH", type=FILE)
 @control_option("For which control. Without it, a table has the shortest words for each control.", "--to")
 @settings_option

@@ -70,6 +70,9 @@ from .fill import (
     FARTHEST as FARTHEST,
     fill_in as fill_in,
 )
+from .fix_text import (
+    PROBABLY as PROBABLY,
+)
 from .hand_sheet import (
     Calculation as Calculation,
     CalculationLine as CalculationLine,

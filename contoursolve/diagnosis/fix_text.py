@@ -17,6 +17,9 @@ from contoursolve.gcode import Block
 from contoursolve.geometry import Profile
 from contoursolve.solving import ArcSegment, Contour, Point, scalars_of
 
+PROBABLY = "probably "
+"""Leads the label of a word that the first fix of a finding changes."""
+
 
 def with_fixes(finding: Diagnostic, answer: Answer, repairs: Sequence[Repair]) -> Diagnostic:
     """A finding with repairs as its fixes; it points at the words that the first one changes, too."""
@@ -43,7 +46,7 @@ def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
         elif edit.kind is EditKind.ADD and not any(each.kind is EditKind.DROP for each in edits):
             notes.append(f"{edit.address} is missing {_side(edit)} {there}")
         if edit.span is not None:
-            labels.append(Label(edit.span, f"probably {edit.text}" if edit.text else "probably not meant here"))
+            labels.append(Label(edit.span, f"{PROBABLY}{edit.text}" if edit.text else f"{PROBABLY}not meant here"))
     # The first reason says what is wrong.
     told = (*finding.notes[:1], *notes, *finding.notes[1:])
     return replace(finding, labels=(*finding.labels, *labels), notes=told)

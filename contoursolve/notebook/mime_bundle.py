@@ -51,7 +51,7 @@ def _svg(record: Any) -> str:
 
 
 def _html(record: Shown) -> str:
-    from contoursolve.notebook.records_html import html_of  # noqa: PLC0415 - needs an extra
+    from contoursolve.notebook.records_html import html_of  # noqa: PLC0415 - htpy is slow to import
 
     return html_of(record)
 

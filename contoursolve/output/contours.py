@@ -28,7 +28,7 @@ from contoursolve.diagnosis import (
 )
 from contoursolve.diagnostics import Diagnosis, Verdict, checked
 from contoursolve.gcode import FACT
-from contoursolve.geometry import Length, Turn
+from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
 from contoursolve.output.premises import premise_texts
 from contoursolve.output.word_meanings import found_value, stated_words
@@ -104,7 +104,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False,
         path = path_of(answer, answer.contour)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]
         lines += [line for text in premise_texts(answer.premises, result.control or "") for line in ("", f"  {text}")]
-        lines += [line for text in _later_texts(answer) for line in ("", f"  {text}")]
+        lines += [line for text in later_texts(answer) for line in ("", f"  {text}")]
     if answer.filled:
         lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]
         lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
@@ -114,7 +114,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False,
     return [*lines, ""]
 
 
-def _later_texts(answer: Answer) -> Iterator[str]:
+def later_texts(answer: Answer) -> Iterator[str]:
     """A line that names elements of a chain which only a later block determines, each with that block; none without."""
     if not answer.claim.form.is_general:
         return
@@ -251,13 +251,19 @@ def path_of(answer: Answer, contour: Contour) -> Table:
     return path_table(contour, answer.unit, labels_of(answer.profile))
 
 
+def path_heads(plane: Plane, unit: Length) -> tuple[str, ...]:
+    """The columns of a path: both axes of its end points, both of its centers, and the radius."""
+    written = short_name(unit.value)
+    labels = [f"{label} [{written}]" for label in axis_labels(plane)]
+    return (*labels, *(f"center {label}" for label in labels), f"radius [{written}]")
+
+
 @checked
 def path_table(contour: Contour, unit: Length = Length.MM, called: Mapping[str, str] = MappingProxyType({})) -> Table:
     """The named points, and the elements with their end points, in a unit and as the control writes the axes; `called`
     says what they are."""
-    has_arc, written = any(isinstance(each, ArcSegment) for each in contour.elements), short_name(unit.value)
-    labels = [f"{label} [{written}]" for label in axis_labels(contour.plane)]
-    heads = [*labels, *([*(f"center {label}" for label in labels), f"radius [{written}]"] if has_arc else [])]
+    has_arc = any(isinstance(each, ArcSegment) for each in contour.elements)
+    heads = path_heads(contour.plane, unit)[: None if has_arc else 2]
     blank = [""] * (len(heads) - 2)
 
     def point(at: tuple[float, float]) -> list[str]:

@@ -128,10 +128,14 @@ def finding_pieces(
 
 
 def _written(fix: Fix) -> Iterator[str]:
-    """The lines that a fix writes: those of the contour, if it changes any of them; then those beside with their
-    numbers, as they are and as they become."""
+    """The lines that a fix writes: those of the contour that it changes, or all if their number changes; then those
+    beside with their numbers, as they are and as they become."""
     if not fix.beside or fix.replacement != fix.replaced:
-        yield from (_line(text) for text in fix.replacement.split("\n"))
+        new, old = fix.replacement.split("\n"), fix.replaced.split("\n")
+        changed = (
+            [text for text, before in zip(new, old, strict=True) if text != before] if len(new) == len(old) else new
+        )
+        yield from map(_line, changed)
     for each in fix.beside:
         yield f"program line {each.span.line}:"
         texts = each.text.split("\n")

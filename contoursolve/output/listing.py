@@ -10,11 +10,22 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.controls import CONTROLS
-from contoursolve.diagnosis import Answer, ContourState, count, join, labels_of, rank, states_in, statuses_text
-from contoursolve.diagnostics import Diagnostic, Fix, LateModule, Severity, check_type
+from contoursolve.diagnosis import (
+    PROBABLY,
+    Answer,
+    ContourState,
+    count,
+    join,
+    labels_of,
+    rank,
+    states_in,
+    statuses_text,
+)
+from contoursolve.diagnostics import Applicability, Diagnostic, Fix, LateModule, Severity, check_type
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
+from contoursolve.output.program_table import ProgramTable, has_several, is_told_by_path
 from contoursolve.program import ELSEWHERE, Result, Run, what_shows
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import Contour, NoteKind, Status
@@ -70,18 +81,22 @@ def stream_listing(
     *,
     is_explained: bool = False,
     is_derived: bool = False,
+    is_brief: bool = False,
 ) -> Iterator[str]:
     """The same of a stream; that there is nothing to solve is one line. With `is_derived`, contours are calculated by
-    hand."""
+    hand. If it `is_brief`, the paths of several contours are one table."""
 
     def key(item: Answer | Diagnostic) -> Any:
         tally.count(item, is_explained=is_explained)
         return (item.lines[0], True) if isinstance(item, Answer) else (item.span.line, False, rank(item))
 
-    items = _in_order((key(item), item) for item in run)
-    is_short = not (run.is_strict or is_explained)
+    items: Iterable[Answer | Diagnostic] = _in_order((key(item), item) for item in run)
+    is_short, table = not (run.is_strict or is_explained), None
+    if is_brief:
+        are_several, items = has_several(items)
+        table = ProgramTable(run.frame) if are_several else None
     options = {"is_explained": is_explained, "is_short": is_short, "is_derived": is_derived}
-    return _listing_lines(items, run.frame, style, **options)
+    yield from _listing_lines(items, run.frame, style, table=table, **options)
 
 
 def stream_findings(
@@ -179,6 +194,8 @@ class Consequences:
         self._contours = dict[int, tuple[int, ...]]()
         """The lines of the contour of each error, by its identity."""
         self._waiting: dict[int, list[tuple[int, Diagnostic]]] = {}
+        self._first = dict[tuple[int, ...], Diagnostic]()
+        """The first error of each contour that has a fix with all numbers, by the lines of the contour."""
 
     def without(self, item: Answer | Diagnostic, findings: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         """The findings about a contour, or another one, without what is told beneath an error."""
@@ -190,6 +207,13 @@ class Consequences:
                     self._waiting.setdefault(line, []).append((item.lines[0], finding))
             if finding.is_error and isinstance(item, Answer):
                 self._contours[id(finding)] = item.lines
+                if any(fix.applicability is not Applicability.PLACEHOLDER for fix in finding.fixes):
+                    self._first.setdefault(item.lines, finding)
+
+    def is_mended_above(self, finding: Diagnostic) -> bool:
+        """Whether the fixes of the first error of its contour, each of which makes one, mend an error that has none."""
+        first = self._first.get(self._contours.get(id(finding), ()))
+        return not finding.fixes and first is not None and first is not finding
 
     def beneath(self, error: Diagnostic) -> str:
         """The contours that wait for an error, in one line; empty where another error has said it."""
@@ -214,6 +238,9 @@ def _is_repeated(finding: Diagnostic, errors: Sequence[Diagnostic], *, waits: bo
             return waits
         case ReadIssue.UNDERDETERMINED:
             return bool(errors) and finding.severity is Severity.INFO
+        case ReadIssue.POINT_MISSING:
+            labels = (label for each in errors for label in each.labels if label.text.startswith(PROBABLY))
+            return finding.span in {label.span for label in labels}
         case NoteKind.WORDS_AGREE:
             return any({*finding.addresses} <= {*each.addresses} for each in errors)
     return False
@@ -253,16 +280,30 @@ def _listing_lines(
     is_explained: bool,
     is_short: bool = False,
     is_derived: bool = False,
+    table: ProgramTable | None = None,
 ) -> Iterator[str]:
     for item in items:
         findings = findings_of(item, is_explained=is_explained)
-        if isinstance(item, Answer):
+        if table and isinstance(item, Answer) and is_told_by_path(item):
+            yield from table.rows(item)
+        elif isinstance(item, Answer):
+            yield from _interrupting(table)
             yield from contour_lines(item, result, is_explained=is_explained, is_derived=is_derived)
             if not is_explained:
                 # It stands beside its contour: one line is enough.
                 yield from (line for each in findings if each.about in WAITS for line in (f"  {each.message}", ""))
                 findings = tuple(each for each in findings if each.about not in WAITS)
+        if findings:
+            yield from _interrupting(table)
         yield from lines_of_findings(result, findings, style, is_explained=is_explained, is_short=is_short)
+    if table:
+        yield from table.closing()
+
+
+def _interrupting(table: ProgramTable | None) -> Iterator[str]:
+    """A blank line between rows of a table and what is told in full."""
+    if table and table.interrupt():
+        yield ""
 
 
 def lines_of_findings(
@@ -283,8 +324,10 @@ def lines_of_findings(
         if is_short and (line := nothing_line(result, finding, style)):
             yield line
             continue
-        if told and finding.fixes == told:
-            shown = replace(finding, fixes=(), notes=("the fixes above mend this, too", *finding.notes))
+        is_mended = following is not None and following.is_mended_above(finding)
+        if is_mended or (told and finding.fixes == told):
+            notes = ("the fixes above mend this, too", *finding.notes)
+            shown = replace(finding, fixes=(), help=finding.help if is_explained else "", notes=notes)
         told = finding.fixes or told
         sources = sources_of(result, finding)
         name = result.program.name

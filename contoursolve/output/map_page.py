@@ -69,8 +69,7 @@ def map_page(record: Family | FeasibleRegion, result: str | None = None, *, vers
     the page draws their contour. `result` colours the map, as for `draw_family_map`.
 
     The page asks no other host for anything. It holds some of the contours, and says where they are. Raises ValueError
-    for a family that is no grid of two words, and FamilyError for a result that is none. Raises MissingExtraError
-    without the package of `contoursolve[report]`.
+    for a family that is no grid of two words, and FamilyError for a result that is none.
     """
     live = LiveMap(record, result)
     title, by = live.picture.title, f"contoursolve {version}".strip()

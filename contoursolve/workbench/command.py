@@ -6,8 +6,6 @@ from secrets import token_urlsafe
 
 import click
 
-from contoursolve.diagnostics import importing
-
 
 @click.command(short_help="Open the workbench: programs on a page of your own.")
 @click.argument("path", metavar="[FILE|FOLDER]", required=False, type=click.Path(path_type=Path))
@@ -21,7 +19,7 @@ def serve(path: Path | None, port: int, no_browser: bool) -> None:
     The page shows findings at each word, mends, draws, converts and saves. A file is written only when you say so.
     Without FILE or FOLDER, the folder is the present one. Ctrl-C ends the workbench.
 
-    Only this computer reaches the page, at an address with a token. Needs the extra contoursolve[app].
+    Only this computer reaches the page, at an address with a token.
 
     \b
     contoursolve serve
@@ -30,8 +28,7 @@ def serve(path: Path | None, port: int, no_browser: bool) -> None:
     import threading  # noqa: PLC0415 - the other commands start without it
     import webbrowser  # noqa: PLC0415 - as above
 
-    with importing("app", "the workbench"):
-        from contoursolve.workbench import server  # noqa: PLC0415 - needs an extra
+    from contoursolve.workbench import server  # noqa: PLC0415 - as above
     from contoursolve.workbench.desk import Desk  # noqa: PLC0415 - as above
 
     path = path or Path()

@@ -167,8 +167,7 @@ def _program(view: ProgramView, made: Product, ending: str) -> Data:
 
 
 def _report(view: ProgramView, _: Mapping[str, Any]) -> Data:
-    with importing("report", "a report"):
-        made = page_about(view.program, stated_tool(view.program, view.path), contoursolve.__version__)
+    made = page_about(view.program, stated_tool(view.program, view.path), contoursolve.__version__)
     if made.text is None:
         raise ActionError(made.message)
     return _file(view, ".html", made.text.encode("utf-8", "replace"))

@@ -7,6 +7,7 @@ import click
 
 from contoursolve import __version__
 from contoursolve.__main__ import commands
+from contoursolve.cli.brief_help import show_all
 
 PAGE = Path(__file__).parents[1] / "contoursolve.1"
 
@@ -40,7 +41,9 @@ def man_page() -> str:
     for each in main.list_commands(above):
         if (command := main.get_command(above, each)) is not None:
             page.write(f".SH {_plain(each.upper())}\n")
-            command.format_help(click.Context(command, above, each), page)
+            own = click.Context(command, above, each)
+            show_all(own)
+            command.format_help(own, page)
     return "\n".join(line for line in page.getvalue().split("\n") if line) + "\n"
 
 

@@ -1,8 +1,6 @@
 """The report: one page that holds everything, loads nothing, and links both ways."""
 
 import re
-import subprocess
-import sys
 from html.parser import HTMLParser
 from itertools import pairwise
 from pathlib import Path
@@ -164,10 +162,3 @@ def test_a_page_that_nobody_named_has_the_name_of_its_program(tmp_path, monkeypa
     assert page.read_text() == "mine"
     run("-", input="G00 X40. Z0.\nG111 X100. A180. K-30. B120.")
     assert {each.name for each in tmp_path.iterdir()} == {f"{PROGRAMS[0].stem}.html", "contour.html"}
-
-
-def test_without_htpy_the_extra_is_named(tmp_path):
-    program = "import sys; sys.modules['htpy'] = None\nfrom contoursolve.cli import main\nmain(sys.argv[1:])"
-    command = [sys.executable, "-c", program, "report", str(BROKEN), "-o", str(tmp_path / "x.html")]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert (done.returncode, "contoursolve[report]" in done.stderr) == (2, True)

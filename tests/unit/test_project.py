@@ -60,7 +60,7 @@ def test_what_is_installed_by_name_is_an_extra_or_a_group():
     told = "\n".join(path.read_text(encoding="utf-8") for path in files)
     assert {*re.findall(r"--group (\w+)", told)} <= groups.keys()
     named = {name for each in re.findall(r"(?:contoursolve|\")\.?\[([\w,]+)\]", told) for name in each.split(",")}
-    assert {"app", "test"} <= named <= extras.keys()
+    assert {"picture", "test"} <= named <= extras.keys()
     assert extras["all"] == [f"contoursolve[{','.join(sorted(OF_USERS))}]"]
     page = (ROOT / "docs" / "index.md").read_text(encoding="utf-8").partition("\n## Extras\n")[2].partition("\n## ")[0]
     assert {*re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE)} == OF_USERS | {"all"}

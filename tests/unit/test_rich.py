@@ -207,13 +207,6 @@ def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkey
     assert answer._repr_mimebundle_() == {TEXT: repr(answer)}
 
 
-def test_without_htpy_there_are_text_and_picture(monkeypatch):
-    monkeypatch.setitem(sys.modules, "htpy", None)
-    for name in [name for name in sys.modules if name.startswith("contoursolve") and name.endswith("_html")]:
-        monkeypatch.delitem(sys.modules, name)
-    assert [*contoursolve.solve(WHOLE, start="X40. Z0.")._repr_mimebundle_()] == [TEXT, SVG]
-
-
 SHELL = """
 from IPython.core.interactiveshell import InteractiveShell
 import contoursolve
