@@ -15,6 +15,7 @@ from click.testing import CliRunner
 from jsonschema import Draft202012Validator
 
 from contoursolve import solve
+from contoursolve.__main__ import commands
 from contoursolve.cli import main
 from contoursolve.controls import CONTROLS
 from contoursolve.solving import certify
@@ -358,3 +359,33 @@ def test_other_spellings_do_the_same_and_no_help_lists_them(
     listed = re.findall(r"^  (\w+) ", CliRunner().invoke(main, ["--help"]).output, re.MULTILINE)
     assert own[0] in listed
     assert own[0] == other[0] or other[0] not in {*listed} - {"sensitivity"}
+
+
+def listed_options(command, asked):
+    """The options below the heading of a help."""
+    listed = re.split(r"^(?:Main o|O)ptions.*:$", run(command, asked)[1], flags=re.MULTILINE)[1]
+    return re.findall(r"^  (?:-\w, )?(--[\w-]+)", listed, re.MULTILINE)
+
+
+@pytest.mark.parametrize("command", ["check", "solve", "family", "write"])
+def test_the_help_of_a_long_command_shows_eight_options_and_help_all_every_one(command):
+    brief, whole = (listed_options(command, each) for each in ("--help", "--help-all"))
+    assert (len(brief), brief[-2:]) == (10, ["--help-all", "--help"])
+    known = {param.opts[-1] for param in commands().get_command(None, command).params if param.opts[-1][:2] == "--"}
+    assert {*brief} - {"--help-all", "--help"} < {*whole} - {"--help-all", "--help"} == known
+
+
+def test_a_program_of_several_contours_is_one_table_with_the_numbers_of_each():
+    status, table, _ = run("solve", SHAFT)
+    assert (status, len(table.splitlines())) == (0, 40)
+    contours = solve_json(SHAFT)["contours"]
+    rows = re.findall(r"^ {7}.*? G0[123] +(-?[\d.]+) +(-?[\d.]+)", table, re.MULTILINE)
+    ends = [(each["end"][0], 2 * each["end"][1]) for contour in contours for each in contour["elements"]]
+    assert [tuple(map(float, row)) for row in rows] == [pytest.approx(end, abs=1e-4) for end in ends]
+    assert [int(line) for line in re.findall(r"^ {1,5}(\d+)  ", table, re.MULTILINE)] == [53, *range(67, 73)]
+    whole = run("solve", SHAFT, "--full")[1]
+    assert whole.count(": solved\n") == 7 == len(contours)
+    # One that is refused is told in full between the rows; with one contour there is no table.
+    told = run("solve", BROKEN)[1]
+    assert (told.count("cannot be cut\n"), told.count("line  element")) == (5, 1)
+    assert "line  element" not in run("solve", *ONE)[1]
