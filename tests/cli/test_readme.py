@@ -123,7 +123,7 @@ def test_the_architecture_page_shows_what_each_stage_makes() -> None:
 def test_the_page_by_hand_shows_what_is_calculated() -> None:
     failed, tried = doctest.testfile(str(ROOT / "docs" / "by-hand.md"), module_relative=False)
     assert not failed
-    assert tried >= 15
+    assert tried >= 10
 
 
 def test_each_diff_of_the_architecture_page_stands_in_the_file_that_it_names() -> None:
