@@ -61,7 +61,7 @@ def explain(code: str, control: str | Control | None) -> None:
     contoursolve explain g111-line-1
     contoursolve explain 146
     """
-    from contoursolve.output import alarm_rows, rule_lines  # noqa: PLC0415 - only here
+    from contoursolve.output import alarm_rows, rule_view  # noqa: PLC0415 - only here
     from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - the same
 
     wanted, chosen = code.strip().lower(), _chosen(control)
@@ -78,4 +78,4 @@ def explain(code: str, control: str | Control | None) -> None:
         hint = did_you_mean(wanted, sorted({rule.code for each in chosen for rule in each.rules}))
         raise CouldNotRunError(f"no rule has the code or the alarm {code!r}; {hint}'contoursolve rules' lists them")
     for rule, controls in found.values():
-        say("\n".join((*rule_lines(rule, controls), "")))
+        say("\n".join((*rule_view(rule, controls).lines(), "")))

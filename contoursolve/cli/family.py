@@ -50,7 +50,7 @@ from contoursolve.families import (
 from contoursolve.gcode import CannotWriteError, check_target, open_whole, write_whole
 from contoursolve.output import columns, premise_data, rest_lines
 from contoursolve.pictures import Theme, draw_sweep, sweep_title
-from contoursolve.solving import REASONS, Status, StatusCode
+from contoursolve.solving import REASONS, STATUSES, Status
 from contoursolve.tool_radius import ToolSweep, sweep_tools
 
 PATIENCE = 1.0
@@ -440,9 +440,9 @@ def _summary_data(counts: Any, failures: FailureSummary | None) -> dict[str, Any
 
 def _counted(counts: Any) -> Iterator[tuple[str, int, dict[str, int]]]:
     """Each status that there is, how often, and how often for each reason, the most frequent first."""
-    for code in StatusCode:
+    for code, status in enumerate(STATUSES):
         if counts[code].sum():
             numbers = sorted(range(1, len(REASONS)), key=lambda each: -counts[code, each])
             kinds = [(REASONS[number], int(counts[code, number])) for number in numbers if counts[code, number]]
             reasons = {kind.value: count for kind, count in kinds if kind is not None}
-            yield code.status.value, int(counts[code].sum()), reasons
+            yield status.value, int(counts[code].sum()), reasons

@@ -23,17 +23,17 @@ from contoursolve.cli.printing import print_json, print_lines
 from contoursolve.families import feasible, find as find_values, region, tolerance_for, tolerances as effects_of
 from contoursolve.output import (
     found_data,
-    found_lines,
+    found_view,
     range_data,
-    range_lines,
+    range_view,
     region_data,
-    region_lines,
+    region_view,
     tolerances_data,
-    tolerances_lines,
+    tolerances_view,
     tools_data,
     tools_lines,
     word_tolerance_data,
-    word_tolerance_lines,
+    word_tolerance_view,
 )
 from contoursolve.program import check_start
 from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools, least_of, wanted_tool
@@ -108,10 +108,10 @@ def ranges(
                 found = least_of(find_tools(about.pop("block"), within=limits, **about, **stated))
             else:
                 found = feasible(word=words[0], within=limits, **about)
-            exists, lines, document = bool(found.intervals), range_lines(found), range_data(found)
+            exists, lines, document = bool(found.intervals), range_view(found).lines(), range_data(found)
         else:
             both = region(words=(words[0], words[1]), within=(ranges[0], ranges[1]), **about)
-            exists, lines, document = both.exists, region_lines(both), region_data(both)
+            exists, lines, document = both.exists, region_view(both).lines(), region_data(both)
     if format_ == "json":
         print_json(document)
     else:
@@ -188,7 +188,7 @@ def find(
     if format_ == "json":
         print_json(found_data(found))
     else:
-        print_lines(found_lines(found))
+        print_lines(found_view(found).lines())
     context.exit(0 if found.hits else FOUND_ERRORS)
 
 
@@ -252,7 +252,7 @@ def _print_effects(
     if format_ == "json":
         print_json(tolerances_data(found))
     else:
-        print_lines(tolerances_lines(found))
+        print_lines(tolerances_view(found).lines())
 
 
 @click.command("tolerances", cls=LongCommand, short_help="Tell the effect of tolerances, or how far a word may be off.")
@@ -328,7 +328,7 @@ def _keep(text: str, words: Sequence[str], about: dict[str, Any], format_: str) 
     if format_ == "json":
         print_json({"schema": "contoursolve/tolerance/1", "words": [word_tolerance_data(each) for each in found]})
     else:
-        print_lines(line for each in found for line in word_tolerance_lines(each))
+        print_lines(line for each in found for line in word_tolerance_view(each).lines())
 
 
 def _read_tolerance(text: str) -> tuple[str, float]:

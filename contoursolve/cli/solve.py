@@ -123,6 +123,6 @@ def system(
     except ValueError as error:
         told = str(error).partition(";")[0] + ("; name one with --line" if len(result.answers) > 1 else "")
         raise CouldNotRunError(told) from None
-    from contoursolve.output import system_lines  # noqa: PLC0415 - sympy is slow to import
+    from contoursolve.output import system_view  # noqa: PLC0415 - sympy is slow to import
 
-    print_lines(system_lines(answer.system))
+    print_lines(system_view(answer.system).lines("  "))

@@ -46,7 +46,6 @@ from contoursolve.solving import (
     NoClosedFormError,
     RowOutcome,
     Status,
-    StatusCode,
     SystemSolution,
     add_checks,
     at_origin,
@@ -56,7 +55,6 @@ from contoursolve.solving import (
     check_range,
     check_residuals,
     choose,
-    code_of,
     compile_branches,
     compile_path,
     enumerate_each,
@@ -262,13 +260,13 @@ class BranchRows:
         verdict = RowOutcome(self.verdict.outputs, _run(self.function, {**known, **scalars}, size), size)
         status, reason = verdict.status, verdict.reason
         settled.again |= count(verdict.again | (reason == UNVERIFIED)) > 0
-        status[(status == StatusCode.OVERDETERMINED) & (reason != 0)] = StatusCode.NO_SOLUTION
-        is_path = (reason == 0) & (status <= StatusCode.OVERDETERMINED) & pairs.is_chosen
+        status[(status == Status.OVERDETERMINED.code) & (reason != 0)] = Status.NO_SOLUTION.code
+        is_path = (reason == 0) & (status <= Status.OVERDETERMINED.code) & pairs.is_chosen
         # A word that tells a solution from another one is needed after all.
         agrees = numpy.zeros(pairs.rows.size, bool)
         for name, mask in verdict.agreeing.items():
             agrees |= mask & (count(verdict.differing[name]) == 0)[pairs.rows]
-        status[is_path] = numpy.where(agrees[is_path], StatusCode.OVERDETERMINED, StatusCode.SOLVED)
+        status[is_path] = numpy.where(agrees[is_path], Status.OVERDETERMINED.code, Status.SOLVED.code)
         # Later pairs first, so that the first of several counts.
         for mask in (pairs.is_chosen, is_path):
             at = numpy.flatnonzero(mask)[::-1]
@@ -280,7 +278,7 @@ class BranchRows:
         if self.case.profile.picks:
             # Which of several a number chooses is counted for each row by itself.
             settled.again |= paths > 1
-        settled.status[paths > 1] = StatusCode.AMBIGUOUS
+        settled.status[paths > 1] = Status.AMBIGUOUS.code
         settled.reason[paths > 1] = 0
         is_only = (paths == 1) | ((paths == 0) & (chosen == 1))
         shown = is_path | (pairs.is_chosen & (paths[pairs.rows] == 0))
@@ -293,7 +291,7 @@ class BranchRows:
 
     def _settle(self, solution: SystemSolution, rows: Sequence[int] | Places, settled: RowSolutions) -> None:
         """Note what the single solve of a row says, for all of some rows."""
-        settled.status[rows] = code_of(solution.status)
+        settled.status[rows] = solution.status.code
         settled.reason[rows] = reason_of(solution.refusals[0].kind if solution.refusals else None)
         settled.is_path[rows] = settled.is_shown[rows] = bool(solution.scalars)
         for name in self.system.unknowns:

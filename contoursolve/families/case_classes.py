@@ -34,7 +34,6 @@ from contoursolve.solving import (
     SystemSolution,
     analyse,
     axes_of,
-    code_of,
     compile_checks,
     compile_path,
     compile_system,
@@ -490,7 +489,7 @@ def asked_of(profile: Profile) -> dict[str, Question]:
 def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Results) -> None:
     """The results of a single solve in a row."""
     solution = case.solve(values)
-    table["status"][row] = code_of(solution.status)
+    table["status"][row] = solution.status.code
     table["reason"][row] = reason_of(solution.refusals[0].kind if solution.refusals else None)
     if not solution.points:
         for name in (*(name for name in table if name.endswith(ROOM)), RESIDUAL):

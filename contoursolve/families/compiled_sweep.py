@@ -41,7 +41,6 @@ from contoursolve.reading import Premises
 from contoursolve.solving import (
     RowOutcome,
     Status,
-    code_of,
     compile_checks,
 )
 
@@ -140,7 +139,7 @@ class CompiledSweep(Struct, eq=False):
             # Where one function answers all rows, results are written in place.
             own = None if self.is_one_function else numpy.flatnonzero(number == each)
             if rows.status is not None:
-                table["status"][own] = code_of(rows.status)
+                table["status"][own] = rows.status.code
                 continue
             for begin, end in stretches(last - first if own is None else own.size, rows.most):
                 target = slice(begin, end) if own is None else own[begin:end]
@@ -153,7 +152,7 @@ class CompiledSweep(Struct, eq=False):
         """Fill in the results of rows of one class that were read one by one."""
         target = numpy.array([row for row, _ in read])
         if rows.status is not None:
-            table["status"][target] = code_of(rows.status)
+            table["status"][target] = rows.status.code
             return
         for begin, end in stretches(target.size, rows.most):
             part = {name: numpy.array([values[name] for _, values in read[begin:end]]) for name in read[0][1]}

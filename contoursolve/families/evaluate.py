@@ -37,7 +37,7 @@ from contoursolve.families.word_values import TOOL, Ranges, ranges_of, stretches
 from contoursolve.numeric import Array
 from contoursolve.program import Rules, Units
 from contoursolve.reading import Control
-from contoursolve.solving import REASONS, Status, StatusCode
+from contoursolve.solving import REASONS, STATUSES, Status
 
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
@@ -284,7 +284,7 @@ class Tally(Struct):
 
     words: tuple[str, ...]
     counts: NDArray[numpy.int64] = field(
-        default_factory=lambda: numpy.zeros((len(StatusCode), len(REASONS)), numpy.int64)
+        default_factory=lambda: numpy.zeros((len(STATUSES), len(REASONS)), numpy.int64)
     )
     firsts: dict[tuple[int, int], dict[str, float]] = field(default_factory=dict)
     many: int = 1
@@ -312,7 +312,7 @@ def failure_summary(ready: CompiledSweep, tally: Tally) -> FailureSummary | None
     """The most frequent failure; None where rows have different statuses, or a contour."""
     totals = tally.counts.sum(axis=1)
     code = int(totals.argmax())
-    if totals[code] != totals.sum() or StatusCode(code).status in (Status.SOLVED, Status.OVERDETERMINED):
+    if totals[code] != totals.sum() or STATUSES[code] in (Status.SOLVED, Status.OVERDETERMINED):
         return None
     if all(case.status is not None for case in ready.cases):
         return _by_kinds(ready)

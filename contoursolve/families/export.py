@@ -23,7 +23,7 @@ from contoursolve.families.word_values import TOOL, Ranges, are_same
 from contoursolve.gcode import Word, open_whole, write_whole
 from contoursolve.geometry import Unit
 from contoursolve.reading import Premises
-from contoursolve.solving import REASONS, Contour, Status, StatusCode
+from contoursolve.solving import REASONS, STATUSES, Contour, Status
 
 if TYPE_CHECKING:
     import pyarrow
@@ -91,7 +91,7 @@ class Family(Shown):
     names of results, in mm with X of a lathe as diameter, whatever the unit of the block:
 
     * the free words, as written: in the unit of the block, X of a lathe as diameter (float64);
-    * `status` (uint8, see `StatusCode`) and `reason` (uint8, an index of `REASONS`; 0 for none);
+    * `status` (uint8, an index of `STATUSES`) and `reason` (uint8, an index of `REASONS`; 0 for none);
     * `branch.P1` (int8): the side that the block chooses: +1 farther or left, -1 nearer or right; 0 where there is no
       contour, or both are one;
     * `V1 Z`, `V1 X`: the points; `r`: radii; `corner 1.begin Z`, `.end`, `.center`: the corners (float64, NaN where
@@ -202,7 +202,7 @@ class Family(Shown):
     @property
     def has_contour(self) -> NDArray[numpy.bool_]:
         """Mask of the rows with a contour: solved, or with words that agree; and nothing speaks against it."""
-        is_solved = (self["status"] <= StatusCode.OVERDETERMINED) & (self["reason"] == 0)
+        is_solved = (self["status"] <= Status.OVERDETERMINED.code) & (self["reason"] == 0)
         return numpy.asarray(is_solved)
 
     @property
@@ -244,7 +244,7 @@ class Family(Shown):
 
     def summary(self) -> dict[Status, int]:
         """The number of rows with each status, without those that none has."""
-        return summary_of(numpy.bincount(self.columns["status"].reshape(-1), minlength=len(StatusCode)))
+        return summary_of(numpy.bincount(self.columns["status"].reshape(-1), minlength=len(STATUSES)))
 
     def measures(self) -> dict[str, Measure]:
         """The unit of each array, by name."""
@@ -323,12 +323,12 @@ def origin_of(spec: SweepSpec, premises: Premises) -> dict[str, str]:
 
 
 def summary_of(counts: NDArray[Any]) -> dict[Status, int]:
-    """The counts by `StatusCode` as counts by status."""
-    return {code.status: int(counts[code]) for code in StatusCode if counts[code]}
+    """The counts by the number of each status as counts by status."""
+    return {status: int(counts[status.code]) for status in STATUSES if counts[status.code]}
 
 
 _WORDS: Mapping[str, list[str | None]] = {
-    "status": [code.status.value for code in StatusCode],
+    "status": [status.value for status in STATUSES],
     "reason": [kind.value if kind else None for kind in REASONS],
 }
 """Meanings of the numbers of two columns."""

@@ -26,7 +26,7 @@ from contoursolve.geometry import PATH_END, Length, Plane, Unit
 from contoursolve.numeric import Array
 from contoursolve.program import takes
 from contoursolve.reading import Premises
-from contoursolve.solving import Point, StatusCode
+from contoursolve.solving import Point, Status
 
 MOST_WORDS = 10
 """Words with a tolerance of which all combinations of limits are solved; each doubles them."""
@@ -154,7 +154,7 @@ def _missing(template: Template, found: Family, words: Sequence[str]) -> Iterato
     free, tally = template.with_words(list(found.ranges.values)), Tally(tuple(found.ranges.values))
     tally.add({name: found[name].reshape(-1) for name in found.names})
     for kind, values in sorted(tally.firsts.items(), key=lambda each: -tally.counts[each[0]]):
-        if kind[0] > StatusCode.OVERDETERMINED:
+        if kind[0] > Status.OVERDETERMINED.code:
             told = dict(zip(words, values.values(), strict=True))
             yield Missing(int(tally.counts[kind]), told, first_error(free.solve(values)))
 

@@ -32,7 +32,7 @@ from contoursolve.geometry import Unit
 from contoursolve.numeric import Array
 from contoursolve.program import takes
 from contoursolve.reading import Premises
-from contoursolve.solving import REASONS, Point, StatusCode
+from contoursolve.solving import REASONS, Point, Status
 
 T = TypeVar("T")
 
@@ -192,7 +192,7 @@ class _RegionSearch(FreeWords):
         try:
             ready = compile_sweep(self.spec, ranges, self._sweep)
         except RefusedError:  # each of these values, for the same reason
-            return numpy.full(len(points), StatusCode.REJECTED * len(REASONS), numpy.int64)
+            return numpy.full(len(points), Status.REJECTED.code * len(REASONS), numpy.int64)
         # Where there is no closed form, a search for every row takes minutes; it says so.
         for case in ready.cases if not ready.by_row else ():
             if case.status is None and not case.is_closed:

@@ -16,7 +16,7 @@ from contoursolve.families.case_classes import case_in
 from contoursolve.families.feasible_ranges import Reason, failure_of, phrase, refused
 from contoursolve.families.free_words import stated_by
 from contoursolve.numeric import Array
-from contoursolve.solving import REASONS, Check, Point, RefusalKind, StatusCode, Test
+from contoursolve.solving import REASONS, Check, Point, RefusalKind, Status, Test
 
 Outcomes = NDArray[numpy.int64]
 """Outcome of each value: its status and the reason against it, as one number."""
@@ -59,7 +59,7 @@ def outcomes_of(status: NDArray[numpy.uint8], reason: NDArray[numpy.uint8]) -> O
 
 def is_contour(outcomes: Outcomes) -> NDArray[numpy.bool_]:
     """Mask of the outcomes that are a contour: one that words agree about may be refused all the same."""
-    return numpy.isin(outcomes, [code * len(REASONS) for code in (StatusCode.SOLVED, StatusCode.OVERDETERMINED)])
+    return numpy.isin(outcomes, [code * len(REASONS) for code in (Status.SOLVED.code, Status.OVERDETERMINED.code)])
 
 
 def crossings_of(

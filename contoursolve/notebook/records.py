@@ -10,6 +10,7 @@ from contoursolve.controls import CONTROLS
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count, join, states_in
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
 from contoursolve.families import (
+    TOOL,
     Family,
     FeasibleRange,
     FeasibleRegion,
@@ -21,21 +22,24 @@ from contoursolve.families import (
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.notebook.exercises import Exercise, exercise_lines
 from contoursolve.output import (
+    Folded,
     Table,
+    View,
     check_table,
     closing_lines,
     finding_lines,
-    found_lines,
+    found_view,
     listing_lines,
     path_table,
     plain,
     printable,
-    range_lines,
+    range_view,
     receipt_lines,
-    region_lines,
-    rule_lines,
-    tolerances_lines,
-    word_tolerance_lines,
+    region_view,
+    rest_lines,
+    rule_view,
+    tolerances_view,
+    word_tolerance_view,
 )
 from contoursolve.program import Result
 from contoursolve.reading import Control, Lexicon, Rule
@@ -44,6 +48,9 @@ from contoursolve.tolerance import AGREEMENT
 
 MOST_ROWS = 200
 """Rows of a table."""
+
+MAP_WORDS = 2
+"""Free words of a family that a map shows."""
 
 MOST_LINES, WIDEST = 400, 400
 """Lines of text, and characters of a line."""
@@ -60,10 +67,16 @@ def bounded(lines: Iterable[str]) -> str:
 
 def text_of(record: Shown) -> Iterable[str]:
     """The lines of a record."""
-    for kind, lines in _LINES.items():
-        if isinstance(record, kind):
-            return lines(record)
-    return str(record).split("\n")
+    view = view_of(record)
+    if view is not None:
+        return view.lines()
+    lines = next((lines for kind, lines in _LINES.items() if isinstance(record, kind)), None)
+    return str(record).split("\n") if lines is None else lines(record)
+
+
+def view_of(record: Shown) -> View | None:
+    """What the text and the page of a record say; None for one whose page is laid out by itself."""
+    return next((view(record) for kind, view in _VIEWS.items() if isinstance(record, kind)), None)
 
 
 def _reads_by(control: Control, lexicon: Lexicon) -> bool:
@@ -97,21 +110,21 @@ def _finding(finding: Diagnostic) -> list[str]:
     return finding_lines(finding, "<program>", {})
 
 
-def _diagnosis(diagnosis: Diagnosis) -> Iterator[str]:
-    yield from check_table(diagnosis).lines("")
-    for table in diagnosis_tables(diagnosis):
-        yield from ("", f"{table.caption[0].lower()}{table.caption[1:]}:", *table.lines(is_headed=False))
-
-
-def diagnosis_tables(diagnosis: Diagnosis) -> Iterator[Table]:
-    """Each point that is not fixed, and how it can move; each set of words that say the same, the formula that ties
-    them, and by how much they disagree."""
+def _diagnosis(diagnosis: Diagnosis) -> View:
+    """The checks; each point that is not fixed, and how it can move; each set of words that say the same, the formula
+    that ties them, and by how much they disagree."""
     freedoms = [(each.point, each.how) for each in diagnosis.freedoms]
     ties = [(" ".join(tie.addresses), tie.identity, _disagreement(tie)) for tie in diagnosis.ties]
-    if freedoms:
-        yield Table("What can still move", ("point", "how"), freedoms, left=(0, 1, 2))
-    if ties:
-        yield Table("What says the same", ("words", "formula", "disagreement"), ties, left=(0, 1, 2))
+    open_points = Table("What can still move", ("point", "how"), freedoms, left=(0, 1), is_headed=False)
+    header = ("words", "formula", "disagreement")
+    return View(
+        "",
+        [
+            check_table(diagnosis),
+            open_points,
+            Table("What says the same", header, ties, left=(0, 1, 2), is_headed=False),
+        ],
+    )
 
 
 def _disagreement(tie: Tie) -> str:
@@ -125,17 +138,12 @@ def _contour(contour: Contour) -> list[str]:
     return path_table(contour).lines("")
 
 
-def _block(block: Block) -> Iterator[str]:
-    yield printable(block.text)
-    yield from word_table(block).lines()
-
-
-def word_table(block: Block) -> Table:
+def _block(block: Block) -> View:
     """Each word and each stretch that is none, where it stands, and its value."""
     rows = [(each.span.column, printable(each.text), "?" if each.is_asked else _number(each)) for each in block.words]
     rows += [(each.span.column, printable(each.text), each.kind.value) for each in block.faults]
     shown = [(str(column), text, value) for column, text, value in sorted(rows)[:MOST_ROWS]]
-    return Table("Words", ("column", "word", "value"), shown, left=(1,))
+    return View(printable(block.text), [Table("Words", ("column", "word", "value"), shown, left=(1,))])
 
 
 def _number(word: Word) -> str:
@@ -148,8 +156,8 @@ def _program(program: Program) -> Iterator[str]:
     yield from (f"{block.line:>{width}} | {printable(block.text)}" for block in islice(program.blocks, 1_000))
 
 
-def _rule(rule: Rule) -> list[str]:
-    return rule_lines(rule, controls_of(rule))
+def _rule(rule: Rule) -> View:
+    return rule_view(rule, controls_of(rule))
 
 
 def controls_of(rule: Rule) -> list[str]:
@@ -157,19 +165,9 @@ def controls_of(rule: Rule) -> list[str]:
     return [name for name, control in CONTROLS.items() if rule in (*control.rules, *control.catalogue)]
 
 
-def _family(family: Family) -> Iterator[str]:
-    yield f"{count(len(family), 'contour')}, shape {' x '.join(map(str, family.shape))}"
-    if family.solutions:
-        yield f"  solutions: {join(list(family.solutions))}"
-    for table in family_tables(family):
-        yield from ("", *table.lines())
-    yield ""
-    yield f"  arrays: {', '.join(family.names)}"
-
-
-def family_tables(family: Family) -> tuple[Table, Table]:
-    """Tables of a family: the number and range of each free word's values, and the number of contours in each
-    state."""
+def _family(family: Family) -> View:
+    """How many contours there are; the number and the range of each free word's values, and how many contours come to
+    each state; its arrays, and what it depends on."""
     words = []
     for word, values in family.ranges.values.items():
         ends = (f"{values.min():.6g}", f"{values.max():.6g}") if values.size else ("", "")
@@ -178,19 +176,18 @@ def family_tables(family: Family) -> tuple[Table, Table]:
         (state.value, f"{number:,}", f"{number / family['status'].size:.1%}")
         for state, number in states_in(family.summary()).items()
     ]
-    return (
-        Table("Free words", ("word", "values", "least", "largest"), words),
-        Table("What becomes of them", ("state", "contours", "share"), states),
-    )
+    title = f"{count(len(family), 'contour')}, shape {' x '.join(map(str, family.shape))}"
+    several = [values for values in family.ranges.values.values() if values.size > 1]
+    is_fan = len(several) == 1 and TOOL not in family.ranges.values and family.has_contour.any()
+    is_drawn = (is_fan or len(words) == MAP_WORDS) and not (family.ranges.is_paired or family.solutions)
+    parts: list[str | Table | Folded] = [f"solutions: {join(list(family.solutions))}"] if family.solutions else []
+    parts += ["", Table("Free words", ("word", "values", "least", "largest"), words)]
+    parts += ["", Table("What becomes of them", ("state", "contours", "share"), states)]
+    parts += ["", Folded(count(len(family.names), "array"), [", ".join(family.names)])]
+    return View(title, [*parts, *filter(None, [family.remark]), *rest_lines(family)], family if is_drawn else None)
 
 
-def _sensitivity(found: Sensitivity) -> Iterator[str]:
-    table = slope_table(found)
-    yield table.caption
-    yield from table.lines()
-
-
-def slope_table(found: Sensitivity) -> Table:
+def _sensitivity(found: Sensitivity) -> View:
     """By how much each word moves each result, as the control writes it; `none` where no derivative exists."""
     words, plane = next(iter(found.slopes.values()), {}), found.plane
     labels = dict(zip(plane.axes, axis_labels(plane), strict=True))
@@ -201,7 +198,8 @@ def slope_table(found: Sensitivity) -> Table:
         return (label, *("none" if isnan(each) else f"{each + 0.0:.4f}" for each in slopes.values()))
 
     rows = [row(*each) for each in islice(found.slopes.items(), MOST_ROWS)]
-    return Table("how far each result moves, mm for each unit of a word as it is written", ("result", *words), rows)
+    told = "how far each result moves, mm for each unit of a word as it is written"
+    return View(told, [Table("Slopes", ("result", *words), rows)])
 
 
 def _sketch(sketch: Sketch) -> Iterator[str]:
@@ -212,10 +210,10 @@ def _sketch(sketch: Sketch) -> Iterator[str]:
         yield str(error)
 
 
-def _system(system: EquationSystem) -> Iterator[str]:
-    from contoursolve.output import system_lines  # noqa: PLC0415 - sympy is slow to import
+def _system(system: EquationSystem) -> View:
+    from contoursolve.output import system_view  # noqa: PLC0415 - sympy is slow to import
 
-    yield from system_lines(system)
+    return system_view(system)
 
 
 def _derivation(derivation: Derivation) -> Iterator[str]:
@@ -234,22 +232,25 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Result: _result,
     Answer: _answer,
     Diagnostic: _finding,
-    Diagnosis: _diagnosis,
     Contour: _contour,
-    Block: _block,
     Program: _program,
-    Rule: _rule,
-    Family: _family,
-    FeasibleRange: range_lines,
-    FeasibleRegion: region_lines,
-    FoundValues: found_lines,
-    Tolerances: tolerances_lines,
-    ToleranceRange: word_tolerance_lines,
-    Sensitivity: _sensitivity,
     Sketch: _sketch,
-    EquationSystem: _system,
     Derivation: _derivation,
     Exercise: exercise_lines,
     Comparison: _comparison,
     Receipt: receipt_lines,
+}
+
+_VIEWS: dict[type, Callable[[Any], View]] = {
+    Diagnosis: _diagnosis,
+    Block: _block,
+    Rule: _rule,
+    Family: _family,
+    FeasibleRange: range_view,
+    FeasibleRegion: region_view,
+    FoundValues: found_view,
+    Tolerances: tolerances_view,
+    ToleranceRange: word_tolerance_view,
+    Sensitivity: _sensitivity,
+    EquationSystem: _system,
 }

@@ -6,8 +6,8 @@ from .catalogue import (
     alarm_rows as alarm_rows,
     catalogue_data as catalogue_data,
     catalogue_lines as catalogue_lines,
-    rule_lines as rule_lines,
     rule_page as rule_page,
+    rule_view as rule_view,
     vocabulary_lines as vocabulary_lines,
     word_set_lines as word_set_lines,
 )
@@ -35,14 +35,13 @@ from .dxf import (
 )
 from .equations import (
     equations_of as equations_of,
-    system_lines as system_lines,
+    system_view as system_view,
 )
 from .equations_exchange import (
     systems_to_json as systems_to_json,
     to_smt as to_smt,
 )
 from .equations_html import (
-    system_element as system_element,
     system_latex as system_latex,
 )
 from .exchange import (
@@ -54,33 +53,19 @@ from .explanation_html import (
     equations_of_contour as equations_of_contour,
 )
 from .families import (
-    contribution_table as contribution_table,
     found_data as found_data,
-    found_lines as found_lines,
-    found_table as found_table,
-    found_title as found_title,
+    found_view as found_view,
     range_data as range_data,
-    range_lines as range_lines,
-    range_notes as range_notes,
-    range_table as range_table,
-    range_title as range_title,
+    range_view as range_view,
     region_data as region_data,
-    region_lines as region_lines,
-    region_notes as region_notes,
-    region_table as region_table,
-    region_title as region_title,
+    region_view as region_view,
     rest_lines as rest_lines,
-    spread_lines as spread_lines,
     tolerances_data as tolerances_data,
-    tolerances_lines as tolerances_lines,
-    tolerances_title as tolerances_title,
+    tolerances_view as tolerances_view,
     tools_data as tools_data,
     tools_lines as tools_lines,
     word_tolerance_data as word_tolerance_data,
-    word_tolerance_lines as word_tolerance_lines,
-    word_tolerance_notes as word_tolerance_notes,
-    word_tolerance_table as word_tolerance_table,
-    word_tolerance_title as word_tolerance_title,
+    word_tolerance_view as word_tolerance_view,
 )
 from .findings import (
     EXPLAINING as EXPLAINING,
@@ -103,6 +88,7 @@ from .html import (
     solutions_table as solutions_table,
     table as table,
     table_of as table_of,
+    view_element as view_element,
     words_table as words_table,
     worst_of as worst_of,
 )
@@ -138,7 +124,10 @@ from .moved_program import (
     rewrite_beside_tool as rewrite_beside_tool,
 )
 from .plain_text import (
+    Folded as Folded,
+    Quoted as Quoted,
     Table as Table,
+    View as View,
     columns as columns,
     harmless as harmless,
     printable as printable,

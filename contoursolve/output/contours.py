@@ -60,13 +60,13 @@ def explaining_lines(answer: Answer, system: "EquationSystem | None" = None) -> 
     """The equations of a contour, the conditions on which they determine it, and the construction; `system` is its own,
     if it is made already."""
     from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
-    from contoursolve.output.equations import equation_lines  # noqa: PLC0415 - sympy is slow to import
+    from contoursolve.output.equations import equation_view  # noqa: PLC0415 - sympy is slow to import
 
     lines = [
-        *equation_lines(system or answer.system),
+        *equation_view(system or answer.system).lines("  "),
         "",
         "  points:",
-        *points_table(answer).lines("    ", is_headed=False),
+        *points_table(answer).lines("    "),
         "",
         *construction_lines(answer),
     ]
@@ -79,7 +79,9 @@ def points_table(answer: Answer) -> Table:
     """The labels of the points of a contour, each with where it lies."""
     labels, figure = labels_of(answer.profile), answer.profile.figure
     rows = [(name, labels[name]) for name in (figure.start, *figure.points) if name in labels]
-    return Table("Points", ("point", "where it lies"), rows, (0, 1), [("point", name) for name, _ in rows])
+    return Table(
+        "Points", ("point", "where it lies"), rows, (0, 1), [("point", name) for name, _ in rows], is_headed=False
+    )
 
 
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False, is_derived: bool = False) -> list[str]:
@@ -99,7 +101,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False,
         from contoursolve.output.derivation import derivation_lines  # noqa: PLC0415 - sympy is slow to import
 
         lines += ["", *derivation_lines(system.derivation)]
-        lines += [] if is_explained else ["", "  points:", *points_table(answer).lines("    ", is_headed=False)]
+        lines += [] if is_explained else ["", "  points:", *points_table(answer).lines("    ")]
     if answer.contour:
         path = path_of(answer, answer.contour)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]

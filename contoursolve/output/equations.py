@@ -1,55 +1,60 @@
 """The system of equations of a contour as text: what each word says first, the formula behind it."""
 
-from collections.abc import Iterator
+from typing import Any
+
+from msgspec import Struct
 
 from contoursolve.diagnosis import (
     Answer,
     Equation,
     EquationSystem,
     SystemCondition,
-    TiedWords,
     called_in_program,
     count,
     join,
+    word_keys,
 )
 from contoursolve.diagnostics import checked
-from contoursolve.gcode import Word
+from contoursolve.gcode import FACT, Word
 from contoursolve.numeric import symbolic
-from contoursolve.output.plain_text import Table, printable
+from contoursolve.output.plain_text import NAMELESS, Folded, Table, View, printable
 
 NOBODY = "the form"
 """The origin of an equation that no word states."""
 
 
-def system_lines(system: EquationSystem) -> Iterator[str]:
-    """The lines of a system: its unknowns, its values, then what `equation_lines` has."""
-    for rows in (unknown_table(system), value_table(system)):
-        yield f"  {rows.caption[0].lower()}{rows.caption[1:]}:"
-        yield from (*rows.lines("    ", is_headed=False), "")
-    yield from equation_lines(system)
+class Formula(Struct, frozen=True, eq=False):
+    """An expression in a cell of a table: a text, and maths on a page."""
+
+    expression: Any
+
+    @property
+    def text(self) -> str:
+        """The expression as a person types it."""
+        return symbolic.text(self.expression)
+
+    def __html__(self) -> str:
+        """The expression as MathML."""
+        from contoursolve.output.equations_html import maths  # noqa: PLC0415 - text needs no extra
+
+        return str(maths(self.expression))
 
 
-def equation_lines(system: EquationSystem) -> list[str]:
+def system_view(system: EquationSystem) -> View:
+    """A system: its unknowns, its values, then what `equation_view` has."""
+    named = Folded("Unknowns and values", [unknown_table(system), value_table(system)])
+    return View("", [named, *equation_view(system).parts])
+
+
+def equation_view(system: EquationSystem) -> View:
     """The equations, what they leave open, on which condition they determine the rest, what says the same, and the
     corners."""
-    lines = [f"  {size_text(system)}:", *equation_table(system).lines("    ", is_headed=False)]
+    parts: list[str | Table | Folded] = [equation_table(system)]
     if system.free:
-        moves = [motion_table(system)] if system.null_space else []
-        lines += ["", f"  {open_line(system)}"]
-        lines += [
-            line for each in moves for line in ("  what can still move at these values, mm a mm:", *each.lines("    "))
-        ]
-    if system.conditions:
-        lines += ["", "  these conditions must hold:"]
-        lines += condition_table(system).lines("    ", is_headed=False)
-    lines += [f"    {line}" for line in large_lines(system)]
-    lines += (
-        ["", "  these words say the same:", *tie_table(system).lines("    ", is_headed=False)] if system.ties else []
-    )
-    called = called_in_program(system.profile)
-    for corner, rows in zip(system.corners, corner_tables(system), strict=True):
-        lines += ["", f"  {called(corner.name)}:", *rows.lines("    ", is_headed=False)]
-    return lines
+        parts += ["", open_line(system), *([motion_table(system)] if system.null_space else [])]
+    parts += [condition_table(system), *large_lines(system), tie_table(system)]
+    parts += [Folded(f"Equations of {each.caption}", [each]) for each in corner_tables(system)]
+    return View("", parts)
 
 
 @checked
@@ -100,7 +105,7 @@ def unknown_table(system: EquationSystem) -> Table:
         (str(each.symbol), each.meaning, "" if each.value is None else f"{each.value:z.4f}", each.unit)
         for each in system.unknowns
     ]
-    return Table("Unknowns", ("unknown", "meaning", "value", "unit"), rows, left=(0, 1, 3))
+    return Table("Unknowns", ("unknown", "meaning", "value", "unit"), rows, left=(0, 1, 3), is_headed=False)
 
 
 def value_table(system: EquationSystem) -> Table:
@@ -115,16 +120,22 @@ def value_table(system: EquationSystem) -> Table:
         )
         for each in system.words
     ]
-    return Table("Values", ("symbol", "word", "meaning", "value", "unit"), rows, left=(0, 1, 2, 4))
+    return Table("Values", ("symbol", "word", "meaning", "value", "unit"), rows, left=(0, 1, 2, 4), is_headed=False)
 
 
 def equation_table(system: EquationSystem) -> Table:
     """The equations, each with its word and what that says."""
-    rows = [(*stated_pair(each), symbolic.text(each.equation)) for each in system.statements]
-    return Table("Equations", ("word", "what it says", "equation"), rows, left=(0, 1, 2))
+    rows = [(*_stated_pair(each), Formula(each.equation)) for each in system.statements]
+    keys = word_keys(system.claim.words.values())
+    names = [
+        NAMELESS if word is None or word.address == FACT or word.span not in keys else ("word", keys[word.span])
+        for word in (each.source for each in system.statements)
+    ]
+    header = ("word", "what it says", "equation")
+    return Table(size_text(system), header, rows, left=(0, 1, 2), names=names, is_headed=False)
 
 
-def stated_pair(each: Equation) -> tuple[str, str]:
+def _stated_pair(each: Equation) -> tuple[str, str]:
     """The word of an equation, and its meaning without that."""
     word = printable(each.word)
     return word or NOBODY, printable(each.meaning.removesuffix(f" ({each.word})"))
@@ -132,8 +143,9 @@ def stated_pair(each: Equation) -> tuple[str, str]:
 
 def condition_table(system: EquationSystem) -> Table:
     """The conditions, in words and as expressions that must not be zero, with their values."""
-    rows = [(printable(each.meaning), symbolic.text(each.expression), _here(each)) for each in system.conditions]
-    return Table("Conditions", ("what must hold", "must not be 0", "here"), rows, left=(0, 1, 2))
+    rows = [(printable(each.meaning), Formula(each.expression), _here(each)) for each in system.conditions]
+    header = ("what must hold", "must not be 0", "here")
+    return Table("These conditions must hold", header, rows, left=(0, 1, 2), is_headed=False)
 
 
 def _here(each: SystemCondition) -> str:
@@ -157,28 +169,19 @@ def motion_table(system: EquationSystem) -> Table:
 
 def tie_table(system: EquationSystem) -> Table:
     """The sets of words that say the same, with the formula that ties them, and whether it fails here."""
-    rows = [(printable(" ".join(each.words)), _formula(each)) for each in system.ties]
-    return Table("What says the same", ("words", "formula"), rows, left=(0, 1))
-
-
-def _formula(each: TiedWords) -> str:
-    formula = "" if each.identity is None else symbolic.text(each.identity)
-    return ", ".join(filter(None, (formula, tie_fails(each))))
-
-
-def tie_fails(each: TiedWords) -> str:
-    """Statement that words which say the same disagree; empty where they agree."""
-    return "but their values disagree" if each.is_conflict else ""
+    rows = [
+        (
+            printable(" ".join(each.words)),
+            "" if each.identity is None else Formula(each.identity),
+            "but their values disagree" if each.is_conflict else "",
+        )
+        for each in system.ties
+    ]
+    return Table("These words say the same", ("words", "formula", "here"), rows, left=(0, 1, 2), is_headed=False)
 
 
 def corner_tables(system: EquationSystem) -> list[Table]:
     """The equations of each corner."""
-    return [
-        Table(
-            f"Equations of {called_in_program(system.profile)(corner.name)}",
-            ("what it says", "equation"),
-            [(each.meaning, symbolic.text(each.equation)) for each in corner.equations],
-            left=(0, 1),
-        )
-        for corner in system.corners
-    ]
+    called, header = called_in_program(system.profile), ("what it says", "equation")
+    told = [(each.name, [(row.meaning, Formula(row.equation)) for row in each.equations]) for each in system.corners]
+    return [Table(called(name), header, rows, left=(0, 1), is_headed=False) for name, rows in told]

@@ -8,13 +8,13 @@ from contoursolve.diagnosis import Answer
 from contoursolve.output.construction import construction_lines
 from contoursolve.output.contours import points_table
 from contoursolve.output.derivation_html import derivation_element
-from contoursolve.output.equations_html import system_element
-from contoursolve.output.html import table_of
+from contoursolve.output.equations import system_view
+from contoursolve.output.html import table_of, view_element
 
 
 def equations_of_contour(answer: Answer) -> Iterator[h.Node]:
     """The equations of a contour as maths, and the steps in which it is constructed."""
-    yield from system_element(answer.system)
+    yield from view_element(system_view(answer.system))
     yield table_of(points_table(answer))
     heading, *steps = construction_lines(answer)
     yield h.h4["Construction"]

@@ -33,27 +33,35 @@ from contoursolve.families import (
     Way,
 )
 from contoursolve.geometry import Length
-from contoursolve.output.plain_text import Table, columns
+from contoursolve.output.plain_text import Table, View, columns
 from contoursolve.output.premises import premise_data, premise_texts
 from contoursolve.tool_radius import least_of
 
 # Ranges of a word --------------------------------------------------------------------------------------------
 
 
-def range_lines(found: FeasibleRange) -> Iterator[str]:
-    """The ranges of a word, each with what ends it."""
-    yield range_title(found)
-    yield from range_table(found).lines(is_headed=False)
-    yield from (f"  {note}" for note in range_notes(found))
+def range_view(found: FeasibleRange) -> View:
+    """The ranges of a word, two rows for each: its number, which end, the value, and what ends it there. Below, what is
+    not proven, the refusal of the block as it stands, and the premises."""
+    low, high = (written(value, found.unit) for value in found.within)
+    number, proof = count(len(found.intervals), "range"), _proof(is_complete=found.is_complete)
+    if not found.intervals:
+        number, proof = "no range", "proven" if found.is_complete else "none was found, which is no proof"
+    now = "" if found.is_open else f" now {written(found.stated, found.unit)},"
+    title = f"{found.word},{now} from {low} to {high}: {number} {found.holds} ({proof})"
+    rows = []
+    for place, each in enumerate(found.intervals, 1):
+        rows.append((f"{place}.", "from", *_end_cells(each.low, found.unit)))
+        rows.append(("", "to", *_end_cells(each.high, found.unit)))
+    header = ("range", "end", "value", "what ends it")
+    table = Table("Where the contour exists", header, rows, left=(0, 1, 3), is_headed=False)
+    warnings = [f"warning: {each}" for each in found.warnings]
+    refusal = [f"as it stands, the block has none: {found.refusal}"] if found.refusal else []
+    return View(title, [table, *_doubts(found), *warnings, *refusal, *rest_lines(found)], found)
 
 
-def range_notes(found: FeasibleRange) -> Iterator[str]:
-    """Notes of a search for ranges: doubts, the refusal of the block as it stands, and the premises."""
+def _doubts(found: FeasibleRange | FoundValues | ToleranceRange) -> Iterator[str]:
     yield from (f"not proven: {each}" for each in found.doubts)
-    yield from (f"warning: {each}" for each in found.warnings)
-    if found.refusal:
-        yield f"as it stands, the block has none: {found.refusal}"
-    yield from rest_lines(found)
 
 
 def rest_lines(
@@ -63,28 +71,8 @@ def rest_lines(
     yield from premise_texts(found.premises, found.premises.control)
 
 
-def range_title(found: FeasibleRange) -> str:
-    """The title of a search for ranges: the word, its limits, and the number of ranges with its proof."""
-    low, high = (written(value, found.unit) for value in found.within)
-    number, proof = count(len(found.intervals), "range"), _proof(is_complete=found.is_complete)
-    if not found.intervals:
-        number, proof = "no range", "proven" if found.is_complete else "none was found, which is no proof"
-    stated = written(found.stated, found.unit)
-    now = "" if found.is_open else f" now {stated},"
-    return f"{found.word},{now} from {low} to {high}: {number} {found.holds} ({proof})"
-
-
 def _proof(*, is_complete: bool) -> str:
     return "proven to be all" if is_complete else "at least; that these are all is not proven"
-
-
-def range_table(found: FeasibleRange) -> Table:
-    """Two rows for each range: its number, which end, the value, and what ends it there."""
-    rows = []
-    for place, each in enumerate(found.intervals, 1):
-        rows.append((f"{place}.", "from", *_end_cells(each.low, found.unit)))
-        rows.append(("", "to", *_end_cells(each.high, found.unit)))
-    return Table("Where the contour exists", ("range", "end", "value", "what ends it"), rows, left=(0, 1, 3))
 
 
 def _end_cells(end: End, unit: str) -> tuple[str, str]:
@@ -150,37 +138,21 @@ def tools_data(found: Mapping[tuple[int, ...], FeasibleRange], unfollowed: Seque
 # Regions of two words ----------------------------------------------------------------------------------------
 
 
-def region_lines(found: FeasibleRegion) -> Iterator[str]:
-    """The lines that bound the region of two words."""
-    yield region_title(found)
-    yield from region_table(found).lines(is_headed=False)
-    yield from (f"  {each}" for each in region_notes(found))
-
-
-def region_notes(found: FeasibleRegion) -> Iterator[str]:
-    """Notes of a region: how finely it was sampled, and premises."""
-    yield found.fineness
-    yield from rest_lines(found)
-
-
-def region_title(found: FeasibleRegion) -> str:
-    """The title of a region: the words, their limits, and the number of lines with its proof."""
+def region_view(found: FeasibleRegion) -> View:
+    """The lines that bound the region of two words, a row each: its ends, how many points it has, and what fails beyond
+    it. Below, how finely it was sampled, and the premises."""
     spans = zip(found.words, found.within, found.units, strict=True)
     box = ", ".join(f"{word} from {written(low, unit)} to {written(high, unit)}" for word, (low, high), unit in spans)
     number = count(len(found.boundaries), "line") if found.boundaries else "no line"
     whole = "" if found.boundaries else f"; {'all' if found.exists else 'none'} of the values sampled have a contour"
-    return f"{box}: {number} between where the contour exists and where not (sampled, not proven){whole}"
-
-
-def region_table(found: FeasibleRegion) -> Table:
-    """A row for each line: its number, its ends, how many points it has, and what fails beyond it."""
+    title = f"{box}: {number} between where the contour exists and where not (sampled, not proven){whole}"
     rows = []
     for place, each in enumerate(found.boundaries, 1):
         first, last = (_pair(point, found) for point in (each.points[0], each.points[-1]))
-        points = f"{len(each.points)} points"
-        rows.append((f"{place}.", f"{first} to {last}", points, f"beyond it: {each.reason.text}"))
+        rows.append((f"{place}.", f"{first} to {last}", f"{len(each.points)} points", f"beyond it: {each.reason.text}"))
     header = ("line", "from and to", "points", "where there is no contour")
-    return Table("The lines that bound it", header, rows, left=(0, 1, 3))
+    table = Table("The lines that bound it", header, rows, left=(0, 1, 3), is_headed=False)
+    return View(title, [table, found.fineness, *rest_lines(found)], found)
 
 
 def _pair(point: tuple[float, float], found: FeasibleRegion) -> str:
@@ -204,31 +176,19 @@ def region_data(found: FeasibleRegion) -> dict[str, Any]:
 # Values that bring a point where it is wanted ----------------------------------------------------------------
 
 
-def found_lines(found: FoundValues) -> Iterator[str]:
-    """The values, each with where the point is then, and the block to write."""
-    yield found_title(found)
-    if found.remark:
-        yield f"  {found.remark}"
-    yield from (f"  not proven: {each}" for each in found.doubts)
-    for place, (value, point, certificate, block, rounding) in enumerate(found_table(found).rows, 1):
-        yield f"  {place}. {found.word} {value}: {point}"
-        yield from (f"     {line}" for line in (*filter(None, [certificate]), *block.split("\n"), rounding))
-    yield from (f"  {each}" for each in rest_lines(found))
-
-
-def found_title(found: FoundValues) -> str:
-    """The title of a search for values: the goal, the word with its limits, and the number of values with its proof."""
+def found_view(found: FoundValues) -> View:
+    """The values that bring a point where it is wanted: where it is then, the certificate if there is one, the block to
+    write, and what rounding does."""
     low, high = (written(value, found.unit) for value in found.within)
     number = count(len(found.hits), "value") if found.hits else "no value"
-    aim = "nearest to" if found.goal.is_nearest else "at"
-    goal, proof = measured(found.goal.place, found.plane, found.length), _proof(is_complete=found.is_complete)
-    return f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
-
-
-def found_table(found: FoundValues) -> Table:
-    """Each value, where the point is then, the certificate (may be empty), the block, and what rounding does."""
+    aim, proof = "nearest to" if found.goal.is_nearest else "at", _proof(is_complete=found.is_complete)
+    goal = measured(found.goal.place, found.plane, found.length)
+    title = f"{found.goal.point} {aim} {goal}, by {found.word} from {low} to {high}: {number} ({proof})"
     header = (found.word, "the point is then at", "certificate", "the block", "what rounding does")
-    return Table("Values", header, [_hit_cells(hit, found) for hit in found.hits], left=(1, 2, 3, 4))
+    rows = [_hit_cells(hit, found) for hit in found.hits]
+    table = Table("Values", header, rows, left=(1, 2, 3, 4), is_listed=True)
+    remark = [found.remark] if found.remark else []
+    return View(title, [*remark, *_doubts(found), table, *rest_lines(found)])
 
 
 def _hit_cells(hit: Hit, found: FoundValues) -> tuple[str, str, str, str, str]:
@@ -268,28 +228,19 @@ def _hit_data(hit: Hit) -> dict[str, Any]:
 # Which word moves a point most -------------------------------------------------------------------------------
 
 
-def tolerances_lines(found: Tolerances) -> Iterator[str]:
-    """The words, the one that moves the point most first, and what their tolerances come to."""
-    yield tolerances_title(found)
-    yield from contribution_table(found).lines()
-    yield from (f"  {line}" for line in spread_lines(found))
-
-
-def tolerances_title(found: Tolerances) -> str:
-    """The point, and where it is."""
-    return f"{found.point}: {measured(found.place, found.plane, found.length)}; moved by each word, the most first"
-
-
-def contribution_table(found: Tolerances) -> Table:
-    """Table with a row for each word: its derivatives and what its tolerance moves, in the unit of the program."""
-    has_tolerances = _has_tolerances(found)
+def tolerances_view(found: Tolerances) -> View:
+    """The words, the one that moves the point most first: its derivatives and what its tolerance moves, in the unit of
+    the program. Below, what all tolerances come to."""
+    place, has_tolerances = measured(found.place, found.plane, found.length), _has_tolerances(found)
     head = ["word", "value", *(f"{label} per unit" for label in axis_labels(found.plane))]
     head += ["tolerance", "moves it by"] if has_tolerances else []
     rows = [_effect_cells(each, found, has_tolerances) for each in found.effects]
-    return Table("What each word does", [*head, "half an increment"], rows)
+    table = Table("What each word does", [*head, "half an increment"], rows)
+    title = f"{found.point}: {place}; moved by each word, the most first"
+    return View(title, [table, *_spread_lines(found)])
 
 
-def spread_lines(found: Tolerances) -> Iterator[str]:
+def _spread_lines(found: Tolerances) -> Iterator[str]:
     """Lines about tolerances: limits without a contour first, then the spread of the point, then rounding."""
     limits, unit = found.limits, found.length
     for missing in limits.missing if limits is not None else ():
@@ -378,37 +329,22 @@ def _effect_data(each: Contribution) -> dict[str, Any]:
 # How far a word may be off -----------------------------------------------------------------------------------
 
 
-def word_tolerance_lines(found: ToleranceRange) -> Iterator[str]:
-    """The values between which a word may be, and what ends them."""
-    yield word_tolerance_title(found)
-    yield from word_tolerance_table(found).lines(is_headed=False)
-    yield from (f"  {note}" for note in word_tolerance_notes(found))
-
-
-def word_tolerance_title(found: ToleranceRange) -> str:
-    """The word, and what it moves."""
+def word_tolerance_view(found: ToleranceRange) -> View:
+    """How far a word may be off, a row for each end: the value, how far it is from that of the block, and what ends it.
+    Below, the linear estimate, what is not proven, and the premises."""
     most, proof = f"{found.most:g} {short_name(found.kept_unit)}", "proven" if found.is_complete else "not proven"
-    return f"{found.word}, now {written(found.stated, found.unit)}: {found.kept} moves by at most {most} ({proof})"
-
-
-def word_tolerance_table(found: ToleranceRange) -> Table:
-    """A row for each end: the value, how far it is from that of the block, and what ends it."""
+    title = f"{found.word}, now {written(found.stated, found.unit)}: {found.kept} moves by at most {most} ({proof})"
     rows = []
     for name, end in (("from", found.low), ("to", found.high)):
         value, text = _end_cells(end, found.unit)
         off = end.listed - Decimal(repr(found.stated))
         rows.append((name, value, f"{'+' * (off > 0)}{limit_text(off, found.unit)}", text))
-    return Table("How far it may be off", ("end", "value", "off by", "what ends it"), rows, left=(0, 3))
-
-
-def word_tolerance_notes(found: ToleranceRange) -> Iterator[str]:
-    """The linear estimate, what is not proven, and the premises."""
-    if found.linear is not None:
-        yield f"to first order: +-{written(found.linear, found.unit)}"
-    elif Way.MOVED not in (found.low.way, found.high.way):
-        yield f"{found.word} does not move {found.kept} so far"
-    yield from (f"not proven: {each}" for each in found.doubts)
-    yield from rest_lines(found)
+    header = ("end", "value", "off by", "what ends it")
+    table = Table("How far it may be off", header, rows, left=(0, 3), is_headed=False)
+    first = [f"to first order: +-{written(found.linear, found.unit)}"] if found.linear is not None else []
+    if found.linear is None and Way.MOVED not in (found.low.way, found.high.way):
+        first = [f"{found.word} does not move {found.kept} so far"]
+    return View(title, [table, *first, *_doubts(found), *rest_lines(found)])
 
 
 def word_tolerance_data(found: ToleranceRange) -> dict[str, Any]:

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import htpy as h
 from markupsafe import Markup
@@ -21,7 +21,7 @@ from contoursolve.output.contours import (
 )
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.listing import beside_of
-from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
+from contoursolve.output.plain_text import NAMELESS, Folded, Name, Quoted, Table, View, printable
 from contoursolve.output.premises import premise_texts
 from contoursolve.pictures import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, TOOLS, Drawable, Role, Theme, draw
 
@@ -44,10 +44,9 @@ def html_text(element: h.Element) -> str:
 
 
 def table_of(rows: Table, *, identity: str = "") -> h.Element:
-    """A table as every format shows it, with as many rows as a page holds; one with an identity says what its rows show
-    of a picture."""
-    names = rows.names if identity else ()
-    return table(rows.caption, rows.header, _cut(rows.rows), numbers=rows.numbers, names=names, identity=identity)
+    """A table as every format shows it, with as many rows as a page holds; with an `identity`, its rows are places on
+    the page."""
+    return table(rows.caption, rows.header, _cut(rows.rows), numbers=rows.numbers, names=rows.names, identity=identity)
 
 
 def table(
@@ -97,17 +96,44 @@ def _cell(content: h.Node) -> h.Node:
     return short(content) if isinstance(content, str) and not hasattr(content, "__html__") else content
 
 
-def _cut(rows: Sequence[Sequence[str]]) -> Sequence[Sequence[str]]:
+def _cut(rows: Sequence[Sequence[Any]]) -> Sequence[Sequence[Any]]:
     """The rows that a page holds, and in the last one how many more there are."""
     if len(rows) <= MOST_ROWS:
         return rows
     return [*rows[:MOST_ROWS], (f"and {len(rows) - MOST_ROWS} more", *[""] * (len(rows[0]) - 1))]
 
 
-def short(text: str) -> str:
+def short(text: str, most: int = WIDEST) -> str:
     """A text without control characters, cut where it is too long for a cell."""
     shown = printable(text)
-    return shown if len(shown) <= WIDEST else f"{shown[: WIDEST - 4]} ..."
+    return shown if len(shown) <= most else f"{shown[: most - 4]} ..."
+
+
+def view_element(view: View) -> Iterator[h.Node]:
+    """A record in words: its picture, its title, and the parts below it, each text as a sentence."""
+    if view.picture is not None:
+        yield figure(view.picture)
+    if view.title:
+        yield h.p[short(view.title, LONGEST)]
+    for part in view.parts:
+        if isinstance(part, Quoted):
+            yield h.h4[_begun(part.title)]
+            yield h.pre["\n".join(map(short, part.text.split("\n")))]
+        elif isinstance(part, Folded):
+            yield h.details[h.summary[part.title], map(_part, part.parts)]
+        else:
+            yield _part(part)
+
+
+def _part(part: str | Table) -> h.Node:
+    """A text as a sentence, or a table; nothing of one that is empty."""
+    if isinstance(part, Table):
+        return table_of(part.without_empty()) if part.rows else None
+    return h.p[short(f"{_begun(part)}.", LONGEST)] if part else None
+
+
+def _begun(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}"
 
 
 def figure(record: Drawable, *, is_inline: bool = False, tool: "ToolReport | None" = None) -> h.Element:
@@ -129,8 +155,7 @@ def figure(record: Drawable, *, is_inline: bool = False, tool: "ToolReport | Non
 def words_table(answer: Answer, *, identity: str = "") -> h.Element:
     """The table of a contour's given words."""
     given = given_table(answer)
-    names = given.names if identity else ()
-    return table(given.caption, given.header, given.rows, numbers=given.numbers, names=names, identity=identity)
+    return table(given.caption, given.header, given.rows, numbers=given.numbers, names=given.names, identity=identity)
 
 
 def path_element(answer: Answer, *, identity: str = "") -> h.Element | None:

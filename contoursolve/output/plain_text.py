@@ -2,7 +2,8 @@
 
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -50,19 +51,35 @@ NAMELESS: Name = ("", "")
 
 
 class Table(Struct, frozen=True):
-    """Rows under a caption, as every format shows them; the columns named in `left` are texts, the others numbers."""
+    """Rows under a caption, as every format shows them; the columns named in `left` are texts, the others numbers. A
+    cell is a text, or has one and is HTML by itself."""
 
     caption: str
     header: Sequence[str]
-    rows: Sequence[Sequence[str]]
+    rows: Sequence[Sequence[Any]]
     left: Sequence[int] = (0,)
     names: Sequence[Name] = ()
     """Names of items of a picture that each row shows; empty if rows show none."""
 
-    def lines(self, indent: str = "  ", *, is_headed: bool = True) -> list[str]:
-        """The rows as lines, below the header unless they explain themselves; nothing for no row."""
-        rows = [self.header, *self.rows] if is_headed else self.rows
-        return columns(rows, self.left, indent) if rows else []
+    is_headed: bool = True
+    """Whether lines have the header: not if the rows explain themselves."""
+
+    is_listed: bool = False
+    """Whether lines have a paragraph for each row, because its cells are long."""
+
+    def lines(self, indent: str = "  ") -> list[str]:
+        """The rows as lines; nothing for no row."""
+        if self.is_listed:
+            return [f"{indent}{line}" for line in self._paragraphs()]
+        rows = [self.header, *self.rows] if self.is_headed else self.rows
+        texts = [[cell if isinstance(cell, str) else cell.text for cell in row] for row in rows]
+        return columns(texts, self.left, indent) if self.rows else []
+
+    def _paragraphs(self) -> Iterator[str]:
+        """Each row with its number: the first two cells on a line, every other one below it."""
+        for number, (first, second, *rest) in enumerate(self.rows, 1):
+            yield f"{number}. {self.header[0]} {first}: {second}"
+            yield from (f"   {line}" for cell in filter(None, rest) for line in cell.split("\n"))
 
     def without_empty(self) -> "Table":
         """The same without columns that say nothing."""
@@ -75,3 +92,52 @@ class Table(Struct, frozen=True):
     def numbers(self) -> list[int]:
         """The columns that are numbers."""
         return [place for place in range(len(self.header)) if place not in self.left]
+
+
+class Quoted(Struct, frozen=True):
+    """Lines as they stand somewhere, such as blocks of a program, below what they are."""
+
+    title: str
+    text: str
+
+
+class Folded(Struct, frozen=True):
+    """What a page shows to those who open it: a paragraph or tables, behind what they are."""
+
+    title: str
+    parts: Sequence[str | Table]
+
+
+class View(Struct, frozen=True):
+    """A record in words, as every format shows it: a title, then everything else in its order. Lines have the captions
+    of tables where no title says what they are; an empty text is an empty line."""
+
+    title: str
+    parts: Sequence[str | Table | Quoted | Folded]
+    picture: Any = None
+    """A record whose picture stands above it on a page."""
+
+    def lines(self, indent: str = "") -> Iterator[str]:
+        """The lines of a text."""
+        if self.title:
+            yield indent + self.title
+        own, is_first = f"{indent}  " if self.title else indent, True
+        for title, part in self._flat():
+            if isinstance(part, str):
+                yield f"{own}{title}{part}" if part else ""
+            elif isinstance(part, Quoted):
+                yield from ("", f"{own}{part.title}:", *(f"{own}  {line}" for line in part.text.split("\n")))
+            elif self.title:
+                yield from part.lines(own)
+            elif part.rows:
+                head = [f"{own}{part.caption[0].lower()}{part.caption[1:]}:", *part.lines(f"{own}  ")]
+                yield from head if is_first else ("", *head)
+            is_first = False
+
+    def _flat(self) -> Iterator[tuple[str, str | Table | Quoted]]:
+        """The parts, and what stands before a text that a page folds."""
+        for part in self.parts:
+            if isinstance(part, Folded):
+                yield from ((f"{part.title}: ", each) for each in part.parts)
+            else:
+                yield "", part

@@ -14,14 +14,14 @@ from contoursolve.pictures.levels import Levels
 from contoursolve.pictures.page import Box, Item, Shape, Spot, Stroke
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE
-from contoursolve.solving import REASONS, StatusCode
+from contoursolve.solving import REASONS, STATUSES, Status
 
 Mask = NDArray[numpy.bool_]
 
 _FIELDS = {
-    StatusCode.SOLVED: Role.SOLVED_FIELD,
-    StatusCode.OVERDETERMINED: Role.SOLVED_FIELD,
-    StatusCode.NO_SOLUTION: Role.REFUSED_FIELD,
+    Status.SOLVED: Role.SOLVED_FIELD,
+    Status.OVERDETERMINED: Role.SOLVED_FIELD,
+    Status.NO_SOLUTION: Role.REFUSED_FIELD,
 }
 """Colour role of an outcome without a reason against it; with a reason there is no contour."""
 
@@ -33,16 +33,16 @@ _MOST_RUNS = 9_000
 
 def words_of(outcome: int) -> list[str]:
     """An outcome in words: its state, and the reason if there is one."""
-    code, reason = StatusCode(outcome // len(REASONS)), REASONS[outcome % len(REASONS)]
+    status, reason = STATUSES[outcome // len(REASONS)], REASONS[outcome % len(REASONS)]
     if reason is not None:
-        return [state_of(code.status, has_path=False).value, reason.value.replace("-", " ")]
-    return [status_text(code.status), *(["one word too many"] if code is StatusCode.OVERDETERMINED else [])]
+        return [state_of(status, has_path=False).value, reason.value.replace("-", " ")]
+    return [status_text(status), *(["one word too many"] if status is Status.OVERDETERMINED else [])]
 
 
 def role_of(outcome: int) -> Role:
     """The colour role of an outcome."""
     code, reason = divmod(outcome, len(REASONS))
-    role = _FIELDS.get(StatusCode(code), Role.OTHER_FIELD)
+    role = _FIELDS.get(STATUSES[code], Role.OTHER_FIELD)
     return Role.REFUSED_FIELD if reason and role is Role.SOLVED_FIELD else role
 
 

@@ -20,7 +20,6 @@ from contoursolve.solving import (
     Proof,
     RowOutcome,
     Status,
-    StatusCode,
     against_angles,
     certify,
     compile_checked,
@@ -250,7 +249,7 @@ def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_],
     """Mask of the rows that are solved without any finding, and bounds of their errors, mm; both of shape (rows,)."""
     figure, machine = kind.system.figure, kind.machine
     verdict = RowOutcome(kind.outputs, out, rows)
-    plain = (verdict.status == StatusCode.SOLVED) & (verdict.reason == 0) & ~verdict.again
+    plain = (verdict.status == Status.SOLVED.code) & (verdict.reason == 0) & ~verdict.again
     for element in figure.path:
         if isinstance(element, Line):
             plain &= numpy.abs(out[machine.path.lengths[element.name]]) > LENGTH

@@ -117,6 +117,7 @@ from .enumerate import (
 )
 from .events import (
     BESIDE as BESIDE,
+    STATUSES as STATUSES,
     GeometricEvent as GeometricEvent,
     GeometricEventKind as GeometricEventKind,
     NoteKind as NoteKind,
@@ -186,8 +187,6 @@ from .row_outcome import (
     REASONS as REASONS,
     UNVERIFIED as UNVERIFIED,
     RowOutcome as RowOutcome,
-    StatusCode as StatusCode,
-    code_of as code_of,
     reason_of as reason_of,
 )
 from .sides import (

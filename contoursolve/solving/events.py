@@ -37,6 +37,30 @@ class Status(Enum):
         """
         return str(from_above("status_text", self))
 
+    @property
+    def code(self) -> int:
+        """Its number in the column `status` of a family.
+
+        >>> Status.SOLVED.code, STATUSES[1]
+        (0, <Status.OVERDETERMINED: 'overdetermined'>)
+        """
+        return _CODES[self]
+
+
+STATUSES = (
+    Status.SOLVED,
+    Status.OVERDETERMINED,
+    Status.REJECTED,
+    Status.CONFLICTING,
+    Status.UNDERDETERMINED,
+    Status.AMBIGUOUS,
+    Status.NO_SOLUTION,
+    Status.UNDECIDED,
+)
+"""The meaning of a number in the column `status`; those below 2 are contours if they have no reason."""
+
+_CODES = {status: code for code, status in enumerate(STATUSES)}
+
 
 BESIDE = ("limit_first", "limit_second")
 """For two corners that overlap: the largest size of either, mm, if the other one stays."""

@@ -1,7 +1,6 @@
 """The verdict on each of many rows, by the table of checks."""
 
 from collections.abc import Mapping, Sequence
-from enum import IntEnum
 
 import numpy
 from numpy.typing import NDArray
@@ -17,33 +16,10 @@ Places = NDArray[numpy.intp]
 Out = Mapping[str, Array]
 
 
-class StatusCode(IntEnum):
-    """A status in a column of numbers."""
-
-    SOLVED = 0
-    OVERDETERMINED = 1
-    REJECTED = 2
-    CONFLICTING = 3
-    UNDERDETERMINED = 4
-    AMBIGUOUS = 5
-    NO_SOLUTION = 6
-    UNDECIDED = 7
-
-    @property
-    def status(self) -> Status:
-        """The status that it stands for."""
-        return Status[self.name]
-
-
 REASONS: tuple[RefusalKind | None, ...] = (None, *RefusalKind)
 """The meaning of a number in the column `reason`."""
 
 _REASON = {kind: number for number, kind in enumerate(REASONS)}
-
-
-def code_of(status: Status) -> StatusCode:
-    """The number of a status."""
-    return StatusCode[status.name]
 
 
 def reason_of(kind: RefusalKind | None) -> int:
@@ -85,10 +61,10 @@ class RowOutcome:
     @property
     def status(self) -> Codes:
         """The statuses; of several, the first in the order of `Status`."""
-        status: Codes = (self.reason != 0).view(numpy.uint8) * numpy.uint8(StatusCode.NO_SOLUTION)
+        status: Codes = (self.reason != 0).view(numpy.uint8) * numpy.uint8(Status.NO_SOLUTION.code)
         for agrees in self.agreeing.values():
-            status[agrees] = StatusCode.OVERDETERMINED
-        status[self._conflicts] = StatusCode.CONFLICTING
+            status[agrees] = Status.OVERDETERMINED.code
+        status[self._conflicts] = Status.CONFLICTING.code
         return status
 
     def _note_first(self, checks: Sequence[Check], rows: Places, failed: Places, path: PathOutputs) -> None:

@@ -22,7 +22,7 @@ from contoursolve.families import (
     spec_of,
 )
 from contoursolve.program import takes
-from contoursolve.solving import StatusCode
+from contoursolve.solving import Status
 from contoursolve.tool_radius.faults import ToolFaultKind
 from contoursolve.tool_radius.largest import ToolOptions, ToolTrials, request_of
 from contoursolve.tool_radius.tool import make_tool
@@ -56,7 +56,7 @@ class ToolSweep(CompiledSweep, eq=False, kw_only=True):
             table[name][:] = column[contour]
         table["tool.fits"][:], table["tool.largest"][:], table["tool.fault"][:] = False, numpy.nan, ""
         values = self.contours.ranges.rows(begin, end).values
-        is_solved = (found["status"] <= StatusCode.OVERDETERMINED) & (found["reason"] == 0)
+        is_solved = (found["status"] <= Status.OVERDETERMINED.code) & (found["reason"] == 0)
         for number in numpy.flatnonzero(is_solved).tolist():
             here = numpy.flatnonzero(contour == number)
             own = radii[[begin + number]] if self.ranges.is_paired else radii

@@ -11,7 +11,7 @@ from contoursolve import family, find, sensitivity, solve, tolerances
 from contoursolve.errors import FamilyError
 from contoursolve.families import feasible, region, spec_of
 from contoursolve.output.families import rest_lines
-from contoursolve.solving import StatusCode
+from contoursolve.solving import STATUSES, Status
 
 NEAR = 1e-7  # mm, or of the coordinate
 
@@ -24,7 +24,7 @@ def alone(block, values, **options):
 
 def difference(row, answer):
     """By what a row differs from a single solve; empty if by nothing."""
-    status = StatusCode(int(row["status"])).status
+    status = STATUSES[int(row["status"])]
     if status is not answer.status:
         return f"{status}, alone {answer.status}"
     if answer.contour is None:
@@ -51,7 +51,7 @@ def test_every_row_is_what_a_single_solve_says(form, part):
         for row in range(ROWS):
             answer = alone(asked.block, {word: each[row] for word, each in asked.vary.items()}, **options)
             assert not difference({name: found[name][row] for name in found.columns}, answer), (asked, row)
-        if StatusCode.SOLVED in found["status"]:
+        if Status.SOLVED.code in found["status"]:
             return
 
 
@@ -70,7 +70,7 @@ def test_the_direction_that_an_arc_hands_to_a_line_is_that_of_its_row(order):
 
 def test_tangent_arcs_turn_to_the_side_of_their_row():
     found = family(TURNED, vary={"2:Y": [24, 26, 28.8582, 30]}, **SINUMERIK)
-    assert found["status"].tolist() == [StatusCode.SOLVED] * 4
+    assert found["status"].tolist() == [Status.SOLVED.code] * 4
     assert found["r3"][2:] == pytest.approx([104.8299, 2589.4814], abs=5e-5)
 
 
@@ -79,7 +79,7 @@ def test_a_start_that_moves_turns_an_arc_that_ends_on_the_other_side_of_its_cent
     found = family(block, vary={"X": [100, 60], "start.X": [80, 140]}, control="yasnac-lx3", start="X80. Z0.")
     for row, (end, begin) in enumerate([(100, 80), (100, 140), (60, 80), (60, 140)]):
         (answer,) = solve(block.replace("X100.", f"X{end}."), control="yasnac-lx3", start=f"X{begin}. Z0.").answers
-        assert StatusCode(int(found["status"].ravel()[row])).status is answer.status
+        assert STATUSES[found["status"].ravel()[row]] is answer.status
 
 
 def test_a_word_that_others_count_from_varies_with_them():

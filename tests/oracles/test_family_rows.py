@@ -5,7 +5,7 @@ import pytest
 from oracle_columns import JUDGED, circle_line, g111
 
 from contoursolve.families import family
-from contoursolve.solving import StatusCode
+from contoursolve.solving import Status
 
 ROWS, PART = 200_000, 500_000
 """Of a form, and of it at once."""
@@ -50,7 +50,7 @@ def test_no_wrong_answer_is_called_solved_and_no_right_one_is_lost(name, count):
             values["Q"] = rng.choice([-1.0, 1.0], rows)
         found = family(block, vary=values, paired=True, **options)
         places, margin, size = oracle(*values.values())
-        is_solved = found["status"] == StatusCode.SOLVED
+        is_solved = found["status"] == Status.SOLVED.code
         assert not (is_solved & (margin < -JUDGED)).any(), "solved, where there is none"
         # A contour that reaches beyond what words can say is none; the oracle knows no such limit.
         reach = np.fmax.reduce([np.abs(place) for place in places.values()])

@@ -11,7 +11,7 @@ from contoursolve import family, ranges
 from contoursolve.cli import main
 from contoursolve.errors import FamilyError
 from contoursolve.families import outcomes_of
-from contoursolve.solving import StatusCode
+from contoursolve.solving import Status
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 LATHE = {"start": START}
@@ -214,7 +214,7 @@ STARTED = [
 
 def solved_in(block, vary, options):
     """Whether each row of a family, which is followed in boxes and not in closed form, has a contour."""
-    return np.isin(family(block, vary=vary, **options)["status"], (StatusCode.SOLVED, StatusCode.OVERDETERMINED))
+    return np.isin(family(block, vary=vary, **options)["status"], (Status.SOLVED.code, Status.OVERDETERMINED.code))
 
 
 def check_against_family(block, word, found, options):

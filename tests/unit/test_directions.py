@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from contoursolve import Result, family, solve
 from contoursolve.cli import main
 from contoursolve.comparison import Document, ReceiptVerdict, verify
-from contoursolve.solving import StatusCode
+from contoursolve.solving import STATUSES
 
 
 class Case(NamedTuple):
@@ -84,7 +84,7 @@ def test_rows_of_a_family_have_the_status_of_their_block(name):
         **case.options,
     )
     alone = [case.solved(angle).answers[0].status for angle in angles]
-    assert [StatusCode(each).status for each in rows["status"]] == alone
+    assert [STATUSES[each] for each in rows["status"]] == alone
 
 
 @pytest.mark.parametrize("name", [",A of Fanuc", ",A of Fanuc as a direction", "A of G111", "AN of FK"])

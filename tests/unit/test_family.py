@@ -15,7 +15,7 @@ from pyarrow import parquet
 
 import contoursolve
 from contoursolve.families import FamilyError, family, sensitivity
-from contoursolve.solving import REASONS, StatusCode
+from contoursolve.solving import REASONS, STATUSES
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
 _NCT = "G17 G90 {comp} G0 X{x} Y{y}\n"
@@ -233,7 +233,7 @@ def test_the_number_of_threads_changes_nothing(name, monkeypatch):
 )
 def test_each_row_has_the_status_of_its_own_values(block, options, vary, statuses):
     found = family(block, start=START, vary=vary, **options)
-    assert [StatusCode(code).name for code in found["status"].ravel()] == statuses
+    assert [STATUSES[code].name for code in found["status"].ravel()] == statuses
 
 
 def test_a_value_that_is_asked_for_is_a_column():
@@ -343,7 +343,7 @@ def test_a_family_is_a_mapping_that_knows_where_it_comes_from_and_has_each_conto
 
 def check_table(table, found):
     """A table has the numbers of a family, and the status and the reason of each row in words."""
-    assert table["status"].to_pylist() == [StatusCode(code).status.value for code in found["status"].ravel()]
+    assert table["status"].to_pylist() == [STATUSES[code].value for code in found["status"].ravel()]
     reasons = [REASONS[number] for number in found["reason"].ravel()]
     assert table["reason"].to_pylist() == [kind.value if kind else None for kind in reasons]
     for name in set(found.names) - {"status", "reason"}:
@@ -495,7 +495,7 @@ def test_a_sweep_writes_every_row(tmp_path):
     assert (tuple(names), len(rows)) == (found.names, len(found))
     for name, column in zip(names, zip(*rows, strict=True), strict=True):
         if name == "status":
-            assert list(column) == [StatusCode(code).status.value for code in found["status"].ravel()]
+            assert list(column) == [STATUSES[code].value for code in found["status"].ravel()]
         elif name != "reason":
             numbers = [float(each) if each else float("nan") for each in column]
             assert np.array_equal(numbers, found[name].ravel(), equal_nan=True), name

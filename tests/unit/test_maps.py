@@ -33,7 +33,7 @@ from contoursolve.pictures import (
 from contoursolve.pictures.overview import compose_fan
 from contoursolve.pictures.page import Dot
 from contoursolve.pictures.scene import Mark
-from contoursolve.solving import StatusCode
+from contoursolve.solving import Status
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 CHAIN = """\
@@ -308,7 +308,7 @@ def test_where_every_value_is_refused_nothing_is_painted_as_solved():
     # Though words agree at one value.
     vary = {"B": numpy.arange(10.0, 90.0, 5), "I": [10.0, 10.0001]}
     found = contoursolve.family("G111 A135. I10. K-10. B120. Z-40.", start=START, rules="off", vary=vary)
-    assert (found["status"] == StatusCode.OVERDETERMINED).all()
+    assert (found["status"] == Status.OVERDETERMINED.code).all()
     assert not numpy.isfinite(found["V2 X"]).any()
     assert {role for *_, role in fields_of(draw_family_map(found))} == {Role.REFUSED_FIELD}
 
