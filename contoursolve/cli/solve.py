@@ -125,4 +125,4 @@ def system(
         raise CouldNotRunError(told) from None
     from contoursolve.output import system_view  # noqa: PLC0415 - sympy is slow to import
 
-    print_lines(system_view(answer.system).lines("  "))
+    print_lines(system_view(answer.system).lines())

@@ -13,7 +13,19 @@ from contoursolve.diagnosis.drafts import (
     marked,
     unreadable,
 )
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Why, add, change, drop, rounded, write_word
+from contoursolve.diagnosis.edits import (
+    FACT_VALUE,
+    PLACEHOLDER,
+    Edit,
+    EditKind,
+    Why,
+    add,
+    change,
+    drop,
+    rounded,
+    with_value,
+    write_word,
+)
 from contoursolve.diagnosis.examine import Answer, problems
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, facts_at, spans_of
@@ -22,7 +34,7 @@ from contoursolve.diagnosis.slip_kinds import partners
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Fact, Line, Profile, Unit, assemble, both, word_of
-from contoursolve.reading import Lexicon, ParsedContour, ReadIssue, check, read
+from contoursolve.reading import ParsedContour, ReadIssue, check, read
 from contoursolve.solving import (
     Status,
     Topic,
@@ -47,7 +59,6 @@ _NO_CORNERS = {*refusals_about(Topic.NO_CORNER), ReadIssue.CORNER_TWICE}
 _TWICE = SAID_AGAIN | refusals_about(Topic.RADII)
 _USELESS = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
-_VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
 
 
 def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit, ...]]]:
@@ -226,28 +237,20 @@ def _corrected(answer: Answer, twice: list[Diagnostic], trial: Trial) -> Iterato
     lexicon = answer.claim.lexicon
     for finding in twice if any(each.is_error for each in twice) else ():
         for word in _blamed(answer, finding):
-            asking = _with_value(word, PLACEHOLDER, lexicon)
-            if not asking:
+            asking = with_value(word, PLACEHOLDER, lexicon.spelling)
+            if not asking or (word.address != FACT and word.number is None):
                 continue
             other = trial.examine((change(word, asking),))
             for asked in other.asked if other else ():
                 if asked.value is not None and asked.question.word.text == asking:
-                    yield (change(word, _with_value(word, _shown(asked, word, answer), lexicon), Why.AGREES),)
-
-
-def _with_value(word: Word, value: str, lexicon: Lexicon) -> str:
-    """A word or a fact with another value; empty if it has none."""
-    if word.address != FACT:
-        return lexicon.spell(word.address, value) if word.number is not None else ""
-    match = _VALUE.search(word.text)
-    return f"{word.text[: match.start('number')]}{value}" if match else ""
+                    yield (change(word, with_value(word, _shown(asked, word, answer), lexicon.spelling), Why.AGREES),)
 
 
 def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
     """A value as a word or a fact states it, rounded to the least increment."""
     lexicon, value, unit = answer.claim.lexicon, float(asked.value or 0), asked.question.unit
-    match = _VALUE.search(word.text)
-    stated = word.number if match is None else Decimal(match["number"])
+    match = FACT_VALUE.search(word.text)
+    stated = word.number if match is None or match["value"] == "?" else Decimal(match["value"])
     if unit is Unit.DEGREE and stated is not None:
         value += 360 * round((float(stated) - value) / 360)
     if word.address != FACT:

@@ -312,8 +312,15 @@ def _only_word(blocks: Sequence[Block], address: str) -> Word:
 
 
 def with_value(word: Word, value: str, words: WordSpelling) -> str:
-    """The text of a word, or of a fact, with another value."""
-    return re.sub(r"=.*", f"= {value}", word.text) if word.address == FACT else words.spell(word.address, value)
+    """The text of a word, or of a fact, with another value; empty for a fact that states none."""
+    if word.address != FACT:
+        return words.spell(word.address, value)
+    stated = FACT_VALUE.search(word.text)
+    return f"{word.text[: stated.start('value')]}{value}" if stated else ""
+
+
+FACT_VALUE = re.compile(r"(?:=|\bat)\s*+(?P<value>[+-]?+(?>\d++\.?+\d*+|\.\d++)|\?)\s*+$")
+"""The value that a fact states: `= 30`, `at 10`."""
 
 
 def typed_text(value: float | Decimal) -> str:

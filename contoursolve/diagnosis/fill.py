@@ -1,45 +1,41 @@
 """The values that a block asked for, written into it, and the block tried again as the control would read it."""
 
+from dataclasses import replace as replace_fields
 from math import hypot
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.answer_records import Filled
-from contoursolve.diagnosis.edits import apply_edits, change, write_word
+from contoursolve.diagnosis.edits import change, write_word
 from contoursolve.diagnosis.examine import Answer, Policy, examine
-from contoursolve.gcode import FACT, parse_block
-from contoursolve.reading import Control, ParsedContour, State
+from contoursolve.gcode import FACT
 from contoursolve.solving import Contour
 
 FARTHEST = 0.01
 """mm. A block with rounded values whose contour is farther from the exact one is not offered."""
 
 
-def fill_in(answer: Answer, before: State, control: Control) -> Filled | None:
+def fill_in(answer: Answer) -> Filled | None:
     """The blocks of an answer with the values that they ask for; None if they do not stand alone then.
 
-    `before` is the state at the first block. The further facts are left out: the control does not read them.
+    The further facts are left out: the control does not read them.
     """
-    own, edits = answer.claim.blocks, []
+    edits = []
     for word, value in ((each.question.word, each.value) for each in answer.asked):
         if word.address == FACT:
             continue
         if value is None:
             return None
         edits.append(change(word, write_word(word.address, value, answer.claim.lexicon, answer.unit)))
-    texts = {block.line: text for block, text in zip(own, apply_edits(own, edits), strict=True)}
-    blocks = tuple(
-        replace(parse_block(texts.get(line, ""), line, control.modes.syntax), directives=())
-        for line in range(own[0].line, own[-1].line + 1)
-    )
-    claim = control.find(blocks, 0, before, control.modes)
-    if not isinstance(claim, ParsedContour) or not edits:
+    claim = answer.read_by.read(answer.claim, edits) if edits else None
+    if claim is None or answer.contour is None:
         return None
-    again = examine(claim, control, Policy.ENFORCE)
-    if again.contour is None or answer.contour is None:
+    bare = replace_fields(claim, blocks=tuple(replace(each, directives=()) for each in claim.blocks))
+    again = examine(bare, answer.read_by.control, Policy.ENFORCE)
+    if again.contour is None:
         return None
     deviation = _deviation(again.contour, answer.contour)
-    return Filled(tuple(texts[line] for line in sorted(texts)), deviation) if deviation <= FARTHEST else None
+    return Filled(tuple(each.text for each in bare.blocks), deviation) if deviation <= FARTHEST else None
 
 
 def _deviation(first: Contour, second: Contour) -> float:

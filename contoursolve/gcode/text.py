@@ -102,10 +102,14 @@ def open_regular(path: str | Path, most: int) -> BinaryIO:
     return file
 
 
+_MEGABYTE = 1_000_000
+
+
 def check_size(size: int, most: int) -> None:
     """Raise OSError for more bytes than are read."""
     if size > most:
-        raise OSError(errno.EFBIG, f"it has more than {most // 1_000_000} MB, and no more are read")
+        told = f"{most // _MEGABYTE} MB" if most >= _MEGABYTE else f"{most:,} bytes"
+        raise OSError(errno.EFBIG, f"it has more than {told}, and no more are read")
 
 
 def standard_input() -> BinaryIO:

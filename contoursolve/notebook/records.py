@@ -42,7 +42,7 @@ from contoursolve.output import (
     word_tolerance_view,
 )
 from contoursolve.program import Result
-from contoursolve.reading import Control, Lexicon, Rule
+from contoursolve.reading import Rule
 from contoursolve.solving import Contour, Sketch
 from contoursolve.tolerance import AGREEMENT
 
@@ -79,22 +79,11 @@ def view_of(record: Shown) -> View | None:
     return next((view(record) for kind, view in _VIEWS.items() if isinstance(record, kind)), None)
 
 
-def _reads_by(control: Control, lexicon: Lexicon) -> bool:
-    own = control.modes.lexicon
-    return any(each is lexicon for each in (own, *own.others.values()))
-
-
-def control_of(answer: Answer) -> str | None:
-    """The control whose words a contour was read with, if it is one that is built in."""
-    lexicon = answer.claim.lexicon
-    return next((name for name, each in CONTROLS.items() if _reads_by(each, lexicon)), None)
-
-
 def result_of(answer: Answer) -> Result:
     """A result that holds one contour and its own blocks."""
     blocks = answer.claim.blocks
     program = Program("<block>", "\n".join(block.text for block in blocks), blocks)
-    return Result(program, control_of(answer), (answer,), answer.diagnostics)
+    return Result(program, answer.read_by.control.name, (answer,), answer.diagnostics)
 
 
 def _result(result: Result) -> Iterator[str]:

@@ -63,7 +63,7 @@ def explaining_lines(answer: Answer, system: "EquationSystem | None" = None) -> 
     from contoursolve.output.equations import equation_view  # noqa: PLC0415 - sympy is slow to import
 
     lines = [
-        *equation_view(system or answer.system).lines("  "),
+        *equation_view(system or answer.system).lines(),
         "",
         "  points:",
         *points_table(answer).lines("    "),

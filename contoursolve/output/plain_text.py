@@ -117,20 +117,20 @@ class View(Struct, frozen=True):
     picture: Any = None
     """A record whose picture stands above it on a page."""
 
-    def lines(self, indent: str = "") -> Iterator[str]:
+    def lines(self) -> Iterator[str]:
         """The lines of a text."""
         if self.title:
-            yield indent + self.title
-        own, is_first = f"{indent}  " if self.title else indent, True
+            yield self.title
+        is_first = True
         for title, part in self._flat():
             if isinstance(part, str):
-                yield f"{own}{title}{part}" if part else ""
+                yield f"  {title}{part}" if part else ""
             elif isinstance(part, Quoted):
-                yield from ("", f"{own}{part.title}:", *(f"{own}  {line}" for line in part.text.split("\n")))
+                yield from ("", f"  {part.title}:", *(f"    {line}" for line in part.text.split("\n")))
             elif self.title:
-                yield from part.lines(own)
+                yield from part.lines()
             elif part.rows:
-                head = [f"{own}{part.caption[0].lower()}{part.caption[1:]}:", *part.lines(f"{own}  ")]
+                head = [f"  {part.caption[0].lower()}{part.caption[1:]}:", *part.lines("    ")]
                 yield from head if is_first else ("", *head)
             is_first = False
 

@@ -45,7 +45,7 @@ def answer_to(asked: Request, control: Control, found: ParsedContour, pending: P
     if answer.contour is not None and any(value.value is not None for value in answer.asked):
         from contoursolve.diagnosis import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
-        return replace(answer, filled=fill_in(answer, pending.step.before, control))
+        return replace(answer, filled=fill_in(answer))
     return answer
 
 

@@ -22,7 +22,7 @@ from typing import Any
 
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import UserError, checked, did_you_mean
-from contoursolve.gcode import late_pattern, split_lines
+from contoursolve.gcode import MOST_OF_OTHERS, late_pattern, open_regular, split_lines
 from contoursolve.reading import Control
 
 OWN, SHARED = "contoursolve.toml", "pyproject.toml"
@@ -226,7 +226,7 @@ def _table(file: Path) -> dict[str, Any] | None:
         # A number of thousands of digits is a ValueError, too.
         if is_shared and "tool.contoursolve" not in text:
             return None
-        reason = error.strerror if isinstance(error, OSError) else str(error).partition(";")[0]
+        reason = (str(error.strerror) if isinstance(error, OSError) else str(error)).partition(";")[0]
         raise SettingError(f"{file} cannot be read: {reason}") from None
     tool = data if not is_shared else data.get("tool")
     table = tool.get("contoursolve") if is_shared and isinstance(tool, dict) else tool
@@ -238,12 +238,8 @@ _MOST = 50_000
 
 
 def _text(file: Path) -> str:
-    """The text of a regular file: of a pipe or a device nobody knows whether it ends."""
-    if not file.is_file():
-        raise OSError(0, "it is not a regular file")
-    if file.name == OWN and file.stat().st_size > _MOST:
-        raise OSError(0, f"it has more than {_MOST:,} bytes, which no settings take")
-    return file.read_text(encoding="utf-8")
+    with open_regular(file, _MOST if file.name == OWN else MOST_OF_OTHERS) as opened:
+        return opened.read().decode("utf-8")
 
 
 def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:

@@ -209,7 +209,7 @@ def test_a_fault_of_our_own_is_one_sentence_and_a_status(debug):
 def test_a_pipe_holds_no_settings(folder):
     for name, status in (("contoursolve.toml", 2), ("pyproject.toml", 0)):
         os.mkfifo(folder / name)
-        run("check", *BLOCK, status=status, says="not a regular file" if status else "")
+        run("check", *BLOCK, status=status, says="it is a pipe or a device, not a file" if status else "")
         (folder / name).unlink()
 
 
