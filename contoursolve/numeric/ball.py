@@ -16,6 +16,8 @@ from typing import Any
 import flint
 from flint import acb_poly, arb, arb_poly, fmpq
 
+from contoursolve.numeric.functions import Functions, undefined
+
 Number = Any
 """fmpq or arb; python-flint has no types of its own for checkers."""
 
@@ -232,3 +234,6 @@ def _sharpened(polynomial: Any, root: Number) -> Number:
 def _up(value: Any) -> float:
     found = float(value)
     return nextafter(found, inf) if found > 0 else found
+
+
+FUNCTIONS = Functions(root, cosine, sine, magnitude=magnitude, at_most=undefined, below=undefined, sign=sign)

@@ -8,14 +8,14 @@ from typing import Any
 import casadi
 import numpy
 from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.numeric import intervals
-from contoursolve.numeric.columns import Rows
+from contoursolve.numeric.columns import ROW_FUNCTIONS
 from contoursolve.numeric.expressions import Tape, cosine, sine, symbol
 from contoursolve.numeric.given_angle import COSINE, SINE
 from contoursolve.numeric.interpreter import Replay, run_steps
-from contoursolve.numeric.intervals import Intervals, constant, down, up
+from contoursolve.numeric.intervals import FUNCTIONS as INTERVALS, Intervals, constant, down, up
 from contoursolve.numeric.linear_algebra import Array
 
 NO_ROOT = -1e-10
@@ -49,17 +49,15 @@ _JUMPING = (casadi.OP_SIGN, casadi.OP_EQ, casadi.OP_LE, casadi.OP_LT)
 """Instructions whose results are steps."""
 
 
-class _Floats(Rows):
-    """The functions of plain arrays; what has no value is NaN."""
-
-    larger = staticmethod(numpy.maximum)
+_FLOATS = replace(ROW_FUNCTIONS, larger=numpy.maximum)
+"""Of plain arrays; what has no value is NaN."""
 
 
 class _Enclosure(Replay):
     """The instructions on intervals, and what roots are taken of."""
 
     def __init__(self, function: Any) -> None:
-        super().__init__(function, intervals, constant)
+        super().__init__(function, INTERVALS, constant)
         kinds = {target: function.instruction_id(target) for *_, target in self._steps}
         self._roots = [first for _, first, _, target in self._steps if kinds[target] == casadi.OP_SQRT]
         self._jumps = [target for target, kind in kinds.items() if kind in _JUMPING]
@@ -168,8 +166,8 @@ class Chart:
         self._derivative = casadi.Function("slopes", [arguments], [casadi.cse(slopes)])
         self.is_quadratic = [not each for each in casadi.which_depends(slopes, word.sx, 2, True)]
         """Outputs that are polynomials of degree 2 at most in the word."""
-        self._values = Replay(self._function, _Floats, numpy.float64)
-        self._slopes = Replay(self._derivative, _Floats, numpy.float64)
+        self._values = Replay(self._function, _FLOATS, numpy.float64)
+        self._slopes = Replay(self._derivative, _FLOATS, numpy.float64)
         self._enclosure = _Enclosure(self._function)
         self._steepness: _Enclosure | None = None
 

@@ -9,6 +9,7 @@ import numpy
 from msgspec import Struct
 
 from contoursolve.numeric.expressions import Tape
+from contoursolve.numeric.functions import Functions
 from contoursolve.numeric.interpreter import Replay
 from contoursolve.numeric.linear_algebra import Array
 
@@ -182,31 +183,23 @@ _WHOLE = 2.0**52
 """Whole numbers below this have exact differences."""
 
 
-class Rows:
-    """Functions beyond arithmetic, for columns of which few rows are computed once: compiling would take longer."""
-
-    root = staticmethod(numpy.sqrt)
-    cosine = staticmethod(numpy.cos)
-    sine = staticmethod(numpy.sin)
-    magnitude = staticmethod(numpy.abs)
-    sign = staticmethod(numpy.sign)
-    angle = staticmethod(numpy.arctan2)
-    larger = staticmethod(numpy.fmax)
-    equal = staticmethod(numpy.equal)
-    at_most = staticmethod(numpy.less_equal)
-    below = staticmethod(numpy.less)
-
-    @staticmethod
-    def opposite(condition: Any) -> Any:
-        """The inverse of a condition, a number or a truth value."""
-        return numpy.equal(condition, 0)
-
-    @staticmethod
-    def chosen(condition: Any, value: Any) -> Any:
-        """The value where a condition holds, else 0."""
-        return numpy.where(numpy.equal(condition, 0), 0.0, value)
+ROW_FUNCTIONS = Functions(
+    numpy.sqrt,
+    numpy.cos,
+    numpy.sin,
+    magnitude=numpy.abs,
+    larger=numpy.fmax,
+    at_most=numpy.less_equal,
+    below=numpy.less,
+    opposite=lambda condition: numpy.equal(condition, 0),
+    sign=numpy.sign,
+    angle=numpy.arctan2,
+    equal=numpy.equal,
+    chosen=lambda condition, value: numpy.where(numpy.equal(condition, 0), 0.0, value),
+)
+"""Of columns of which few rows are computed once: compiling would take longer."""
 
 
 def replay_rows(tape: Tape) -> Replay:
     """The outputs of a tape for columns of its inputs, without compiling them."""
-    return Replay(tape.shared(), Rows, float)
+    return Replay(tape.shared(), ROW_FUNCTIONS, float)

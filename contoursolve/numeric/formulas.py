@@ -8,6 +8,7 @@ import sympy
 from msgspec import Struct
 
 from contoursolve.numeric.expressions import Tape
+from contoursolve.numeric.functions import Functions
 from contoursolve.numeric.given_angle import COSINE, SINE, direction
 from contoursolve.numeric.interpreter import Replay
 from contoursolve.numeric.terms import Affine, Apply, Constant, Term, Variable
@@ -44,8 +45,8 @@ def formulas_of(
     kept = tape.keep()
     for number, output in enumerate(outputs):
         kept.output(str(number), output)
-    known = [_Symbols.sign(_affine(signs[name])) if name in signs else _input(name, inputs) for name in kept.inputs]
-    parts = _Parts(kept.function(), _Symbols, _number)
+    known = [_sign(_affine(signs[name])) if name in signs else _input(name, inputs) for name in kept.inputs]
+    parts = _Parts(kept.function(), _SYMBOLS, _number)
     results = parts(known)
     everything = [_rounded(sympy.sympify(each)) for each in (*parts.named.values(), *results)]
     named, reduced = sympy.cse(everything, sympy.numbered_symbols(COMMON, real=True), order="none")
@@ -101,59 +102,71 @@ def _number(value: float) -> Any:
     return sympy.Integer(int(value)) if value == int(value) else sympy.Float(value, 17)
 
 
-class _Symbols:
-    """The functions of instructions; truth is 1 or 0, which is multiplied."""
+"""The functions of instructions; truth is 1 or 0, which is multiplied."""
 
-    magnitude = staticmethod(sympy.Abs)
 
-    @staticmethod
-    def root(value: Any) -> Any:
-        if value.is_number:
-            return _number(sqrt(float(value)))
-        if value.is_Pow and value.exp == 2:  # noqa: PLR2004 - a square
-            return sympy.Abs(value.base)
-        # A root of sympy's is real only where it knows that.
-        return sympy.Function(ROOT, real=True, nonnegative=True)(value)
+def _root(value: Any) -> Any:
+    if value.is_number:
+        return _number(sqrt(float(value)))
+    if value.is_Pow and value.exp == 2:  # noqa: PLR2004 - a square
+        return sympy.Abs(value.base)
+    # A root of sympy's is real only where it knows that.
+    return sympy.Function(ROOT, real=True, nonnegative=True)(value)
 
-    @staticmethod
-    def sign(value: Any) -> Any:
-        if value.is_number:
-            return sympy.Integer(0 if abs(value) <= ZERO else 1 if value > 0 else -1)
-        return sympy.Function(SIGN, real=True)(value)
 
-    @staticmethod
-    def angle(sine: Any, cosine: Any) -> Any:
-        return sympy.Function(TURNED, real=True)(sine, cosine) * sympy.Float(sympy.pi.evalf(20) / 180, 17)
+def _sign(value: Any) -> Any:
+    if value.is_number:
+        return sympy.Integer(0 if abs(value) <= ZERO else 1 if value > 0 else -1)
+    return sympy.Function(SIGN, real=True)(value)
 
-    @staticmethod
-    def larger(first: Any, second: Any) -> Any:
-        if first.is_number and second.is_number:
-            return max(first, second)
-        return (first + second + sympy.Abs(first - second)) / 2
 
-    @staticmethod
-    def at_most(first: Any, second: Any) -> Any:
-        if (first - second).is_number:
-            return sympy.Integer(bool(first - second <= 0))
-        return sympy.Function(AT_MOST, real=True)(first, second)
+def _angle(sine: Any, cosine: Any) -> Any:
+    return sympy.Function(TURNED, real=True)(sine, cosine) * sympy.Float(sympy.pi.evalf(20) / 180, 17)
 
-    @staticmethod
-    def below(first: Any, second: Any) -> Any:
-        if (first - second).is_number:
-            return sympy.Integer(bool(first - second < 0))
-        return sympy.Function(LESS, real=True)(first, second)
 
-    @staticmethod
-    def equal(first: Any, second: Any) -> Any:
-        return _Symbols.at_most(sympy.Abs(first - second), _number(ZERO))
+def _larger(first: Any, second: Any) -> Any:
+    if first.is_number and second.is_number:
+        return max(first, second)
+    return (first + second + sympy.Abs(first - second)) / 2
 
-    @staticmethod
-    def opposite(condition: Any) -> Any:
-        return 1 - condition
 
-    @staticmethod
-    def chosen(condition: Any, value: Any) -> Any:
-        return condition * value
+def _at_most(first: Any, second: Any) -> Any:
+    if (first - second).is_number:
+        return sympy.Integer(bool(first - second <= 0))
+    return sympy.Function(AT_MOST, real=True)(first, second)
+
+
+def _below(first: Any, second: Any) -> Any:
+    if (first - second).is_number:
+        return sympy.Integer(bool(first - second < 0))
+    return sympy.Function(LESS, real=True)(first, second)
+
+
+def _equal(first: Any, second: Any) -> Any:
+    return _at_most(sympy.Abs(first - second), _number(ZERO))
+
+
+def _opposite(condition: Any) -> Any:
+    return 1 - condition
+
+
+def _chosen(condition: Any, value: Any) -> Any:
+    return condition * value
+
+
+_SYMBOLS = Functions(
+    _root,
+    magnitude=sympy.Abs,
+    sign=_sign,
+    angle=_angle,
+    larger=_larger,
+    at_most=_at_most,
+    below=_below,
+    equal=_equal,
+    opposite=_opposite,
+    chosen=_chosen,
+)
+"""Of expressions of sympy; truth is 1 or 0, which is multiplied."""
 
 
 class _Writer:

@@ -17,8 +17,13 @@ def _larger(first: Any, second: Any) -> Any:
     return second if first != first else first if second != second else max(first, second)
 
 
+def undefined(*_values: Any) -> Any:
+    """What a kind of number cannot do. Raises TypeError."""
+    raise TypeError("this kind of number has no such function")
+
+
 class Functions(Struct, frozen=True):
-    """Functions of equations beyond arithmetic, for one kind of number."""
+    """What one kind of number can do beyond arithmetic: what equations, and instructions of CasADi, ask of it."""
 
     root: Callable[[Any], Any] = math.sqrt
     cosine: Callable[[Any], Any] = math.cos
@@ -33,6 +38,14 @@ class Functions(Struct, frozen=True):
     at_most: Callable[[Any, Any], Any] = operator.le
     below: Callable[[Any, Any], Any] = operator.lt
     opposite: Callable[[Any], Any] = operator.not_
+    sign: Callable[[Any], Any] = undefined
+    """-1, 0 or 1; None of a ball that does not tell."""
+    angle: Callable[[Any, Any], Any] = undefined
+    """The angle of a sine and a cosine that have a common factor, radians."""
+    equal: Callable[[Any, Any], Any] = undefined
+    chosen: Callable[[Any, Any], Any] | None = None
+    """The value where a condition holds, else 0; None where conditions are True or False, and `sign` and `at_most`
+    decide them, or raise an error."""
 
 
 FLOATS = Functions()

@@ -18,7 +18,7 @@ class Narrower(Replay):
     """The instructions of a function, whose first `zeros` outputs must be zero and whose others not be negative."""
 
     def __init__(self, function: Any, zeros: int) -> None:
-        super().__init__(function, intervals, constant)
+        super().__init__(function, intervals.FUNCTIONS, constant)
         self._zeros = zeros
         self._backwards = [
             (_OF_TWO if second not in (-1, first) else _OF_ONE).get(function.instruction_id(target))

@@ -6,6 +6,8 @@ from typing import Any
 
 import casadi
 
+from contoursolve.numeric.functions import Functions
+
 _BINARY: Mapping[int, Callable[[Any, Any], Any]] = {
     casadi.OP_ADD: operator.add,
     casadi.OP_SUB: operator.sub,
@@ -52,14 +54,10 @@ def run_steps(steps: Sequence[Step], work: list[Any]) -> None:
 
 
 class Replay:
-    """The instructions of a function of one vector to one vector, as a list to run through.
+    """The instructions of a function of one vector to one vector, as a list to run through; `constant` makes a number
+    of the wanted kind from a float."""
 
-    `functions` gives what is not arithmetic, as attributes `root`, `cosine`, `sine`, `magnitude`, `sign`, `angle`,
-    `larger`, as far as they occur; `constant` makes a number of the wanted kind from a float. Comparisons are those of
-    `functions` (`equal`, `at_most`, `below`, `opposite`, `chosen`), or else give True or False.
-    """
-
-    def __init__(self, function: Any, functions: Any, constant: Callable[[float], Any]) -> None:
+    def __init__(self, function: Any, functions: Functions, constant: Callable[[float], Any]) -> None:
         self._zero = constant(0.0)
         self._inputs: list[tuple[int, int]] = []
         self._outputs: list[tuple[int, int]] = []
@@ -109,7 +107,7 @@ class Replay:
         return results
 
 
-def _operation(kind: int, functions: Any) -> Callable[..., Any]:
+def _operation(kind: int, functions: Functions) -> Callable[..., Any]:
     if kind in _BINARY:
         return _BINARY[kind]
     if kind in _OF_ITSELF:
@@ -122,18 +120,17 @@ def _operation(kind: int, functions: Any) -> Callable[..., Any]:
     if kind in _POWERS:
         return operator.pow
     if kind in _CHOICES:
-        own: Callable[..., Any] | None = getattr(functions, _CHOICES[kind], None)
-        return own if own is not None and hasattr(functions, "chosen") else _choice(kind, functions)
+        own: Callable[..., Any] = getattr(functions, _CHOICES[kind])
+        return own if functions.chosen is not None else _choice(kind, functions)
     raise ValueError(f"CasADi instruction {kind} has no counterpart here")
 
 
-def _choice(kind: int, functions: Any) -> Callable[..., Any]:
-    """Comparisons give True or False here; `functions.sign` and `functions.at_most` decide, or raise an error."""
+def _choice(kind: int, functions: Functions) -> Callable[..., Any]:
+    """A comparison that gives True or False, and what is chosen by it."""
     if kind == casadi.OP_EQ:
         return lambda a, b: functions.sign(a - b) == 0
     if kind == casadi.OP_LE:
-        compare: Callable[..., Any] = functions.at_most
-        return compare
+        return functions.at_most
     if kind == casadi.OP_NOT:
         return operator.not_
     if kind == casadi.OP_LT:

@@ -9,6 +9,7 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from contoursolve.numeric.functions import Functions
 from contoursolve.numeric.linear_algebra import Array
 
 LARGEST_ANGLE = 1e6
@@ -183,3 +184,19 @@ def chosen(condition: Intervals, value: Intervals) -> Intervals:
     high = numpy.where(condition.low == 1, value.high, numpy.maximum(value.high, 0.0))
     is_false = condition.high == 0
     return Intervals(numpy.where(is_false, 0.0, low), numpy.where(is_false, 0.0, high))
+
+
+FUNCTIONS = Functions(
+    root,
+    cosine,
+    sine,
+    magnitude=magnitude,
+    larger=larger,
+    at_most=at_most,
+    below=below,
+    opposite=opposite,
+    sign=sign,
+    angle=angle,
+    equal=equal,
+    chosen=chosen,
+)

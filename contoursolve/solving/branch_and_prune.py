@@ -142,7 +142,7 @@ def conditions_of(system: System, group: Group) -> Conditions:
         group.unknowns,
         Narrower(tape.shared(), len(zeros)),
         tape.inputs,
-        Replay(slopes.shared(), intervals, constant),
+        Replay(slopes.shared(), intervals.FUNCTIONS, constant),
         slopes.inputs,
     )
 

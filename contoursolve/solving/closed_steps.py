@@ -10,6 +10,7 @@ from functools import lru_cache
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.geometry import System, Values
 from contoursolve.numeric import Number, Replay, ball, sqrt
@@ -55,16 +56,10 @@ class ClosedStep(Struct, frozen=True, eq=False):
         return [_root(each, is_double=False) for each in sorted(places, key=lambda each: ball.middle(each[index]))]
 
 
-class _Open:
-    """Functions of numbers among which the root of a negative one is no number."""
-
-    cosine, sine, magnitude = staticmethod(ball.cosine), staticmethod(ball.sine), staticmethod(ball.magnitude)
-
-    @staticmethod
-    def root(value: Number) -> Number:
-        """The square root."""
-        return ball.root(value if ball.sign(value) != -1 else ball.wider(value, 0.0))
-
+_OPEN = replace(
+    ball.FUNCTIONS, root=lambda value: ball.root(value if ball.sign(value) != -1 else ball.wider(value, 0.0))
+)
+"""Of numbers among which the root of a negative one is no number."""
 
 _ZERO, _PLUS, _MINUS = map(ball.exact, (0.0, 1.0, -1.0))
 
@@ -91,7 +86,7 @@ def close_step(local: Local) -> ClosedStep | None:
     (measures,) = builder.measures
     conditions = (each for each in (measures.determinant, measures.leading, measures.discriminant) if each is not None)
     tape = builder.tape.of((*parameters, *root), (*group.unknowns, *conditions))
-    return ClosedStep(parameters, len(group.unknowns), bool(root), Replay(tape.function(), _Open, ball.exact))
+    return ClosedStep(parameters, len(group.unknowns), bool(root), Replay(tape.function(), _OPEN, ball.exact))
 
 
 def _quotient_of(kernel: Kernel) -> Callable[[Sequence[Number]], list[Number]]:

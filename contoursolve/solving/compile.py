@@ -6,6 +6,7 @@ from math import tau
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.geometry import (
     FIRST,
@@ -18,6 +19,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.numeric import (
     SIDE,
+    Functions,
     Replay,
     Tape,
     angle,
@@ -339,7 +341,7 @@ def compile_proof(system: System) -> ExactOutputs:
     names = tuple(dict.fromkeys((*signs, *residuals, *figure.radii, *axes)))
     places = {name: place for place, name in enumerate(names)}
     return ExactOutputs(
-        _exactly(machine.tape, names, Exactly),
+        _exactly(machine.tape, names, EXACTLY),
         tuple((places[name], each) for name, each in signs.items()),
         tuple(places[name] for name in residuals),
         tuple((places[name], name) for name in figure.radii),
@@ -359,10 +361,10 @@ def compile_corners(system: System) -> tuple[ExactFunction, tuple[tuple[str, int
     and its axis."""
     machine = compile_path(system)
     axes = _corner_axes(machine)
-    return _exactly(machine.tape, tuple(axes), Exactly), tuple(axes.items())
+    return _exactly(machine.tape, tuple(axes), EXACTLY), tuple(axes.items())
 
 
-def _exactly(tape: Tape, outputs: Sequence[str], functions: Any) -> ExactFunction:
+def _exactly(tape: Tape, outputs: Sequence[str], functions: Functions) -> ExactFunction:
     return ExactFunction(Replay(tape.of(tape.inputs, outputs).function(), functions, ball.exact), tape.inputs)
 
 
@@ -373,48 +375,34 @@ def compile_decision(system: System, number: int) -> ExactFunction:
     builder = Builder(system, touching=0.0)
     for step in compile_system(system).steps[: number + 1]:
         builder.run(step)
-    return _exactly(builder.tape, [builder.measures[number].discriminant], _Deciding)
+    return _exactly(builder.tape, [builder.measures[number].discriminant], _DECIDING)
 
 
-class _Deciding:
-    """Functions of balls of many bits, in which a number that may be zero is zero."""
-
-    root = staticmethod(ball.root)
-    magnitude = staticmethod(ball.magnitude)
-
-    @staticmethod
-    def sign(value: ball.Number) -> int:
-        """-1, 0 or 1."""
-        return ball.sign(value) or 0
-
-    @staticmethod
-    def at_most(value: ball.Number, limit: ball.Number) -> bool:
-        """Whether a value is at most so large."""
-        return ball.sign(value - limit) != 1
+def _told_sign(value: ball.Number) -> int:
+    found = ball.sign(value)
+    if found is None:
+        raise ArithmeticError("a sign cannot be told")
+    return found
 
 
-class Exactly:
-    """Functions of exact numbers and balls; a sign that cannot be told raises ArithmeticError."""
+def _surely_at_most(value: ball.Number, limit: ball.Number) -> bool:
+    """Whether a value is at most so large: below that, only zero is told from it."""
+    if ball.sign(value - limit) == 1:
+        return False
+    if ball.is_exact(value) and value == 0:
+        return True
+    raise ArithmeticError("two solutions are too close for floats")
 
-    root = staticmethod(ball.root)
-    magnitude = staticmethod(ball.magnitude)
 
-    @staticmethod
-    def sign(value: ball.Number) -> int:
-        """-1, 0 or 1."""
-        found = ball.sign(value)
-        if found is None:
-            raise ArithmeticError("a sign cannot be told")
-        return found
+EXACTLY = replace(ball.FUNCTIONS, sign=_told_sign, at_most=_surely_at_most)
+"""Of exact numbers and balls; a sign that cannot be told raises ArithmeticError."""
 
-    @staticmethod
-    def at_most(value: ball.Number, limit: ball.Number) -> bool:
-        """Whether a value is at most so large: below that, only zero is told from it."""
-        if ball.sign(value - limit) == 1:
-            return False
-        if ball.is_exact(value) and value == 0:
-            return True
-        raise ArithmeticError("two solutions are too close for floats")
+_DECIDING = replace(
+    ball.FUNCTIONS,
+    sign=lambda value: ball.sign(value) or 0,
+    at_most=lambda value, limit: ball.sign(value - limit) != 1,
+)
+"""Of balls of many bits, among which a number that may be zero is zero."""
 
 
 @lru_cache(maxsize=1024)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from contoursolve.geometry import FIRST, SECOND, Given, Profile, System, Unit, Values, scalar
-from contoursolve.numeric import COSINE, SIDE, Created, Functions, Number, ball
+from contoursolve.numeric import COSINE, SIDE, Created, Number, ball
 from contoursolve.solving.numbers import axes_of
 
 REACH = 4.0
@@ -17,8 +17,6 @@ that a search looks at: a tenth of the controls' least increment. A circle witho
 and meets whatever passes through it, and a line without a length has any direction."""
 
 _SIDES = {sign: ball.exact(sign) for sign in (1, -1)}
-
-BALLS = Functions(ball.root, ball.cosine, ball.sine)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +32,7 @@ class Ground:
     def values(self, scalars: Mapping[str, Number], signs: Mapping[str, int], system: System) -> Values:
         """A lookup of exact numbers and balls for the facts of a system."""
         directions = Created(lambda name: ball.direction(self.angles[name].value))
-        return Values({**self.scalars, **scalars}, self.amounts, directions, system.headed, signs, BALLS)
+        return Values({**self.scalars, **scalars}, self.amounts, directions, system.headed, signs, ball.FUNCTIONS)
 
     def nearby(self, system: System) -> float:
         """The distance from the start point within which solutions are searched for first: `REACH` times as far as

@@ -223,7 +223,7 @@ def make_kernel(local: Local) -> Kernel:
         unknowns=group.unknowns,
         sides=sides,
         arguments=at.inputs,
-        equations=Replay(function, ball, ball.exact),
+        equations=Replay(function, ball.FUNCTIONS, ball.exact),
         function=function,
         is_affine=is_affine,
     )
