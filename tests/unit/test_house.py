@@ -104,11 +104,11 @@ def imports(module: Path) -> tuple[str, ...]:
 
 
 def _imports(module: Path) -> Iterator[str]:
-    for source, listed, plain in STATEMENT.findall(module.code):
+    for source, listed, plain in STATEMENT.findall(code_of(module)):
         assert not source.startswith("."), f"{module}: a relative import hides the room"
         yield from (f"{source}.{name}" for name in names_in(listed)) if source else names_in(plain)
     # A file beside a module, or its neighbours by their names.
-    named = NAMED.findall(module.code)
+    named = NAMED.findall(code_of(module))
     yield from (name for name in named if not name.endswith(("toml", f".{room_of(module)}")))
     if module.name == "__init__.py":
         package = next(name for name, path in PATHS.items() if path == module)
@@ -166,7 +166,7 @@ def test_nothing_is_imported_past_what_a_package_lists():
     past = [
         (short(module), source)
         for module in MODULES
-        for source, _, _ in STATEMENT.findall(module.code)
+        for source, _, _ in STATEMENT.findall(code_of(module))
         if source.startswith("contoursolve.") and source.count(".") > 1 and source.split(".")[1] != room_of(module)
     ]
     assert past == []
@@ -213,7 +213,7 @@ def test_only_numeric_imports_sympy_casadi_and_flint():
 def test_what_may_print_or_never_return_is_called_behind_one_door():
     """Of NumPy's linear algebra, what iterates: LAPACK prints on standard output or hangs at what is not finite."""
     eliminating = {"inv", "solve", "det", "norm", "LinAlgError"}
-    used = {(short(module), name) for module in MODULES for name in re.findall(r"\blinalg\.(\w+)", module.code)}
+    used = {(short(module), name) for module in MODULES for name in re.findall(r"\blinalg\.(\w+)", code_of(module))}
     assert {module for module, name in used if name not in eliminating} == {"numeric/linear_algebra.py"}
 
 
@@ -254,7 +254,7 @@ def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
 def test_no_public_class_name_has_two_meanings():
     homes: dict[str, list[str]] = {}
     for module in MODULES:
-        for name in re.findall(r"^class ([A-Z]\w*)", module.code, re.MULTILINE):
+        for name in re.findall(r"^class ([A-Z]\w*)", code_of(module), re.MULTILINE):
             homes.setdefault(name, []).append(short(module))
     assert {name: files for name, files in homes.items() if len(files) > 1} == {}
 
@@ -329,7 +329,7 @@ def test_the_front_door_has_few_names():
 def test_no_control_stands_in_where_none_is_named():
     """Who needs one says which; where nothing tells it, what holds for all of them counts."""
     by_name = re.compile(r"""CONTROLS\[["'].*""")
-    assert [(short(module), found) for module in MODULES for found in by_name.findall(module.code)] == []
+    assert [(short(module), found) for module in MODULES for found in by_name.findall(code_of(module))] == []
 
 
 UNDER_CONTROLS = ["tolerance", "diagnostics", "numeric", "gcode", "geometry", "reading", "solving"]
@@ -410,14 +410,14 @@ def test_what_a_package_and_the_page_of_the_house_say_to_begin_with_is_there():
 
 def test_one_builder_makes_parsed_contours():
     """Of all controls: what their readers share is written once."""
-    made = [short(module) for module in MODULES for _ in re.findall(r"\bParsedContour\(", module.code)]
+    made = [short(module) for module in MODULES for _ in re.findall(r"\bParsedContour\(", code_of(module))]
     assert made == ["reading/contour_builder.py"]
 
 
 def test_controls_write_a_rule_in_one_way():
     """As a row, column by column; `row` alone makes the record."""
     of_controls = [module for module in MODULES if room_of(module) == "controls"]
-    made = {module.name for module in of_controls if re.search(r"\bRule\(", module.code)}
+    made = {module.name for module in of_controls if re.search(r"\bRule\(", code_of(module))}
     assert made == {"rule_rows.py"}
 
 
@@ -426,7 +426,7 @@ MOST_EQUAL_LINES = 12
 
 def code_lines(module: Path) -> list[str]:
     """The lines of code of a module: without comments, docstrings, imports, and brackets alone."""
-    lines = (re.sub(r"(^|  )#.*", "", line).strip() for line in STATEMENT.sub("", module.code).splitlines())
+    lines = (re.sub(r"(^|  )#.*", "", line).strip() for line in STATEMENT.sub("", code_of(module)).splitlines())
     return [line for line in lines if re.search(r"\w", line)]
 
 
@@ -458,7 +458,7 @@ def test_nothing_stands_in_the_tests_that_none_of_them_uses():
 def test_a_geometric_event_is_one_row_and_few_files_name_it():
     named: dict[str, set[str]] = {}
     for module in MODULES:
-        for name in re.findall(r"RefusalKind\.([A-Z_]+)", module.code):
+        for name in re.findall(r"RefusalKind\.([A-Z_]+)", code_of(module)):
             named.setdefault(name, set()).add(short(module))
     told = {kind.name for kind in RefusalKind if kind.event.message}
     many = {name: files for name in told if len(files := named.get(name, set())) > 3}
@@ -475,7 +475,7 @@ which kind one is. Both fall with each question that becomes a field of the kind
 
 def test_what_others_ask_of_a_constraint_is_a_field_of_its_kind():
     """Of which kind it is, few files ask."""
-    kinds = {name for path in KINDS for name in re.findall(r"^class (\w+)", path.code, re.MULTILINE)}
+    kinds = {name for path in KINDS for name in re.findall(r"^class (\w+)", code_of(path), re.MULTILINE)}
     naming, asking = Counter[str](), Counter[str]()
     for module in {*saying(*kinds)} - {*KINDS}:
         tree = parsed(module)
@@ -491,7 +491,7 @@ def test_what_others_ask_of_a_constraint_is_a_field_of_its_kind():
 def test_no_pattern_repeats_a_group_possessively():
     """Python before 3.11.5 reads that wrongly (gh-106052); an atomic group says the same."""
     again = re.compile(r"(?<!\\)\)[?*+]\+")
-    texts = {short(module): module.code for module in MODULES}
+    texts = {short(module): code_of(module) for module in MODULES}
     lines = ((name, line.strip()) for name, text in texts.items() for line in text.splitlines())
     found = [f"{name}: {line}" for name, line in lines if again.search(line) and not line.startswith("#")]
     assert found == []
