@@ -23,8 +23,8 @@ from contoursolve.gcode import Block, Program, Word
 from contoursolve.notebook.exercises import Exercise, exercise_lines
 from contoursolve.output import (
     Folded,
+    RecordView,
     Table,
-    View,
     check_table,
     closing_lines,
     finding_lines,
@@ -74,7 +74,7 @@ def text_of(record: Shown) -> Iterable[str]:
     return str(record).split("\n") if lines is None else lines(record)
 
 
-def view_of(record: Shown) -> View | None:
+def view_of(record: Shown) -> RecordView | None:
     """What the text and the page of a record say; None for one whose page is laid out by itself."""
     return next((view(record) for kind, view in _VIEWS.items() if isinstance(record, kind)), None)
 
@@ -99,14 +99,14 @@ def _finding(finding: Diagnostic) -> list[str]:
     return finding_lines(finding, "<program>", {})
 
 
-def _diagnosis(diagnosis: Diagnosis) -> View:
+def _diagnosis(diagnosis: Diagnosis) -> RecordView:
     """The checks; each point that is not fixed, and how it can move; each set of words that say the same, the formula
     that ties them, and by how much they disagree."""
     freedoms = [(each.point, each.how) for each in diagnosis.freedoms]
     ties = [(" ".join(tie.addresses), tie.identity, _disagreement(tie)) for tie in diagnosis.ties]
     open_points = Table("What can still move", ("point", "how"), freedoms, left=(0, 1), is_headed=False)
     header = ("words", "formula", "disagreement")
-    return View(
+    return RecordView(
         "",
         [
             check_table(diagnosis),
@@ -127,12 +127,12 @@ def _contour(contour: Contour) -> list[str]:
     return path_table(contour).lines("")
 
 
-def _block(block: Block) -> View:
+def _block(block: Block) -> RecordView:
     """Each word and each stretch that is none, where it stands, and its value."""
     rows = [(each.span.column, printable(each.text), "?" if each.is_asked else _number(each)) for each in block.words]
     rows += [(each.span.column, printable(each.text), each.kind.value) for each in block.faults]
     shown = [(str(column), text, value) for column, text, value in sorted(rows)[:MOST_ROWS]]
-    return View(printable(block.text), [Table("Words", ("column", "word", "value"), shown, left=(1,))])
+    return RecordView(printable(block.text), [Table("Words", ("column", "word", "value"), shown, left=(1,))])
 
 
 def _number(word: Word) -> str:
@@ -145,7 +145,7 @@ def _program(program: Program) -> Iterator[str]:
     yield from (f"{block.line:>{width}} | {printable(block.text)}" for block in islice(program.blocks, 1_000))
 
 
-def _rule(rule: Rule) -> View:
+def _rule(rule: Rule) -> RecordView:
     return rule_view(rule, controls_of(rule))
 
 
@@ -154,7 +154,7 @@ def controls_of(rule: Rule) -> list[str]:
     return [name for name, control in CONTROLS.items() if rule in (*control.rules, *control.catalogue)]
 
 
-def _family(family: Family) -> View:
+def _family(family: Family) -> RecordView:
     """How many contours there are; the number and the range of each free word's values, and how many contours come to
     each state; its arrays, and what it depends on."""
     words = []
@@ -173,10 +173,11 @@ def _family(family: Family) -> View:
     parts += ["", Table("Free words", ("word", "values", "least", "largest"), words)]
     parts += ["", Table("What becomes of them", ("state", "contours", "share"), states)]
     parts += ["", Folded(count(len(family.names), "array"), [", ".join(family.names)])]
-    return View(title, [*parts, *filter(None, [family.remark]), *rest_lines(family)], family if is_drawn else None)
+    notes = [*filter(None, [family.remark]), *rest_lines(family)]
+    return RecordView(title, [*parts, *notes], family if is_drawn else None)
 
 
-def _sensitivity(found: Sensitivity) -> View:
+def _sensitivity(found: Sensitivity) -> RecordView:
     """By how much each word moves each result, as the control writes it; `none` where no derivative exists."""
     words, plane = next(iter(found.slopes.values()), {}), found.plane
     labels = dict(zip(plane.axes, axis_labels(plane), strict=True))
@@ -188,7 +189,7 @@ def _sensitivity(found: Sensitivity) -> View:
 
     rows = [row(*each) for each in islice(found.slopes.items(), MOST_ROWS)]
     told = "how far each result moves, mm for each unit of a word as it is written"
-    return View(told, [Table("Slopes", ("result", *words), rows)])
+    return RecordView(told, [Table("Slopes", ("result", *words), rows)])
 
 
 def _sketch(sketch: Sketch) -> Iterator[str]:
@@ -199,7 +200,7 @@ def _sketch(sketch: Sketch) -> Iterator[str]:
         yield str(error)
 
 
-def _system(system: EquationSystem) -> View:
+def _system(system: EquationSystem) -> RecordView:
     from contoursolve.output import system_view  # noqa: PLC0415 - sympy is slow to import
 
     return system_view(system)
@@ -230,7 +231,7 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Receipt: receipt_lines,
 }
 
-_VIEWS: dict[type, Callable[[Any], View]] = {
+_VIEWS: dict[type, Callable[[Any], RecordView]] = {
     Diagnosis: _diagnosis,
     Block: _block,
     Rule: _rule,

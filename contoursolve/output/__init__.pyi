@@ -124,10 +124,10 @@ from .moved_program import (
     rewrite_beside_tool as rewrite_beside_tool,
 )
 from .plain_text import (
+    Excerpt as Excerpt,
     Folded as Folded,
-    Quoted as Quoted,
+    RecordView as RecordView,
     Table as Table,
-    View as View,
     columns as columns,
     harmless as harmless,
     printable as printable,

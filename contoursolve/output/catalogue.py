@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from contoursolve.diagnosis import tabulate
 from contoursolve.diagnostics import Alarm, Source, check_type, members
-from contoursolve.output.plain_text import Quoted, Table, View, columns
+from contoursolve.output.plain_text import Excerpt, RecordView, Table, columns
 from contoursolve.reading import THIS_CONTROL, Control, Rule, ZeroMove, ZeroRow
 
 
@@ -113,7 +113,7 @@ def _alarm(rule: Rule) -> str:
     return f"{rule.alarm.number.split()[0]} ({rule.alarm.evidence.value})" if rule.alarm else "-"
 
 
-def rule_view(rule: Rule, controls: Sequence[str]) -> View:
+def rule_view(rule: Rule, controls: Sequence[str]) -> RecordView:
     """Everything about one rule: in words, a wrong block, a right one, the place in the manual; where several controls
     have it, it is the row of the first one."""
     rule = rule.told
@@ -126,14 +126,14 @@ def rule_view(rule: Rule, controls: Sequence[str]) -> View:
         *([("examples", f"as {controls[0]} has them; --control NAME shows another's")] if controls[1:] else []),
         *([("not met", f"here, because {rule.absent}")] if rule.absent else []),
     ]
-    parts: list[str | Table | Quoted] = ["", Table("The rule", ("", ""), facts, left=(0, 1), is_headed=False)]
+    parts: list[str | Table | Excerpt] = ["", Table("The rule", ("", ""), facts, left=(0, 1), is_headed=False)]
     told = f", with {rule.options.replace(THIS_CONTROL, controls[0])}" if rule.options else ""
     for title, examples in ((f"wrong{told}", rule.rejected), ("right", rule.accepted)):
-        parts += [Quoted(title, "\n".join(map(_short, each.split("\n")))) for each in examples]
+        parts += [Excerpt(title, "\n".join(map(_short, each.split("\n")))) for each in examples]
     if rule.file:
         name, _, text = rule.file.partition("\n")
-        parts.append(Quoted(f"the file {name} beside it", text))
-    return View(f"{rule.code} ({rule.severity.value}): {rule.title}", parts)
+        parts.append(Excerpt(f"the file {name} beside it", text))
+    return RecordView(f"{rule.code} ({rule.severity.value}): {rule.title}", parts)
 
 
 def rule_page(code: str, controls: Iterable[Control]) -> str:

@@ -17,7 +17,7 @@ from contoursolve.diagnosis import (
 from contoursolve.diagnostics import checked
 from contoursolve.gcode import FACT, Word
 from contoursolve.numeric import symbolic
-from contoursolve.output.plain_text import NAMELESS, Folded, Table, View, printable
+from contoursolve.output.plain_text import NAMELESS, Folded, RecordView, Table, printable
 
 NOBODY = "the form"
 """The origin of an equation that no word states."""
@@ -40,13 +40,13 @@ class Formula(Struct, frozen=True, eq=False):
         return str(maths(self.expression))
 
 
-def system_view(system: EquationSystem) -> View:
+def system_view(system: EquationSystem) -> RecordView:
     """A system: its unknowns, its values, then what `equation_view` has."""
     named = Folded("Unknowns and values", [unknown_table(system), value_table(system)])
-    return View("", [named, *equation_view(system).parts])
+    return RecordView("", [named, *equation_view(system).parts])
 
 
-def equation_view(system: EquationSystem) -> View:
+def equation_view(system: EquationSystem) -> RecordView:
     """The equations, what they leave open, on which condition they determine the rest, what says the same, and the
     corners."""
     parts: list[str | Table | Folded] = [equation_table(system)]
@@ -54,7 +54,7 @@ def equation_view(system: EquationSystem) -> View:
         parts += ["", open_line(system), *([motion_table(system)] if system.null_space else [])]
     parts += [condition_table(system), *large_lines(system), tie_table(system)]
     parts += [Folded(f"Equations of {each.caption}", [each]) for each in corner_tables(system)]
-    return View("", parts)
+    return RecordView("", parts)
 
 
 @checked
@@ -177,7 +177,8 @@ def tie_table(system: EquationSystem) -> Table:
         )
         for each in system.ties
     ]
-    return Table("These words say the same", ("words", "formula", "here"), rows, left=(0, 1, 2), is_headed=False)
+    header = ("words", "formula", "here")
+    return Table("These words say the same", header, rows, left=(0, 1, 2), is_headed=False).without_empty()
 
 
 def corner_tables(system: EquationSystem) -> list[Table]:

@@ -33,14 +33,14 @@ from contoursolve.families import (
     Way,
 )
 from contoursolve.geometry import Length
-from contoursolve.output.plain_text import Table, View, columns
+from contoursolve.output.plain_text import RecordView, Table, columns
 from contoursolve.output.premises import premise_data, premise_texts
 from contoursolve.tool_radius import least_of
 
 # Ranges of a word --------------------------------------------------------------------------------------------
 
 
-def range_view(found: FeasibleRange) -> View:
+def range_view(found: FeasibleRange) -> RecordView:
     """The ranges of a word, two rows for each: its number, which end, the value, and what ends it there. Below, what is
     not proven, the refusal of the block as it stands, and the premises."""
     low, high = (written(value, found.unit) for value in found.within)
@@ -57,7 +57,7 @@ def range_view(found: FeasibleRange) -> View:
     table = Table("Where the contour exists", header, rows, left=(0, 1, 3), is_headed=False)
     warnings = [f"warning: {each}" for each in found.warnings]
     refusal = [f"as it stands, the block has none: {found.refusal}"] if found.refusal else []
-    return View(title, [table, *_doubts(found), *warnings, *refusal, *rest_lines(found)], found)
+    return RecordView(title, [table, *_doubts(found), *warnings, *refusal, *rest_lines(found)], found)
 
 
 def _doubts(found: FeasibleRange | FoundValues | ToleranceRange) -> Iterator[str]:
@@ -138,7 +138,7 @@ def tools_data(found: Mapping[tuple[int, ...], FeasibleRange], unfollowed: Seque
 # Regions of two words ----------------------------------------------------------------------------------------
 
 
-def region_view(found: FeasibleRegion) -> View:
+def region_view(found: FeasibleRegion) -> RecordView:
     """The lines that bound the region of two words, a row each: its ends, how many points it has, and what fails beyond
     it. Below, how finely it was sampled, and the premises."""
     spans = zip(found.words, found.within, found.units, strict=True)
@@ -152,7 +152,7 @@ def region_view(found: FeasibleRegion) -> View:
         rows.append((f"{place}.", f"{first} to {last}", f"{len(each.points)} points", f"beyond it: {each.reason.text}"))
     header = ("line", "from and to", "points", "where there is no contour")
     table = Table("The lines that bound it", header, rows, left=(0, 1, 3), is_headed=False)
-    return View(title, [table, found.fineness, *rest_lines(found)], found)
+    return RecordView(title, [table, found.fineness, *rest_lines(found)], found)
 
 
 def _pair(point: tuple[float, float], found: FeasibleRegion) -> str:
@@ -176,7 +176,7 @@ def region_data(found: FeasibleRegion) -> dict[str, Any]:
 # Values that bring a point where it is wanted ----------------------------------------------------------------
 
 
-def found_view(found: FoundValues) -> View:
+def found_view(found: FoundValues) -> RecordView:
     """The values that bring a point where it is wanted: where it is then, the certificate if there is one, the block to
     write, and what rounding does."""
     low, high = (written(value, found.unit) for value in found.within)
@@ -188,7 +188,7 @@ def found_view(found: FoundValues) -> View:
     rows = [_hit_cells(hit, found) for hit in found.hits]
     table = Table("Values", header, rows, left=(1, 2, 3, 4), is_listed=True)
     remark = [found.remark] if found.remark else []
-    return View(title, [*remark, *_doubts(found), table, *rest_lines(found)])
+    return RecordView(title, [*remark, *_doubts(found), table, *rest_lines(found)])
 
 
 def _hit_cells(hit: Hit, found: FoundValues) -> tuple[str, str, str, str, str]:
@@ -228,7 +228,7 @@ def _hit_data(hit: Hit) -> dict[str, Any]:
 # Which word moves a point most -------------------------------------------------------------------------------
 
 
-def tolerances_view(found: Tolerances) -> View:
+def tolerances_view(found: Tolerances) -> RecordView:
     """The words, the one that moves the point most first: its derivatives and what its tolerance moves, in the unit of
     the program. Below, what all tolerances come to."""
     place, has_tolerances = measured(found.place, found.plane, found.length), _has_tolerances(found)
@@ -237,7 +237,7 @@ def tolerances_view(found: Tolerances) -> View:
     rows = [_effect_cells(each, found, has_tolerances) for each in found.effects]
     table = Table("What each word does", [*head, "half an increment"], rows)
     title = f"{found.point}: {place}; moved by each word, the most first"
-    return View(title, [table, *_spread_lines(found)])
+    return RecordView(title, [table, *_spread_lines(found)])
 
 
 def _spread_lines(found: Tolerances) -> Iterator[str]:
@@ -329,7 +329,7 @@ def _effect_data(each: Contribution) -> dict[str, Any]:
 # How far a word may be off -----------------------------------------------------------------------------------
 
 
-def word_tolerance_view(found: ToleranceRange) -> View:
+def word_tolerance_view(found: ToleranceRange) -> RecordView:
     """How far a word may be off, a row for each end: the value, how far it is from that of the block, and what ends it.
     Below, the linear estimate, what is not proven, and the premises."""
     most, proof = f"{found.most:g} {short_name(found.kept_unit)}", "proven" if found.is_complete else "not proven"
@@ -344,7 +344,7 @@ def word_tolerance_view(found: ToleranceRange) -> View:
     first = [f"to first order: +-{written(found.linear, found.unit)}"] if found.linear is not None else []
     if found.linear is None and Way.MOVED not in (found.low.way, found.high.way):
         first = [f"{found.word} does not move {found.kept} so far"]
-    return View(title, [table, *first, *_doubts(found), *rest_lines(found)])
+    return RecordView(title, [table, *first, *_doubts(found), *rest_lines(found)])
 
 
 def word_tolerance_data(found: ToleranceRange) -> dict[str, Any]:

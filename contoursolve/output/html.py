@@ -21,7 +21,7 @@ from contoursolve.output.contours import (
 )
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.listing import beside_of
-from contoursolve.output.plain_text import NAMELESS, Folded, Name, Quoted, Table, View, printable
+from contoursolve.output.plain_text import NAMELESS, Excerpt, Folded, Name, RecordView, Table, printable
 from contoursolve.output.premises import premise_texts
 from contoursolve.pictures import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, TOOLS, Drawable, Role, Theme, draw
 
@@ -109,14 +109,14 @@ def short(text: str, most: int = WIDEST) -> str:
     return shown if len(shown) <= most else f"{shown[: most - 4]} ..."
 
 
-def view_element(view: View) -> Iterator[h.Node]:
+def view_element(view: RecordView) -> Iterator[h.Node]:
     """A record in words: its picture, its title, and the parts below it, each text as a sentence."""
     if view.picture is not None:
         yield figure(view.picture)
     if view.title:
         yield h.p[short(view.title, LONGEST)]
     for part in view.parts:
-        if isinstance(part, Quoted):
+        if isinstance(part, Excerpt):
             yield h.h4[_begun(part.title)]
             yield h.pre["\n".join(map(short, part.text.split("\n")))]
         elif isinstance(part, Folded):

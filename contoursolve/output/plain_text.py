@@ -94,7 +94,7 @@ class Table(Struct, frozen=True):
         return [place for place in range(len(self.header)) if place not in self.left]
 
 
-class Quoted(Struct, frozen=True):
+class Excerpt(Struct, frozen=True):
     """Lines as they stand somewhere, such as blocks of a program, below what they are."""
 
     title: str
@@ -108,12 +108,12 @@ class Folded(Struct, frozen=True):
     parts: Sequence[str | Table]
 
 
-class View(Struct, frozen=True):
+class RecordView(Struct, frozen=True):
     """A record in words, as every format shows it: a title, then everything else in its order. Lines have the captions
     of tables where no title says what they are; an empty text is an empty line."""
 
     title: str
-    parts: Sequence[str | Table | Quoted | Folded]
+    parts: Sequence[str | Table | Excerpt | Folded]
     picture: Any = None
     """A record whose picture stands above it on a page."""
 
@@ -125,7 +125,7 @@ class View(Struct, frozen=True):
         for title, part in self._flat():
             if isinstance(part, str):
                 yield f"  {title}{part}" if part else ""
-            elif isinstance(part, Quoted):
+            elif isinstance(part, Excerpt):
                 yield from ("", f"  {part.title}:", *(f"    {line}" for line in part.text.split("\n")))
             elif self.title:
                 yield from part.lines()
@@ -134,7 +134,7 @@ class View(Struct, frozen=True):
                 yield from head if is_first else ("", *head)
             is_first = False
 
-    def _flat(self) -> Iterator[tuple[str, str | Table | Quoted]]:
+    def _flat(self) -> Iterator[tuple[str, str | Table | Excerpt]]:
         """The parts, and what stands before a text that a page folds."""
         for part in self.parts:
             if isinstance(part, Folded):
