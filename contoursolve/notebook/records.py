@@ -75,7 +75,7 @@ def text_of(record: Shown) -> Iterable[str]:
 
 
 def view_of(record: Shown) -> RecordView | None:
-    """What the text and the page of a record say; None for one whose page is laid out by itself."""
+    """The text and the page of a record as one; None for a record whose page is laid out by itself."""
     return next((view(record) for kind, view in _VIEWS.items() if isinstance(record, kind)), None)
 
 
@@ -155,8 +155,8 @@ def controls_of(rule: Rule) -> list[str]:
 
 
 def _family(family: Family) -> RecordView:
-    """How many contours there are; the number and the range of each free word's values, and how many contours come to
-    each state; its arrays, and what it depends on."""
+    """The number and the range of each free word's values, the number of contours in each state, the arrays, and what
+    the family depends on."""
     words = []
     for word, values in family.ranges.values.items():
         ends = (f"{values.min():.6g}", f"{values.max():.6g}") if values.size else ("", "")
@@ -178,7 +178,8 @@ def _family(family: Family) -> RecordView:
 
 
 def _sensitivity(found: Sensitivity) -> RecordView:
-    """By how much each word moves each result, as the control writes it; `none` where no derivative exists."""
+    """A row for each result: by how much each word moves it, as the control writes it; `none` where no derivative
+    exists."""
     words, plane = next(iter(found.slopes.values()), {}), found.plane
     labels = dict(zip(plane.axes, axis_labels(plane), strict=True))
 

@@ -18,12 +18,12 @@ def _larger(first: Any, second: Any) -> Any:
 
 
 def undefined(*_values: Any) -> Any:
-    """What a kind of number cannot do. Raises TypeError."""
+    """A function that a kind of number does not have. Raises TypeError."""
     raise TypeError("this kind of number has no such function")
 
 
 class Functions(Struct, frozen=True):
-    """What one kind of number can do beyond arithmetic: what equations, and instructions of CasADi, ask of it."""
+    """Functions of one kind of number beyond arithmetic, as equations and instructions of CasADi ask for them."""
 
     root: Callable[[Any], Any] = math.sqrt
     cosine: Callable[[Any], Any] = math.cos

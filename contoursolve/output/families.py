@@ -330,7 +330,7 @@ def _effect_data(each: Contribution) -> dict[str, Any]:
 
 
 def word_tolerance_view(found: ToleranceRange) -> RecordView:
-    """How far a word may be off, a row for each end: the value, how far it is from that of the block, and what ends it.
+    """The tolerance of a word, a row for each end: the value, how far it is from that of the block, and what ends it.
     Below, the linear estimate, what is not proven, and the premises."""
     most, proof = f"{found.most:g} {short_name(found.kept_unit)}", "proven" if found.is_complete else "not proven"
     title = f"{found.word}, now {written(found.stated, found.unit)}: {found.kept} moves by at most {most} ({proof})"

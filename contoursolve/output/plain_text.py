@@ -102,7 +102,7 @@ class Excerpt(Struct, frozen=True):
 
 
 class Folded(Struct, frozen=True):
-    """What a page shows to those who open it: a paragraph or tables, behind what they are."""
+    """A paragraph or tables that a page shows to those who open them, behind what they are."""
 
     title: str
     parts: Sequence[str | Table]
