@@ -34,6 +34,7 @@ from contoursolve.diagnosis.slip_kinds import partners
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Fact, Line, Profile, Unit, assemble, both, word_of
+from contoursolve.numeric import trimmed
 from contoursolve.reading import ParsedContour, ReadIssue, check, read
 from contoursolve.solving import (
     Status,
@@ -255,9 +256,7 @@ def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
         value += 360 * round((float(stated) - value) / 360)
     if word.address != FACT:
         return lexicon.number_of(write_word(word.address, value, lexicon, answer.unit), word.address)
-    number = rounded(value, unit, lexicon, answer.unit, is_diameter=asked.question.is_diameter)
-    text = f"{number:f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text
+    return trimmed(rounded(value, unit, lexicon, answer.unit, is_diameter=asked.question.is_diameter))
 
 
 def lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:

@@ -15,6 +15,7 @@ from contoursolve.diagnosis.examine import LEADING
 from contoursolve.diagnosis.spelling import respelled
 from contoursolve.gcode import FACT, Word, mended
 from contoursolve.geometry import CornerShape, Plane, Unit
+from contoursolve.numeric import trimmed
 from contoursolve.reading import Address, Control, Effect, Lexicon, Modes, ParsedContour, WithoutPoint
 
 _WORD = re.compile(
@@ -110,8 +111,7 @@ class Typed(Struct, frozen=True, dict=True):
     def as_value(self, *values: Decimal) -> Iterator[str]:
         """The word with another number, spelled as this one is."""
         for value in values:
-            text = f"{abs(value):f}"
-            text = text.rstrip("0").rstrip(".") if "." in text else text
+            text = trimmed(abs(value))
             is_pointed = self.number.endswith(".") or ("." in self.number and self.counts)
             sign = "-" if value < 0 else "+" if self.sign == "+" else ""
             yield self.spelled(sign + text + "." * (is_pointed and "." not in text))

@@ -15,6 +15,7 @@ from .columns import (
     directions as directions,
     replay_rows as replay_rows,
 )
+from .decimals import trimmed as trimmed
 from .echelon import (
     CONSTANT as CONSTANT,
     Echelon as Echelon,

@@ -8,6 +8,7 @@ import sympy
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.str import StrPrinter
 
+from contoursolve.numeric.decimals import trimmed
 from contoursolve.numeric.symbolic import PositiveFirst, symbol
 
 
@@ -46,8 +47,8 @@ class Calculator:
         """The value of a symbol as it stands in a formula, an angle with the sign for degrees."""
         value = float(self.values[own])
         if own in self.angles:
-            return f"{short(degrees(value))}{degree}"
-        text = short(value)
+            return f"{trimmed(degrees(value), 4)}{degree}"
+        text = trimmed(value, 4)
         return f"({text})" if text.startswith("-") else text
 
 
@@ -71,12 +72,6 @@ class _LatexNumbers(PositiveFirst, LatexPrinter):  # type: ignore[misc]
 
     def _print_Symbol(self, own: Any, style: str = "plain") -> str:  # noqa: ARG002, N802 - as sympy calls it
         return self._sheet.number(own, "^{\\circ}")
-
-
-def short(value: float) -> str:
-    """A number with up to four decimals."""
-    text = f"{value:z.4f}"
-    return text.rstrip("0").rstrip(".")
 
 
 sine, cosine, tangent, arcsine, root, heading, PI = (

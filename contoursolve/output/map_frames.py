@@ -23,7 +23,7 @@ from contoursolve.families import (
     outcomes_of,
     solve_sweep,
 )
-from contoursolve.numeric import Array
+from contoursolve.numeric import Array, trimmed
 from contoursolve.output.plain_text import printable
 from contoursolve.pictures import (
     MAP_BOX,
@@ -282,7 +282,7 @@ def _step(segment: Segment, decimals: int) -> str:
     end = _place(segment.end, decimals)
     if not isinstance(segment, ArcSegment) or not isfinite(segment.radius):
         return f"L{end}"
-    radius, flag = _number(segment.radius, decimals), int(segment.turn.sign < 0)
+    radius, flag = trimmed(segment.radius, decimals), int(segment.turn.sign < 0)
     if segment.sweep > 359:  # noqa: PLR2004 - the end of an arc command may not be its beginning
         opposite = 2 * segment.center[0] - segment.start[0], 2 * segment.center[1] - segment.start[1]
         return f"A{radius} {radius} 0 0 {flag} {_place(opposite, decimals)}A{radius} {radius} 0 0 {flag} {end}"
@@ -290,10 +290,4 @@ def _step(segment: Segment, decimals: int) -> str:
 
 
 def _place(at: Point, decimals: int) -> str:
-    return f"{_number(at[0], decimals)} {_number(-at[1], decimals)}"
-
-
-def _number(value: float, decimals: int) -> str:
-    text = f"{value:.{decimals}f}"
-    text = text.rstrip("0").rstrip(".") if "." in text else text
-    return "0" if text == "-0" else text
+    return f"{trimmed(at[0], decimals)} {trimmed(-at[1], decimals)}"

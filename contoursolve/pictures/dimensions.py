@@ -19,6 +19,7 @@ from contoursolve.geometry import (
     Tangent,
     Unit,
 )
+from contoursolve.numeric import trimmed
 from contoursolve.pictures.known_points import place_of
 from contoursolve.pictures.page import About, TextRun
 from contoursolve.pictures.scene import (
@@ -90,7 +91,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
             continue
         value = asked.value * (2 if question.is_diameter else 1)
         is_angle = question.unit is Unit.DEGREE
-        shown = f"{value:.3f}".rstrip("0").rstrip(".") if is_angle else number(value, subject.answer.unit)
+        shown = trimmed(value, 3) if is_angle else number(value, subject.answer.unit)
         text = f"{word_text(question.word.text).rstrip(' =?')} = {shown}"
         drawn = dimension_of(subject, question.fact, text, Role.DERIVED, asked.value)
         if drawn is not None:

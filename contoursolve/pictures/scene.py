@@ -11,6 +11,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Length, Plane
+from contoursolve.numeric import trimmed
 from contoursolve.pictures.page import ANYTHING, About, Spot, TextRun, visible
 from contoursolve.pictures.theme import Role
 from contoursolve.solving import ALONG_AXIS, Point, Segment, along, extremes
@@ -331,8 +332,7 @@ def number(mm: float, unit: Length) -> str:
     >>> number(-47.32051, Length.MM), number(30.0, Length.MM), number(-0.0001, Length.MM)
     ('-47.321', '30', '0')
     """
-    text = f"{mm / float(unit.in_mm):.{_DECIMALS[unit]}f}".rstrip("0").rstrip(".")
-    return "0" if text in ("-0", "") else text
+    return trimmed(mm / float(unit.in_mm), _DECIMALS[unit])
 
 
 def coordinates(at: Point, plane: Plane, unit: Length) -> str:

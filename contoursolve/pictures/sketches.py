@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from math import cos, pi, sin
 
 from contoursolve.geometry import Figure, Length, Profile, Unit, line_scalars
+from contoursolve.numeric import trimmed
 from contoursolve.pictures.dimensions import around, dimension_of
 from contoursolve.pictures.known_points import Known, place_beside, place_of, start_of
 from contoursolve.pictures.page import TextRun, visible
@@ -169,7 +170,7 @@ def _dimensions(drawn: Drawing, stated: Stated) -> Iterator[Part]:
             yield from filter(None, [dimension_of(traced, fact, word_text(text), Role.GIVEN, value)])
     for (fact, unit), asked in zip(stated.questions.values(), drawn.asked, strict=True):
         if asked.value is not None:
-            told = number(asked.value, Length.MM) if unit is Unit.MM else f"{asked.value:.3f}".rstrip("0").rstrip(".")
+            told = number(asked.value, Length.MM) if unit is Unit.MM else trimmed(asked.value, 3)
             text = f"{word_text(asked.fact.rstrip(' =?'))} = {told}"
             yield from filter(None, [dimension_of(traced, fact, text, Role.DERIVED, asked.value)])
 

@@ -17,6 +17,7 @@ from xml.sax.saxutils import escape, quoteattr
 from zlib import crc32
 
 from contoursolve.diagnostics import MissingExtraError, importing
+from contoursolve.numeric import trimmed
 from contoursolve.pictures.page import ANYTHING, WIDTH, About, Dot, Item, Shape, Spot, Stroke, Sweep, Text, TextRun
 from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.theme import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, TOOLS, Role, Theme
@@ -271,8 +272,7 @@ def _place(spot: Spot, between: str = ",") -> str:
 
 def _number(value: float) -> str:
     """A number of pixels to a hundredth, without a negative zero."""
-    text = f"{value:.2f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return trimmed(value, 2)
 
 
 def _clean(text: str) -> str:

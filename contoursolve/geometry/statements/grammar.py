@@ -33,6 +33,7 @@ from contoursolve.geometry.statements.statement import (
     Touches,
     TurnIs,
 )
+from contoursolve.numeric import trimmed
 from contoursolve.tolerance import LARGEST
 
 _NUMBER = re.compile(r"[+-]?+(?>\d++\.?+\d*+|\.\d++)(?>(?:[eE][+-]?+\d{1,3}+)?)(?![\w.])")
@@ -456,7 +457,7 @@ def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
         part = f"{statement.part} of " if statement.part else ""
         shown = "?" if value is None else _length(value, unit, is_diameter=plane.diameters[statement.axis])
         return f"{plane.axes[statement.axis]} of {part}{statement.of} = {shown}"
-    shown = "?" if value is None else _number(value) if isinstance(statement, ANGLES) else _length(value, unit)
+    shown = "?" if value is None else trimmed(value) if isinstance(statement, ANGLES) else _length(value, unit)
     if isinstance(statement, TurnIs):
         return f"angle from {statement.first} to {statement.second} = {shown}"
     if isinstance(statement, PolarAngleIs):
@@ -476,11 +477,11 @@ def _object(part: str | Decimal | Place | CircleAt | LineAt | Meeting, plane: Pl
         case CircleAt(center=center, radius=radius):
             return f"circle [{_place(center, plane, unit)} R{_length(radius, unit)}]"
         case LineAt(place=place, angle=angle):
-            return f"line [{_place(place, plane, unit)} A{_number(angle)}]"
+            return f"line [{_place(place, plane, unit)} A{trimmed(angle)}]"
         case Meeting(to=to, angle=angle):
             if to is not None:
                 return f"line to {_object(to, plane, unit)}"
-            return "next line" if angle is None else f"line at {_number(angle)}"
+            return "next line" if angle is None else f"line at {trimmed(angle)}"
     return f"[{_place(part, plane, unit)}]"
 
 
@@ -490,10 +491,4 @@ def _place(place: Place, plane: Plane, unit: Length) -> str:
 
 
 def _length(mm: Decimal, unit: Length, *, is_diameter: bool = False) -> str:
-    return _number(mm * (2 if is_diameter else 1) / unit.in_mm)
-
-
-def _number(value: Decimal) -> str:
-    """All its digits, and none that say nothing."""
-    text = f"{value:f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text
+    return trimmed(mm * (2 if is_diameter else 1) / unit.in_mm)
