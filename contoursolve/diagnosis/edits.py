@@ -21,6 +21,7 @@ from contoursolve.gcode import (
     Syntax,
     Word,
     WordSpelling,
+    late_pattern,
     parse_block,
     read_directive,
 )
@@ -319,7 +320,7 @@ def with_value(word: Word, value: str, words: WordSpelling) -> str:
     return f"{word.text[: stated.start('value')]}{value}" if stated else ""
 
 
-FACT_VALUE = re.compile(r"(?:=|\bat)\s*+(?P<value>[+-]?+(?>\d++\.?+\d*+|\.\d++)|\?)\s*+$")
+FACT_VALUE = late_pattern(r"(?:=|\bat)\s*+(?P<value>[+-]?+(?>\d++\.?+\d*+|\.\d++)|\?)\s*+$")
 """The value that a fact states: `= 30`, `at 10`."""
 
 
