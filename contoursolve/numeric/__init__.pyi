@@ -15,7 +15,6 @@ from .columns import (
     directions as directions,
     replay_rows as replay_rows,
 )
-from .decimals import trimmed as trimmed
 from .echelon import (
     CONSTANT as CONSTANT,
     Echelon as Echelon,
@@ -55,7 +54,7 @@ from .formulas import (
     ZERO as ZERO,
     formulas_of as formulas_of,
 )
-from .functions import FLOATS as FLOATS, Created as Created, Functions as Functions
+from .functions import FLOATS as FLOATS, Created as Created, Functions as Functions, trimmed as trimmed
 from .given_angle import (
     COSINE as COSINE,
     SIDE as SIDE,

@@ -1,8 +1,10 @@
-"""Functions of equations beyond arithmetic, for any kind of number, and mappings that make their values on demand."""
+"""Functions of equations beyond arithmetic, for any kind of number; mappings that make their values on demand; numbers
+as text."""
 
 import math
 import operator
 from collections.abc import Callable, Mapping
+from decimal import Decimal
 from typing import Any
 
 from msgspec import Struct
@@ -68,3 +70,14 @@ class Created(Mapping[str, Any]):
 
     def __len__(self) -> int:
         raise TypeError("what is made when it is asked for cannot be counted")
+
+
+def trimmed(value: Decimal | float, places: int | None = None) -> str:
+    """A number without zeros at its end: all digits of a decimal one, or rounded to so many places, without a negative
+    zero.
+
+    >>> trimmed(Decimal("30.50")), trimmed(-47.32051, 3), trimmed(-0.0001, 3)
+    ('30.5', '-47.321', '0')
+    """
+    text = f"{value:f}" if places is None else f"{value:z.{places}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text

@@ -8,7 +8,7 @@ import sympy
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.str import StrPrinter
 
-from contoursolve.numeric.decimals import trimmed
+from contoursolve.numeric.functions import trimmed
 from contoursolve.numeric.symbolic import PositiveFirst, symbol
 
 
