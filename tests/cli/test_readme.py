@@ -164,11 +164,17 @@ def test_the_readme_has_every_command_in_its_table() -> None:
 def test_the_table_of_settings_has_every_setting_of_every_control() -> None:
     _, _, own = PAGES["docs/machinists.md"].partition("\n## Settings of your control\n")
     rows = re.findall(r"^\| `(\S+)` \| ([^|]*) \| ([^|]*) \|$", own.partition("\n## ")[0], re.MULTILINE)
-    shown = {
-        (name, control): re.findall(r"`(\S+?)`", values)
-        for name, own, values in rows
-        for control in (CONTROLS if own == "all" else own.split(", "))
-    }
+    _, _, tools = PAGES["docs/tool.md"].partition("\n## What you can choose\n")
+    rows[:0] = [
+        (f"tool-{name}", "all", f"{default} {other}")
+        for name, default, other in re.findall(r"^\| `(\S+)` \| (`\S+?`)[^|]* \| (`\S+?`|)[^|]* \|$", tools, re.MULTILINE)
+    ]
+    shown = {}
+    for name, own, values in rows:
+        named = {*re.sub("^all( but )?", "", own).split(", ")} - {""}
+        assert named <= CONTROLS.keys(), name
+        for control in CONTROLS.keys() - named if own.startswith("all") else named:
+            shown[name, control] = re.findall(r"`(\S+?)`", values)
     meant = {
         (each.name, name): [each.default, *(value for value in each.values if value != each.default)]
         for name, own in CONTROLS.items()
