@@ -165,10 +165,8 @@ def test_the_table_of_settings_has_every_setting_of_every_control() -> None:
     _, _, own = PAGES["docs/machinists.md"].partition("\n## Settings of your control\n")
     rows = re.findall(r"^\| `(\S+)` \| ([^|]*) \| ([^|]*) \|$", own.partition("\n## ")[0], re.MULTILINE)
     _, _, tools = PAGES["docs/tool.md"].partition("\n## What you can choose\n")
-    rows[:0] = [
-        (f"tool-{name}", "all", f"{default} {other}")
-        for name, default, other in re.findall(r"^\| `(\S+)` \| (`\S+?`)[^|]* \| (`\S+?`|)[^|]* \|$", tools, re.MULTILINE)
-    ]
+    of_tools = re.findall(r"^\| `(\S+)` \| (`\S+?`)[^|]* \| (`\S+?`|)[^|]* \|$", tools, re.MULTILINE)
+    rows[:0] = [(f"tool-{name}", "all", f"{default} {other}") for name, default, other in of_tools]
     shown = {}
     for name, own, values in rows:
         named = {*re.sub("^all( but )?", "", own).split(", ")} - {""}
