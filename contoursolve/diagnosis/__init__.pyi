@@ -70,9 +70,6 @@ from .fill import (
     FARTHEST as FARTHEST,
     fill_in as fill_in,
 )
-from .fix_text import (
-    PROBABLY as PROBABLY,
-)
 from .hand_sheet import (
     Calculation as Calculation,
     CalculationLine as CalculationLine,
@@ -153,6 +150,7 @@ from .window import (
 from .wording import (
     DECIMALS as DECIMALS,
     NUMBERS as NUMBERS,
+    PROBABLY as PROBABLY,
     ContourState as ContourState,
     angle_text as angle_text,
     axis_labels as axis_labels,

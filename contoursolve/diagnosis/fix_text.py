@@ -11,14 +11,11 @@ from contoursolve.diagnosis.edits import Edit, EditKind, edited
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.slip_kinds import SlipKind
 from contoursolve.diagnosis.slips_around import touches
-from contoursolve.diagnosis.wording import MOST_FIXES, join, length_text, place_text
+from contoursolve.diagnosis.wording import MOST_FIXES, PROBABLY, join, length_text, place_text
 from contoursolve.diagnostics import Diagnostic, Fix, Label, NumberRange, OpenNumber
 from contoursolve.gcode import Block
 from contoursolve.geometry import Profile
 from contoursolve.solving import ArcSegment, Contour, Point, scalars_of
-
-PROBABLY = "probably "
-"""Leads the label of a word that the first fix of a finding changes."""
 
 
 def with_fixes(finding: Diagnostic, answer: Answer, repairs: Sequence[Repair]) -> Diagnostic:

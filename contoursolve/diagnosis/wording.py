@@ -15,6 +15,9 @@ from contoursolve.solving import Status
 LEAST_SHOWN = 0.00025
 """mm. Coordinates of a place that are nearer to zero are shown as zero, diameters, too."""
 
+PROBABLY = "probably "
+"""Leads the label of a word that the first fix of a finding changes."""
+
 MOST_FIXES = 4
 """Fixes of one finding that are told, beside the choices among solutions."""
 
