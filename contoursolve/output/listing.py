@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace as replace_fields
 from heapq import heappop, heappush
+from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec import Struct, field
@@ -25,15 +26,16 @@ from contoursolve.diagnostics import Applicability, Diagnostic, Fix, LateModule,
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
-from contoursolve.output.program_table import ProgramTable, has_several, is_told_by_path
 from contoursolve.program import ELSEWHERE, Result, Run, what_shows
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import Contour, NoteKind, Status
 
 if TYPE_CHECKING:
     from contoursolve import pictures, tool_radius
+    from contoursolve.output import program_table
 else:
     pictures, tool_radius = LateModule("contoursolve.pictures"), LateModule("contoursolve.tool_radius")
+    program_table = LateModule("contoursolve.output.program_table")
 
 MOST_ALIKE = 10
 """Findings of one code in one program that are shown where nobody asks for all."""
@@ -93,8 +95,8 @@ def stream_listing(
     items: Iterable[Answer | Diagnostic] = _in_order((key(item), item) for item in run)
     is_short, table = not (run.is_strict or is_explained), None
     if is_brief:
-        are_several, items = has_several(items)
-        table = ProgramTable(run.frame) if are_several else None
+        are_several, items = _has_several(items)
+        table = program_table.ProgramTable(run.frame) if are_several else None
     options = {"is_explained": is_explained, "is_short": is_short, "is_derived": is_derived}
     yield from _listing_lines(items, run.frame, style, table=table, **options)
 
@@ -280,11 +282,11 @@ def _listing_lines(
     is_explained: bool,
     is_short: bool = False,
     is_derived: bool = False,
-    table: ProgramTable | None = None,
+    table: "program_table.ProgramTable | None" = None,
 ) -> Iterator[str]:
     for item in items:
         findings = findings_of(item, is_explained=is_explained)
-        if table and isinstance(item, Answer) and is_told_by_path(item):
+        if table and isinstance(item, Answer) and program_table.is_told_by_path(item):
             yield from table.rows(item)
         elif isinstance(item, Answer):
             yield from _interrupting(table)
@@ -300,7 +302,18 @@ def _listing_lines(
         yield from table.closing()
 
 
-def _interrupting(table: ProgramTable | None) -> Iterator[str]:
+def _has_several(items: Iterable[Answer | Diagnostic]) -> tuple[bool, Iterator[Answer | Diagnostic]]:
+    """Look as far as the second contour: say whether there is one, and give all items again."""
+    iterator, held, contours = iter(items), list[Answer | Diagnostic](), 0
+    for item in iterator:
+        held.append(item)
+        contours += isinstance(item, Answer)
+        if contours > 1:
+            break
+    return contours > 1, chain(held, iterator)
+
+
+def _interrupting(table: "program_table.ProgramTable | None") -> Iterator[str]:
     """A blank line between rows of a table and what is told in full."""
     if table and table.interrupt():
         yield ""

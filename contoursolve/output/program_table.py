@@ -1,10 +1,8 @@
 """The contours of a whole program in one table: a row for each element of each path."""
 
 from collections.abc import Iterable, Iterator
-from itertools import chain
 
 from contoursolve.diagnosis import Answer, certificate_text, count, join, labels_of, list_solutions
-from contoursolve.diagnostics import Diagnostic
 from contoursolve.output.contours import later_texts, path_heads, path_table
 from contoursolve.output.plain_text import printable
 from contoursolve.output.premises import premise_texts
@@ -16,17 +14,6 @@ _NAME = 32
 
 _LONGEST = 100
 """Characters of a block that its row shows."""
-
-
-def has_several(items: Iterable[Answer | Diagnostic]) -> tuple[bool, Iterator[Answer | Diagnostic]]:
-    """Look as far as the second contour: say whether there is one, and give all items again."""
-    iterator, held, contours = iter(items), list[Answer | Diagnostic](), 0
-    for item in iterator:
-        held.append(item)
-        contours += isinstance(item, Answer)
-        if contours > 1:
-            break
-    return contours > 1, chain(held, iterator)
 
 
 def is_told_by_path(answer: Answer) -> bool:

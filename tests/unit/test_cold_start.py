@@ -39,9 +39,9 @@ def loaded_by(*arguments: str, told: str = "") -> tuple[int, int, set[str]]:
 @pytest.mark.parametrize(
     ("program", "control", "most"),
     [
-        ("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.", "yasnac_lx3", (165, 69)),
-        ("G18 DIAMON G0 X20 Z0\nG1 X40 RND=2\nZ-50", "siemens", (169, 79)),
-        ("0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+20 Y+20\n3 FL AN+0 LEN20\n4 END PGM A MM", "heidenhain", (196, 118)),
+        ("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.", "yasnac_lx3", (164, 69)),
+        ("G18 DIAMON G0 X20 Z0\nG1 X40 RND=2\nZ-50", "siemens", (168, 79)),
+        ("0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+20 Y+20\n3 FL AN+0 LEN20\n4 END PGM A MM", "heidenhain", (195, 118)),
     ],
 )
 def test_the_solve_of_one_block_loads_the_tables_of_its_control_alone(
