@@ -147,8 +147,10 @@ def _diameters(plain: Sequence[Segment], points: Sequence[Point], stated: _State
 
 
 def _lengths(points: Sequence[Point], stated: _Stated, unit: Length, *, is_whole: bool) -> Iterator[Ordinate]:
-    """The lengths from the face, in a row: below the part where both halves are drawn."""
-    face = max(at[FIRST] for at in points)
+    """The lengths from the face, in a row: below the part where both halves are drawn. Where most of the part lies
+    behind zero, the face is there, and what is in front of it is negative."""
+    ends = [at[FIRST] for at in points]
+    face = 0.0 if min(ends) <= 0 <= max(ends) <= -min(ends) else max(ends)
     sign = -1 if is_whole else 1
     # The extension line begins at the outermost point of a place.
     outermost = {_key(at[FIRST]): at for at in sorted(points, key=lambda at: abs(at[SECOND]))}

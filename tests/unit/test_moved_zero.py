@@ -211,8 +211,8 @@ def test_behind_a_refused_contour_nothing_is_known_by_words_that_are_not_read(wo
 
 SELECTIONS = [
     (control, name)
-    for control, control in CONTROLS.items()
-    for name, row in control.modes.zero.names.items()
+    for control, tables in CONTROLS.items()
+    for name, row in tables.modes.zero.names.items()
     if row.move is ZeroMove.SELECT and row.axes_in("G17") != ("Z",) and not "G505" < name < "G599"
 ]
 

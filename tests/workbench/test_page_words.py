@@ -11,8 +11,8 @@ from contoursolve.workbench import Desk
 ASKED = re.compile(r"--(set|let|start|control)\b")
 RULES = [
     (control, rule.code, number)
-    for control, control in CONTROLS.items()
-    for rule in control.catalogue
+    for control, tables in CONTROLS.items()
+    for rule in tables.catalogue
     if ASKED.search(rule.message + rule.help + rule.note)
     for number in range(len(rule.rejected))
 ]
