@@ -128,14 +128,14 @@ def test_an_expanded_program_runs_where_it_was_drawn(tmp_path, post, share, seed
         assert_path([each for each in walk(expansion.text) if each.kind != "traverse"], drawn.path, 0.001)
 
 
-def test_convert_writes_contours_out_and_follows_both_paths():
+def test_convert_writes_contours_out_and_says_what_it_leaves():
     helix = chain("L Z+0", "CC X+10 Y+0", "CP IPA+810 IZ-9 DR+", "L X+5 A+30")
-    assert contoursolve.convert(helix, "fanuc-mill").text is None
+    assert "\n(NOT CONVERTED - L X+5 A+30)\n" in contoursolve.convert(helix, "fanuc-mill").text
     found = contoursolve.convert(helix.replace(" A+30", ""), "fanuc-mill", comments=False)
     assert found.comparison.is_equal
     found = contoursolve.convert(CAM, "fanuc-mill", comments=False)
-    assert found.text.splitlines()[9] == "N8 G01 X8.682 Y49.24"
-    assert (found.summary.in_words, found.summary.written_out) == (0, [9])
+    assert found.text.splitlines()[10] == "X8.682 Y49.24"
+    assert (found.summary.in_words, found.summary.written_out) == (1, [])
 
 
 def test_blocks_in_a_row_with_one_reason_are_one_entry():
