@@ -172,7 +172,11 @@ def _sensitivity(
 def _of_length(values: Mapping[str, float], slopes: Rates, word: str, plane: Plane) -> float:
     """The derivative of the length of the path: of all results by one word, a little to either side. The first order of
     them is exact, and what is beyond it cancels out."""
-    step = LENGTH_STEP / max((abs(each[word]) for each in slopes.values()), default=1.0) if slopes else 1.0
+    largest = max((abs(each[word]) for each in slopes.values()), default=0.0)
+    if not 0 < largest < inf:
+        # Nothing moves, or without limit, and so does the length.
+        return largest
+    step = LENGTH_STEP / largest
     sides = numpy.array([step, -step])
     there = {name: value + sides * slopes[name][word] for name, value in values.items()}
     ahead, behind = lengths_of(there, plane)
