@@ -94,8 +94,10 @@ def _findings(found: SketchAnswer) -> Iterator[SketchFinding]:
     if found.missing and not any(each.severity is Severity.ERROR for each in found.findings):
         fields = tuple((each.number, each.field) for each in found.entries) or ((0, "start"),)
         yield SketchFinding("drawing-open", Severity.ERROR, found.missing, "add it", fields[:1])
-    yield from found.findings
-    if found.solutions and not found.is_finished:
+    are_several = bool(found.solutions) and not found.is_finished
+    # Which guess chooses one says more than that some word could.
+    yield from (each for each in found.findings if not (are_several and each.code == "several-contours"))
+    if are_several:
         fixes = tuple(_chooses(found.sketch, name, *guess) for name, guess in _guesses(found))
         message = f"{len(found.solutions)} contours fit"
         number = found.solutions[0].guess[0]

@@ -22,7 +22,7 @@ SKETCHES = sorted((Path(__file__).parent.parent / "sketches").glob("*.toml"))
     ("elements", "arguments", "status", "told"),
     [
         ("X = 30\nY = 10\nAN = 90", ("--to", "isg"), 1, "error[words-conflict]: AN90 disagrees with X30 and Y10"),
-        ("LEN = 40\nY = 25", ("--to", "isg"), 1, "contour 1: guess = { X = -31.2250, Y = 25.0000 } in line 1 chooses"),
+        ("LEN = 40\nY = 25", ("--to", "isg"), 1, "contour 1: guess = { X = -31.2250, Y = 25.0000 } in line 1"),
         ("AN = 30", ("--to", "isg"), 1, "error[words-missing]"),
         ("X = 0\nY = 0", ("--to", "isg"), 2, "the contour has no length, so that it has no words"),
         ("X = 30\nY = 10", ("--to", "fanuc-lathe"), 2, "the contour is milled, and this control is for lathes"),
