@@ -106,7 +106,7 @@ def test_every_value_of_a_region_has_the_outcome_of_its_single_solve_and_rules_b
         "P is too large for the first straight",
         "P is too large for the second straight",
         "the control refuses such values of P; `contoursolve explain g111-corner-sign` says why",
-        "A points away from the end of the first straight",
+        "a point lies farther away than words reach",
     ]
 
 

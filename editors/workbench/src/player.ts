@@ -38,7 +38,7 @@ const icon = (path: string): SVGElement => {
 };
 const ICONS = { before: "M3 3h2v10H3zM13 3v10L6 8z", play: "M4 2.5v11l9-5.5z", pause: "M4 3h3v10H4zM9 3h3v10H9z", after: "M11 3h2v10h-2zM3 3v10l7-5z" };
 
-export const LEGEND = 20; // px under the drawing
+export const LEGEND = 46; // px under the drawing: the axes and one row of the legend
 const MARGIN = 14; // px around a way
 
 // What is shown of a page: the drawing and its legend, without what stands over and under it.
