@@ -76,7 +76,7 @@ export class ProgramPane {
   private readonly result;
 
   constructor(private readonly around: Around) {
-    this.result = resultPanel(around.openText, around.keep);
+    this.result = resultPanel(around.openText, around.keep, this.go);
     const text = make("div", { class: "text" });
     this.editor = new EditorView({ parent: text, root: around.root.getRootNode() as Document | ShadowRoot });
     const { findings, drawing, contour, tool, variables, result } = this;

@@ -48,7 +48,7 @@ export type Move = { line: number; kind: "rapid" | "feed"; start: Spot; end: Spo
 export type Way = { letter: string; line: number; pieces: Omit<Move, "line" | "kind">[] };
 export type Drawn = { svg: string; frame: Frame | null; axes: string[]; isDiameter: boolean[]; unit: string; moves: Move[]; left_out: number; ways: Way[] };
 
-export type Made = { name: string; title?: string; svg?: string; text?: string; base64?: string; message: string; details?: string; isWrong?: boolean };
+export type Made = { name: string; title?: string; svg?: string; text?: string; base64?: string; message: string; details?: string; isWrong?: boolean; not_converted?: { line: number; text: string; reason: string }[] };
 
 // Where words stand: line, and columns.
 export type Words = Record<string, [number, number, number]>;

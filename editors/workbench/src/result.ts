@@ -1,12 +1,20 @@
 // What a command made: shown, and to be taken along.
+import { placeList } from "./drawing";
 import { button, bytesOf, make, picture, scroller, takeAlong } from "./dom";
 import type { Made } from "./protocol";
 
 const TYPES: Record<string, string> = { png: "image/png", html: "text/html", dxf: "image/vnd.dxf" };
 
-export function resultPanel(open: (name: string, text: string) => void, save: ((made: Made) => void) | null) {
+// `go` leads to a line of the program that something was made of.
+export function resultPanel(open: (name: string, text: string) => void, save: ((made: Made) => void) | null, go: (line: number) => void) {
   const older = make("p", { class: "wrong", role: "status", hidden: true, text: "Of the program before the last change. Do it again for the program as it is." });
   const node = make("div", { class: "result" });
+  const left = (made: Made): HTMLElement | string => {
+    if (!made.not_converted?.length) return "";
+    const list = placeList("Not converted", go);
+    list.show(made.not_converted.map(({ line, text, reason }) => ({ line, text: `${text}: ${reason}`, kind: "unsolved" })));
+    return make("section", {}, make("h3", { text: "Not converted: each stands in its place as a comment" }), list.node);
+  };
   const show = (made: Made): void => {
     const { name, title, svg, text, base64, details, isWrong } = made;
     const kind = name.split(".").at(-1)?.toLowerCase() ?? "";
@@ -21,6 +29,7 @@ export function resultPanel(open: (name: string, text: string) => void, save: ((
       make("h2", { text: title || name || (isWrong ? "Nothing was made" : "Result") }),
       older,
       make("p", { class: isWrong ? "said wrong" : "said", role: "status", text: made.message }),
+      left(made),
       svg ? scroller("div", `Picture: ${title}`, { class: "canvas contoursolve" }, ...picture(svg)) : "",
       takeAlong(
         name || "differences.txt",
