@@ -388,8 +388,8 @@ def convert(
     again as the other control reads it. `comparison` is that of both paths, without the blocks that are not converted.
     `text` is None where they are not the same.
 
-    Raises ValueError if nothing tells for which control the program is, if the target is not programmed in lines and
-    arcs, or is for another kind of machine.
+    Raises ValueError if nothing tells for which control the program is. Raises it, too, if the target is not programmed
+    in lines and arcs, or is for another kind of machine.
 
     >>> print(convert("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P5.", "fanuc-lathe", comments=False).text)
     G00 X40. Z0.

@@ -231,8 +231,8 @@ def verify(
     Returns:
         A `Receipt`: its `verdict`, and of each contour every check, how far it is off, and its limit.
 
-    Raises CannotVerifyError for an input that is not what it should be, and for rules or settings, which the result
-    names.
+    Raises CannotVerifyError for an input that is not what it should be. Rules and settings stand in the result; given
+    here, they are refused, too.
 
     >>> from contoursolve import solve
     >>> block, start = "G111 X100. A180. K-30. B120. P5.", "X40. Z0."

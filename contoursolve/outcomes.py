@@ -51,7 +51,7 @@ def draw(
         A `Picture`: it shows itself in a notebook, and has `.svg`, `.png()` and `.save(path)`.
 
     Raises TypeError for an option that the record does not have. Raises ValueError for a family that is no grid of one
-    or two words, and for a sketch without anything known. Raises FamilyError for a result that is none.
+    or two words, or a sketch without anything known. Raises FamilyError for a result that is none.
 
     >>> from contoursolve import solve
     >>> draw(solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answer).title

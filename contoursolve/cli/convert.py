@@ -64,9 +64,9 @@ def convert(
     words. A contour that it has no words for is written out as lines and arcs, and named. Head, end, feeds, speeds,
     tools, offsets and comments are written as that control writes them.
 
-    What has no counterpart stands in its place as a comment that begins with NOT CONVERTED, and is listed with its
-    line. The new program is read again as the other control reads it. If its path is not that of OLD to within
-    0.002 mm, but for what is listed, nothing is written.
+    What has no counterpart stands in its place as a comment, NOT CONVERTED, and is listed with its line. The new
+    program is read again as the other control reads it. If its path is not that of OLD to within 0.002 mm, but for what
+    is listed, nothing is written.
 
     Exit status: 0 all of it is converted, 1 something is not, or nothing was written, 2 could not run.
 

@@ -123,7 +123,7 @@ def draw(
     program with several contours makes one drawing, each contour with its number and line; --line and --each draw them
     one by one. PNG needs the extra contoursolve[picture].
 
-    Of a sketch (a .toml file), the drawing shows what is known, what can still slide, and what contradicts the rest.
+    Of a sketch (a .toml file), the drawing shows what is known, what can still slide, and what contradicts.
 
     DXF is for CAD and needs the extra contoursolve[dxf]: every solved contour in full precision, each element on a
     layer of its own; virtual and computed intersections on the layer construction. The drawing's X and Y are the
@@ -271,9 +271,9 @@ def report(
     """Make one page of HTML about PROGRAM (a file, or - for standard input).
 
     First the title block, the drawing, all points and the findings, those that say the same as one: one sheet of paper
-    for a program of 30 lines. Then each contour that has errors with its picture (with --explain each contour), the
-    program's text, and the manual's places with how well each is known. The page opens without a network, in light and
-    dark, and prints. report writes none for a program without a contour.
+    for a program of 30 lines. Then each contour that has errors with its picture (with --explain each contour), and
+    the program's text. The manual's places stand last, with how well each is known. The page opens without a network,
+    in light and dark, and prints. report writes none for a program without a contour.
 
     \b
     contoursolve report shaft.nc

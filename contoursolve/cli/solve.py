@@ -54,8 +54,8 @@ def solve(
 ) -> None:
     """Solve every contour block of PROGRAM (a file, or - for standard input).
 
-    Of one contour, solve prints what was given, the virtual intersections, and every element of the path, with what is
-    proven of it. The paths of several contours are one table; --full prints all of each. Where several contours fit a
+    Of one contour, solve prints what was given, the virtual intersections, and every element of the path. It says what
+    is proven. The paths of several contours are one table; --full prints all of each. Where several contours fit a
     block, it prints all. It works out a word with ? for its value, such as P?, from the
     other words and from facts.
 

@@ -159,7 +159,7 @@ class Conversion(Struct, frozen=True):
         comparison: that of both paths, with its `deviation` (mm), without the blocks that are not converted; None where
             nothing could be compared.
         not_converted: what has no counterpart, in the order of the program. It stands as a comment in its place.
-        notes: what the program does not say and is written, and what rests on an assumption.
+        notes: what the program does not say and is written, and what is assumed.
         lines: for each line of the text, the line of the program for which it stands; 0 for its frame.
     """
 

@@ -52,7 +52,7 @@ class Converted(Struct, frozen=True):
         left: what has no counterpart, by program line.
         in_words: how many contours are in the target's own words.
         written_out: the first program lines of contours that are plain lines and arcs there.
-        notes: what was taken as the program does not say it, and what rests on an assumption.
+        notes: what was taken as the program does not say it, and what is assumed.
         comparison: that of both paths without the lines that are left; None where nothing was written.
         lines: the program line for each line of the text; 0 for one of its frame.
     """
