@@ -341,9 +341,9 @@ def test_in_jupyterlab_a_notebook_that_nobody_trusts_or_runs_shows_its_pictures(
 
 
 def write_report(name, target):
-    """The report of a program of the notebooks, as the command writes it."""
+    """The report of a program of the notebooks with each contour, as the command writes it."""
     done = subprocess.run(
-        [sys.executable, "-m", "contoursolve", "report", str(PROGRAMS / f"{name}.nc"), "-o", str(target)],
+        [sys.executable, "-m", "contoursolve", "report", str(PROGRAMS / f"{name}.nc"), "-o", str(target), "--explain"],
         capture_output=True,
         text=True,
         check=False,

@@ -256,9 +256,11 @@ def assert_names_stand_in_their_fields(picture, name):
     inside = [(text, box) for text, box in boxes if box[0] > 92 and box[2] < 702 and box[1] > 56 and box[3] < 456]
     assert inside
     for text, (left, top, right, bottom) in inside:
-        if text.words.isdigit():  # the number of an area that is too narrow for it, which is beside it
-            left, top, right, bottom = left - _BESIDE, top - _BESIDE, right + _BESIDE, bottom + _BESIDE
-        grid = numpy.meshgrid(numpy.linspace(left, right, 12), numpy.linspace(top, bottom, 12))
+        # An area that is too narrow for its number is beside it.
+        more = _BESIDE if text.words.isdigit() else 0
+        grid = numpy.meshgrid(
+            numpy.linspace(left - more, right + more, 12), numpy.linspace(top - more, bottom + more, 12)
+        )
         solved = solved_at(name, numpy.stack(grid, axis=-1)).has_contour
         if text.words.isdigit():
             assert not solved.all(), text
