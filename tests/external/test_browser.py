@@ -340,10 +340,10 @@ def test_in_jupyterlab_a_notebook_that_nobody_trusts_or_runs_shows_its_pictures(
         page.screenshot(path=artefacts / "jupyterlab-untrusted.png")
 
 
-def write_report(name, target):
-    """The report of a program of the notebooks with each contour, as the command writes it."""
+def write_report(name, target, *options):
+    """The report of a program of the notebooks, as the command writes it; with `--explain`, each contour."""
     done = subprocess.run(
-        [sys.executable, "-m", "contoursolve", "report", str(PROGRAMS / f"{name}.nc"), "-o", str(target), "--explain"],
+        [sys.executable, "-m", "contoursolve", "report", str(PROGRAMS / f"{name}.nc"), "-o", str(target), *options],
         capture_output=True,
         text=True,
         check=False,
@@ -360,7 +360,7 @@ PAPER = "getComputedStyle(document.body).backgroundColor"
 
 @pytest.mark.parametrize("name", ["shaft_broken", pytest.param("plate", marks=pytest.mark.slow)])
 def test_the_report_opens_in_light_and_dark_and_prints(browser, tmp_path, artefacts, name):
-    written = write_report(name, tmp_path / f"{name}.html")
+    written = write_report(name, tmp_path / f"{name}.html", "--explain")
     papers = []
     for scheme in ("light", "dark"):
         watched = Watched(browser, viewport={"width": 1280, "height": 1600}, color_scheme=scheme)
@@ -409,7 +409,7 @@ LIT = """article => [...article.querySelectorAll("[data-word], [data-element], [
 def test_the_report_lights_what_belongs_together_without_a_script(browser, tmp_path, artefacts):
     watched = Watched(browser, viewport={"width": 390, "height": 900}, has_touch=True)
     page = watched.page
-    page.goto(write_report("shaft_broken", tmp_path / "page.html"))
+    page.goto(write_report("shaft_broken", tmp_path / "page.html", "--explain"))
     assert page.evaluate(SMALLEST) >= 9
     assert page.evaluate(OVERFLOW) == 0
     third = page.locator("#contour-3")
