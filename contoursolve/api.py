@@ -30,6 +30,7 @@ from contoursolve.program import (
     find_control,
     find_settings,
     for_kind,
+    restate_control,
     stated_settings,
     takes,
 )
@@ -427,7 +428,7 @@ def convert(
     summary = Summary(
         replaced=found.in_words + len(found.written_out), in_words=found.in_words, written_out=[*found.written_out]
     )
-    written = found.text
+    written = found.text and restate_control(found.text, target.name, target.modes.settings)
     if written is not None and "\r\n" in text:
         written = written.replace("\n", "\r\n")
     return Conversion(

@@ -44,6 +44,13 @@ def test_what_the_target_has_no_words_for_is_written_out_and_named():
     assert found.comparison.is_equal
 
 
+def test_a_program_that_states_its_control_states_the_new_one():
+    text = "(contoursolve control: fanuc-lathe)\nG21\nG00 X40. Z0.\nG01 Z-30. ,R5. F0.2\nX60.\nM30\n"
+    found = contoursolve.convert(text, "siemens-840d").text
+    assert contoursolve.solve(found).control == "siemens-840d"
+    assert not contoursolve.solve(found).has_errors
+
+
 @pytest.mark.parametrize("number", range(24))
 def test_a_converted_program_cuts_the_same_path(number, tmp_path):
     """`convert` proves it by what it writes; here both are expanded, and the plain programs compared."""
