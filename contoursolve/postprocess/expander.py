@@ -2,7 +2,7 @@
 
 import re
 from collections import deque
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator
 from decimal import Decimal
 from itertools import chain
 
@@ -31,7 +31,6 @@ from contoursolve.postprocess.expansion_report import ExpansionOptions, FixedWor
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
 from contoursolve.postprocess.post_processors import SAME, Arcs, MachineKind, machine_of
 from contoursolve.postprocess.untranslatable import Watch
-from contoursolve.postprocess.written import Moves, translate
 from contoursolve.program import ELSEWHERE, Lines, Step, path_of
 from contoursolve.reading import (
     STANDING_ALONE,
@@ -96,11 +95,10 @@ class Expander:
         self.lasting = self.modes.lasting if self.watch.reading is None else {}
         self.formats: dict[Hashable, Format] = {}
         self.offsets = Offsets(self.modes)
-        target = options.post.target or (control if options.post is SAME else None)
         spelled = options.post.modes.syntax if options.post.modes else control.modes.syntax
         self._other = spelled if spelled is not control.modes.syntax else None
         """How the target spells blocks, if it is in another way."""
-        self._radius = target.modes.radius if target else "R"
+        self._radius = control.modes.radius if options.post is SAME else "R"
         self.motion: int | None = None
         """The motion that is in force in the expanded program, where it differs from the original."""
         self.is_opened = False
@@ -306,8 +304,6 @@ class Expander:
         claim, modes, counts = answer.claim, self.options.post.modes, any(answer.plane.diameters)
         diameter = claim.before.diameter
         if modes is None or diameter is None:
-            if counts and modes is not None:
-                self.watch.note_diameter(answer.lines[0])
             return ""
         what = "a diameter" if counts else "a radius"
         parts = blocks_of(claim, claim.before, self.modes) if diameter is Diameter.ABSOLUTE else ()
@@ -344,7 +340,6 @@ class Expander:
         here = self._place(answer)
         had_ended = self.motion is not None
         motion = self.motion if had_ended else state.motion
-        translated = self._translate(answer, parts, here)
         ended = self._ended(claim, state)
         for block in step.blocks:
             # A line may run several times.
@@ -358,11 +353,7 @@ class Expander:
             plane = state.plane if answer.plane is state.plane else plane_of(answer.plane, state)
             form = self._format(replace(state, plane=plane), self._steps(part, answer) or ())
             moves: list[MotionBlock] = []
-            if translated is not None:
-                moves = [move for name, each in translated.items() if part.makes(name) for move in each]
-                here = moves[-1].end if moves else here
-                self.summary.deviation = max([self.summary.deviation, *(move.deviation for move in moves)])
-            for segment in (each for each in elements if translated is None and part.makes(each.name)):
+            for segment in (each for each in elements if part.makes(each.name)):
                 for move in emit(segment, here, form, is_rapid=self._is_rapid(part)):
                     here = move.end
                     if move.deviation > self.summary.deviation:
@@ -414,22 +405,6 @@ class Expander:
             resumed = [word.text.strip() for address, word in after.memory.items() if address in self.lasting]
             words = [word for word in moves[-1].words if not resumed or word not in self.lasting.values()]
             moves[-1] = moves[-1]._replace(words=(*words, *resumed))
-
-    def _translate(self, answer: Answer, parts: Sequence[ContourBlock], here: Point) -> Moves | None:
-        """The moves of a contour in the words of the target, where that is asked for and it has them."""
-        target = self.options.post.target
-        if target is None:
-            return None
-        moves = None
-        is_alike = len({(part.state.is_incremental, part.is_rapid) for part in parts}) == 1
-        if is_alike and (parts[0].state.is_incremental or not answer.start.is_relative):
-            form = self._format(replace(parts[0].state, plane=answer.plane))
-            moves = translate(answer, target, here, form, is_rapid=parts[0].is_rapid)
-        if moves is None:
-            self.summary.written_out.append(answer.lines[0])
-        else:
-            self.summary.in_words += 1
-        return moves
 
     def _place(self, answer: Answer) -> Point:
         """The position of the tool at the start of a contour, in the expanded program; mm, X as radius."""

@@ -93,12 +93,8 @@ class Post:
     without_point: WithoutPoint | None
     opening: Mapping[MachineKind, str] = field(default_factory=dict)
     readings: Mapping[MachineKind, SupportedCodes] = field(default_factory=dict)
-    target: Control | None = None
-    """The control in whose own words contours are written, as far as it has them."""
     modes: Modes | None = None
     """The tables of the target: its codes for units and for X as a diameter, and how its comments look."""
-    offset: str = ""
-    """The word that takes the length and the radius of a tool; empty where G43 H takes one, and G41 D the other."""
 
     def switch(self, code: Code) -> str:
         """The target's code for units, or for X as a diameter. Empty for another code, and if it has none or the same
@@ -111,14 +107,6 @@ class Post:
         """The code that sets a unit on the target: its own first one, else that of ISO programs."""
         own = self.modes.code_of(unit) if self.modes else ""
         return own or {Length.INCH: "G20", Length.MM: "G21"}[unit]
-
-    def code(self, text: str) -> str:
-        """A code with the tool whose offset it takes, as G43 H4 and G41 D4, as the target writes it."""
-        code, _, tool = text.partition(" ")
-        if not self.offset or not tool or code not in ("G43", "G41", "G42"):
-            return text
-        offset = self.offset.format(tool=tool[1:])
-        return offset if code == "G43" else f"{code} {offset}"
 
     def digits(self, unit: Length, source: NumberFormat) -> int:
         """Decimals of a length."""
@@ -287,12 +275,8 @@ _INSTEAD = {
 } | {"isg": dict.fromkeys(MachineKind, _NAMED_BY_FILE)}
 
 
-_OFFSETS = {"siemens-840d": "D1", "siemens-808d": "D1", "isg": "D{tool}"}
-"""The cutting edge of the tool, or its record (assumed)."""
-
-
 def post_of(target: Control) -> Post:
-    """A control as a target in whose own words contours are written: it reads the codes of its tables, and any M."""
+    """A control as a target: it reads the codes of its tables, and any M."""
     codes, numbers = target.modes.codes, target.modes.lexicon.numbers
     reading = SupportedCodes(
         g=frozenset(codes),
@@ -312,9 +296,7 @@ def post_of(target: Control) -> Post:
         decimals,
         without_point,
         readings=readings,
-        target=target,
         modes=target.modes,
-        offset=_OFFSETS.get(target.name, ""),
     )
 
 

@@ -115,7 +115,6 @@ class InGCodes(_Expander):
         said = self.plain.restate(block, state, after) if is_said else Restated()
         moves = list(self._moves(said, state))
         if is_said:
-            said = replace(said, says=self._says(said))
             if self.summary.unit not in (None, after.unit):
                 unit = self.options.post.code_of(after.unit)
                 said = replace(said, says=said.says._replace(codes=(unit, *said.says.codes)))
@@ -144,18 +143,10 @@ class InGCodes(_Expander):
     def _is_rapid(self, part: ContourBlock) -> bool:
         return self.plain.is_rapid(part.block)
 
-    def _translate(self, answer: Answer, *_: object) -> None:
-        if self.options.post.target is not None:
-            self.summary.written_out.append(answer.lines[0])
-
     def _write(self, block: Block, moves: list[MotionBlock], end: str, state: State, _solved: Block) -> str:
         said = self.plain.beside(block, state)
         self.summary.unit = self.summary.unit or state.unit
-        return "".join(self._say_left(block, said.reason)) + self._lines(block, self._says(said), moves, end)
-
-    def _says(self, said: Restated) -> Carried:
-        """The words of a block besides its path, with the codes of the target."""
-        return said.says._replace(codes=tuple(map(self.options.post.code, said.says.codes)))
+        return "".join(self._say_left(block, said.reason)) + self._lines(block, said.says, moves, end)
 
     def _say_left(self, block: Block, reason: str) -> Iterator[str]:
         """Lines with the reason why a block, or some of it, is not written. Blocks in a row with the same reason are

@@ -12,7 +12,7 @@ from contoursolve.diagnosis import join
 from contoursolve.gcode import Block, Macro, Word
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import Other, Post, Risk, SupportedCodes
-from contoursolve.reading import Control, Diameter, Effect, State, WithoutPoint, rows_of
+from contoursolve.reading import Control, Effect, State, WithoutPoint, rows_of
 
 _NO_COMPENSATION = 40
 
@@ -27,7 +27,6 @@ _CENTERS = frozenset("IJKR")
 
 
 _NOT_KNOWN = Other("is not known")
-_NAME = re.compile(r"[A-Za-z_]{2}\w*+(?:\(.*\))?")
 _LONG = re.compile(r"=|^[ \t]*#|\d,|^[ \t]*[A-Za-z]{2}")
 """Words that are no letter with a plain number."""
 _PATH_WITHOUT_POINT = "path without point"
@@ -79,7 +78,6 @@ class Watch:
         self.post = post
         self.reading = reading
         self.control = control.name
-        self.is_spelled_otherwise = post.target is None or post.target.modes.syntax is not control.modes.syntax
         self.lexicon = control.modes.lexicon
         self.modes = control.modes
         without_point = post.without_point or self.lexicon.numbers.without_point
@@ -136,13 +134,10 @@ class Watch:
 
     def _judge(self, word: Word, reading: SupportedCodes) -> Other | None:
         """The meaning of a word on the target, if it is another one; else None."""
-        if self.is_spelled_otherwise and _LONG.search(word.text) and word.address not in ("G", "M"):
+        if _LONG.search(word.text) and word.address not in ("G", "M"):
             return _NOT_KNOWN
         if word.address not in ("G", "M"):
             return reading.otherwise.get(word.address)
-        if word.number is None and not self.is_spelled_otherwise and _NAME.fullmatch(word.text.strip()):
-            # The name of what is called, on both.
-            return None
         known = reading.g if word.address == "G" else reading.m
         if word.number is None or word.number != word.number.to_integral_value():
             return _NOT_KNOWN
@@ -240,15 +235,6 @@ class Watch:
         advice = "; write " + self.lexicon.spell(word.address, pointed)
         found = Unfamiliar(text, problem, block.line, Risk.PATH, meant, advice=advice)
         self._note(_PATH_WITHOUT_POINT, found)
-
-    def note_diameter(self, line: int) -> None:
-        """Note that X is a diameter in a contour, and that the target is told so by a code or by its setting."""
-        target = self.post.target
-        codes = target.modes.codes.values() if target is not None and target.diameter is not None else ()
-        code = next((each for each in codes if each.diameter is Diameter.ON), None)
-        if code is not None:
-            problem = "is a diameter by the machine's setting alone"
-            self._note(code.text, Unfamiliar("X", problem, line, advice=f"; write {code.text} before the first block"))
 
     def _note(self, name: str, found: Unfamiliar) -> None:
         if name not in self._places:

@@ -278,7 +278,7 @@ def test_tables_that_are_none_are_told_in_a_line(run, control, said):
 # Every field of the tables --------------------------------------------------------------------------------
 
 PAGE = Path(__file__).parents[2] / "docs" / "adding-a-control.md"
-FILLED = {"Control.taken", "Modes.settings", "Post.offset", "Post.target", "Rule.file"}
+FILLED = {"Control.taken", "Modes.settings", "Rule.file"}
 """What the package fills in when a program is read or written, or asks for in the examples of rules."""
 
 

@@ -64,7 +64,7 @@ def post_of_formulas(post: str | Post) -> Post:
         return find_post(post)
     if post not in _FURTHER:
         raise ValueError(f"unknown post {post!r}; choose from {', '.join(POST_NAMES)}")
-    return replace(post_of(_FURTHER[post]), name=post, target=None)
+    return replace(post_of(_FURTHER[post]), name=post)
 
 
 def formulas_for(
