@@ -502,7 +502,8 @@ class BlockWriter:
     def _step(self, axis: str, steps: Mapping[str, str]) -> str:
         return f"{axis}=IC" if self.kind is ControlKind.SINUMERIK else steps[axis]
 
-    def _form(self, state: State, arcs: Arcs) -> Format:
+    def form(self, state: State, arcs: Arcs) -> Format:
+        """The format of words in a state of the target."""
         numbers = self.modes.lexicon.numbers
         return Format(
             state.plane,
@@ -523,7 +524,7 @@ class BlockWriter:
         axes = state.plane.axes
         if {*axes} != {*travel.plane.axes}:
             raise NoWordsError("the plane of the arc is not that of the target")
-        form = self._form(state, Arcs.RADIUS if move.is_by_radius and arc.sweep < _LONG_ARC else Arcs.CENTER)
+        form = self.form(state, Arcs.RADIUS if move.is_by_radius and arc.sweep < _LONG_ARC else Arcs.CENTER)
         at = (here.get(axes[0], arc.start[0]), here.get(axes[1], arc.start[1]))
         beside = {
             axis: (here.get(axis, move.ends[axis] if move.steps.get(axis) is None else 0.0), move.ends[axis])

@@ -26,9 +26,8 @@ from contoursolve.postprocess.conversion.block_writer import (
     first_feed,
 )
 from contoursolve.postprocess.conversion.program_words import ControlKind, ProgramFunction, cell_of, kind_of_control
-from contoursolve.postprocess.emit import Format
 from contoursolve.postprocess.expansion_report import NotConverted
-from contoursolve.postprocess.post_processors import Arcs, MachineKind, machine_of, post_of
+from contoursolve.postprocess.post_processors import Arcs, MachineKind, machine_of
 from contoursolve.postprocess.written import Moves, translate
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Control, Effect, State, advance, blocks_of, leave
@@ -682,16 +681,9 @@ class _Program:
         state = self.writer.state
         if {*state.plane.axes} != {*answer.plane.axes}:
             return None
-        numbers, post = self.target.modes.lexicon.numbers, post_of(self.target)
         plane = replace(answer.plane, diameters=_diameters(answer.plane, state.plane), centers=answer.plane.centers)
-        form = Format(
-            plane,
-            state.unit,
-            post.digits(state.unit, numbers),
-            post.writes_point(numbers),
-            Arcs.RADIUS if self._states_radius(answer) else Arcs.CENTER,
-            radius=self.target.modes.radius,
-            words=self.target.modes.lexicon.spelling,
+        form = self.writer.form(
+            replace(state, plane=plane), Arcs.RADIUS if self._states_radius(answer) else Arcs.CENTER
         )
         place = tuple(
             self.writer.here.get(axis, start)
