@@ -24,7 +24,7 @@ from contoursolve.gcode import Program
 from contoursolve.program import Result
 from contoursolve.sketches.as_program import Field
 from contoursolve.sketches.known_part import SketchAnswer, SketchFinding, SketchFix, solve_sketch
-from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchElement
+from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchElement, SketchError
 from contoursolve.sketches.sketch_file import read_sketch
 
 _HEADER = re.compile(r"\s*\[\[\s*element\s*\]\]")
@@ -53,8 +53,12 @@ class SketchFile(Struct, frozen=True):
 
 
 def read_sketch_file(program: Program) -> SketchFile:
-    """The sketch of a file whose text was read. Raises SketchError."""
-    return SketchFile(program, read_sketch(program.text), dict(_places([block.text for block in program.blocks])))
+    """The sketch of a file whose text was read. Raises SketchError, which names the file."""
+    try:
+        sketch = read_sketch(program.text)
+    except SketchError as error:
+        raise SketchError(f"{program.name}: {error}") from None
+    return SketchFile(program, sketch, dict(_places([block.text for block in program.blocks])))
 
 
 def _places(lines: Sequence[str]) -> Iterator[tuple[Field, Span]]:
