@@ -1,6 +1,8 @@
 """The lines of every record that shows itself, and their tables."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache
 from itertools import islice
 from math import isnan
 from typing import Any
@@ -151,7 +153,16 @@ def _rule(rule: Rule) -> RecordView:
 
 def controls_of(rule: Rule) -> list[str]:
     """The controls that have a rule."""
-    return [name for name, control in CONTROLS.items() if rule in (*control.rules, *control.catalogue)]
+    return _names_by_rule().get(rule, [])
+
+
+@cache
+def _names_by_rule() -> dict[Rule, list[str]]:
+    names = defaultdict[Rule, list[str]](list)
+    for name, control in CONTROLS.items():
+        for rule in dict.fromkeys((*control.rules, *control.catalogue)):
+            names[rule].append(name)
+    return names
 
 
 def _family(family: Family) -> RecordView:
