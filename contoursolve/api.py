@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
@@ -371,18 +372,21 @@ def convert(
     to: ControlName | Control,
     *,
     comments: bool = True,
+    variables: Mapping[str, float] | None = None,
     name: str = "<program>",
     **options: Unpack[ReadingKeywords],
 ) -> postprocess.Conversion:
     """A whole program in another control's own words.
 
     Contours keep their corners and angles, as far as the other control has words for them; head, end, feeds, speeds,
-    tools, offsets and comments are written as that control writes them.
+    tools, offsets and comments are written as that control writes them. Calls, jumps and variables stay where the other
+    control reads them alike. For others they are written out, with the values that they have.
 
     Args:
         text: the program, with its line ends, or the `Path` of its file, with the settings as for `solve`.
         to: the other control, such as `fanuc-lathe`, or its tables.
         comments: whether the blocks of contours that are written out are kept as comments.
+        variables: as for `solve`.
         control: and all others as for `solve`, with the same errors.
 
     What has no counterpart stands in its place as a comment, and is listed in `not_converted`. The new program is read
@@ -398,7 +402,7 @@ def convert(
     X100. ,A120.
     <BLANKLINE>
     """
-    text, name, told = _text(text, name, SolveOptions(**options))
+    text, name, told = _text(text, name, SolveOptions(variables=variables, **options))
     # Only this function needs them.
     from contoursolve.postprocess import (  # noqa: PLC0415
         Conversion,

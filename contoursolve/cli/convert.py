@@ -1,5 +1,7 @@
 """The command that writes a program for another control."""
 
+from collections.abc import Mapping
+
 import click
 
 from contoursolve import api
@@ -8,6 +10,7 @@ from contoursolve.cli.options import (
     FILE,
     FOUND_ERRORS,
     control_option,
+    let_option,
     naming,
     rules_option,
     settings_of,
@@ -32,6 +35,7 @@ _TARGETS = tuple(name for name, control in CONTROLS.items() if isinstance(contro
 @units_option
 @rules_option
 @settings_option
+@let_option
 @click.option("-o", "--output", metavar="NEW", help="Where to write; without it, or with -, to standard output.")
 @click.option("--force", "is_forced", is_flag=True, help="Replace NEW if it exists.")
 @click.option(
@@ -53,6 +57,7 @@ def convert(
     units: Units,
     rules: Rules,
     assignments: tuple[str, ...],
+    variables: Mapping[str, float],
     output: str | None,
     is_forced: bool,
     no_comments: bool,
@@ -62,7 +67,8 @@ def convert(
 
     Each contour is written in the words of the other control: lines by their ends or angles, corners as its corner
     words. A contour that it has no words for is written out as lines and arcs, and named. Head, end, feeds, speeds,
-    tools, offsets and comments are written as that control writes them.
+    tools, offsets and comments are written as that control writes them. Calls, jumps and variables stay where the other
+    control reads them alike. For others they are written out, with the values that they have.
 
     What has no counterpart stands in its place as a comment, NOT CONVERTED, and is listed with its line. The new
     program is read again as the other control reads it. If its path is not that of OLD to within 0.002 mm, but for what
@@ -88,6 +94,7 @@ def convert(
             source.read(),
             to,
             comments=not no_comments,
+            variables=variables,
             control=control,
             units=units,
             rules=rules,

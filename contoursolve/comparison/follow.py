@@ -91,21 +91,30 @@ def _with_place(step: Step) -> Step:
 
 
 def follow(
-    result: Result, control: Control, unit: Length, axes: tuple[str, ...], *, finishes: bool = False
+    result: Result,
+    control: Control,
+    unit: Length,
+    axes: tuple[str, ...],
+    *,
+    finishes: bool = False,
+    ran: Iterable[Passed] | None = None,
 ) -> ToolPath:
     """The path of a program that has been solved for this control; `unit` is that before any G20 or G21. With
-    `finishes`, G70 runs the profile that it names."""
+    `finishes`, G70 runs the profile that it names. What has been `ran` of it is not run again."""
     follower = _Follower(control, unit, axes)
-    machine = machine_for(result.program, control, result.around, unit)
-    if machine is None:
+    machine = machine_for(result.program, control, result.around, unit) if ran is None else None
+    steps: Iterator[Step]
+    if ran is not None:
+        steps = follower.run(ran, finishes=finishes)
+    elif machine is None:
         for block in result.start.blocks if result.start else ():
             follower.state = advance(follower.state, block, control.modes)
         steps = follower.walk(result.program, result.answers)
     else:
         asked, machine.finishes = Request(control, unit, result.policy, Depth.VERDICT, result.start), finishes
         steps = follower.run(walk((), asked, machine=machine, is_whole=True), finishes=finishes)
-    program, ran = result.program, tuple(steps)  # which fills `follower.ran`
-    return ToolPath(program.name, control.name, axes, ran, tuple(follower.ran), program, control.modes)
+    program, path = result.program, tuple(steps)  # which fills `follower.ran`
+    return ToolPath(program.name, control.name, axes, path, tuple(follower.ran), program, control.modes)
 
 
 def in_cycle(block: Block, cycles: Sequence[str]) -> bool:

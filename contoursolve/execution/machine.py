@@ -123,6 +123,11 @@ def _has_to_run(statement: MacroStatement, line: CodeLine) -> bool:
     return not isinstance(statement, Return | ProgramEnd) or line.rest.lstrip().startswith("/")
 
 
+def _cuts(statement: MacroStatement) -> bool:
+    """Whether a statement is the call of a profile by a cycle, such as G71."""
+    return isinstance(statement, Call) and statement.kind is CallKind.PROFILE and statement.cycle.startswith("G")
+
+
 def machine_of(
     program: Program,
     language: MacroLanguage | None,
@@ -349,6 +354,20 @@ class Machine:
         """Whether it ends where nobody knows what is decided."""
         self._ran: list[Block] = []
         """All blocks that have run, where what SAVE brings back has to be written."""
+
+    @property
+    def ran(self) -> frozenset[int]:
+        """The lines of the main file that have run."""
+        return frozenset(self.main.blocks[index].line for index in self._visited)
+
+    @property
+    def computes(self) -> bool:
+        """Whether the main file calls, jumps or computes beside the profiles of cycles that cut."""
+        said = (self.main.code(index) for index in range(len(self.main)))
+        return any(
+            each.words or each.is_part or any(_has_to_run(one, each) and not _cuts(one) for one in each.statements)
+            for each in said
+        )
 
     def follow(self, ran: Iterable[Block | ProgramEvent], follower: Follower) -> Iterator[Any]:
         """Let somebody follow what runs; all that he finds, one by one, and None for a block that waits to be read."""

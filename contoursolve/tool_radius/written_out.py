@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from msgspec.structs import replace
 
 from contoursolve.comparison import FINISHING, ToolPath, Travel, follow, in_cycle
-from contoursolve.execution import Call, CallKind, EventKind, Machine, MacroLanguage, ProgramEvent, needs_running
+from contoursolve.execution import Call, CallKind, EventKind, Machine, MacroLanguage, ProgramEvent
 from contoursolve.gcode import Block, comment_out, parse_block
 from contoursolve.geometry import Length
 from contoursolve.program import Run, lines_alone, machine_for
@@ -23,8 +23,7 @@ def written_out(run: Run, control: Control, *, is_inline: bool) -> list[Block]:
     machine = machine_for(program, control, run.asked.around, run.asked.unit)
     if machine is None or language is None:
         return []
-    others = (block.text for block in program.blocks if not _calls_profile(block.text, language))
-    if not is_inline and needs_running(others, language):
+    if not is_inline and machine.computes:
         raise ToolError("a program that calls, jumps or computes has no one path: expand it inline")
     machine.finishes = True
     blocks, backs = list[Block](), iter(list[str]())

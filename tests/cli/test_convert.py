@@ -51,6 +51,36 @@ def test_a_program_that_states_its_control_states_the_new_one():
     assert not contoursolve.solve(found).has_errors
 
 
+_CALLS = (
+    "O7\nG21 G17 G90 G94\n#1=20.\nG00 X0. Y0.\nM98 P8 L2\n"
+    "G01 X[#1+40.] ,R2. F100.\nY#1\nM30\nO8\nG91 G01 X#{}\nG90\nM99"
+)
+_WRITTEN_OUT = "G0 X0 Y0|G91 G1 X{0}|G90|G91 G1 X{0}|G90|G1 X60 RND=2 F100|Y20|M30"
+
+
+@pytest.mark.parametrize(
+    ("text", "control", "to", "variables", "lines", "left"),
+    [
+        (_CALLS.format(1), "fanuc-mill", "mitsubishi", {}, _CALLS.format(1).replace("O7", "O0007"), []),
+        (_CALLS.format(1), "fanuc-mill", "siemens-840d", {}, _WRITTEN_OUT.format(20), []),
+        (_CALLS.format(5041), "fanuc-mill", "siemens-840d", {"#5041": 3}, _WRITTEN_OUT.format(3), []),
+        (_CALLS.format(5041), "fanuc-mill", "siemens-840d", {}, "; NOT CONVERTED: G91 G01 X#5041", [10, 10, 6, 7]),
+        ("G00 X9. Z0.\n#1=3.\nG01 Z-5. ,A170. ,R#1\nX40.\nM30", "fanuc-lathe", "haas-lathe", {},
+         "G01 Z-5. A170. ,R#1", []),
+        ("M97 P9 L2\nG00 X5.\nM30\nN9 G91 G00 X1.\nG90\nM99", "haas-mill", "fanuc-mill", {},
+         "G91 G00 X1.|G90|G91 G00 X1.|G90|G00 X5.", []),
+        ("M98 P1\nM30\nO1\nG04 P500\nM99", "fanuc-mill", "haas-mill", {}, "O00002|M98 P1|M30|O1|G04 P500", []),
+        ("R1=2 ; DEPTH\nG0 X=R1 F=R2\nM30", "siemens-840d", "isg", {}, "(NOT CONVERTED: F=R2)|G00 X2|M30", [2]),
+    ],
+)  # fmt: skip
+def test_calls_and_variables_stay_or_are_written_out(text, control, to, variables, lines, left):
+    found = contoursolve.convert(text, to, control=control, variables=variables)
+    written = [line for line in found.text.split("\n") if line not in ("%", "")]
+    wanted = lines.replace("\n", "|").split("|")
+    assert "\n".join(wanted) in "\n".join(written), (written, found.not_converted)
+    assert [each.line for each in found.not_converted] == left
+
+
 @pytest.mark.parametrize("number", range(24))
 def test_a_converted_program_cuts_the_same_path(number, tmp_path):
     """`convert` proves it by what it writes; here both are expanded, and the plain programs compared."""

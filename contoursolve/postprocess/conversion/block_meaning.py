@@ -250,7 +250,7 @@ class MeaningReader:
         if address == "N":
             meaning.number = token.text.upper().replace(" ", "")
         elif address in ("O", ":") and self.kind.is_fanuc:
-            pass
+            meaning.reason = meaning.reason or "it begins a subprogram"
         elif address in _STRAY:
             if token.number is None:
                 meaning.lost.append(token.text)

@@ -697,8 +697,9 @@ _NO_SIDE = 40
 _COUNTS = (Effect.ABSOLUTE, Effect.INCREMENTAL)
 _LAST = ("DIAMON", "G51")
 _BARE = re.compile(r",?[XYZUVWABCIJKR]=?-?\d+")
-_FANUC_COMMENT = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 .,=_-+/")
-_INSTEAD = {'"': "", ":": " -", "(": " ", ")": "", "Ä": "AE", "Ö": "OE", "Ü": "UE", "ß": "SS", "'": ""}
+_FANUC_COMMENT = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 .,=_-+/#*[]()")
+"""Characters of a comment. A control with macros has those of expressions, too."""
+_INSTEAD = {'"': "", ":": " -", "<": " LT ", ">": " GT ", "Ä": "AE", "Ö": "OE", "Ü": "UE", "ß": "SS", "'": ""}
 _OF_TOOLS = (ProgramFunction.TOOL, ProgramFunction.TOOL_CHANGE, ProgramFunction.LENGTH, ProgramFunction.NO_LENGTH)
 _M_BEFORE = tuple(each for each in _BEFORE if each is not ProgramFunction.TOOL_CHANGE)
 _KLARTEXT_PLANE = "G17"

@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from enum import IntEnum
+from itertools import count
 from pathlib import PurePath
 
 from msgspec import Struct
@@ -13,10 +13,11 @@ from msgspec.structs import replace
 from contoursolve.comparison import Comparison, Motion, ToolPath, Travel, Unfollowed, along, compare, follow
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Severity
-from contoursolve.gcode import Block, parse
+from contoursolve.execution import Call, CodeLine, ProgramKind, kind_of
+from contoursolve.gcode import Block, Word, parse
 from contoursolve.geometry import CornerShape, Length, Plane
 from contoursolve.postprocess.contour_drawing import draw, size_as
-from contoursolve.postprocess.conversion.block_meaning import Meaning, MeaningReader, is_message
+from contoursolve.postprocess.conversion.block_meaning import Meaning, is_message
 from contoursolve.postprocess.conversion.block_writer import (
     BlockWriter,
     CornerWord,
@@ -25,12 +26,21 @@ from contoursolve.postprocess.conversion.block_writer import (
     diameter_code,
     first_feed,
 )
+from contoursolve.postprocess.conversion.program_lines import ProgramLine, as_it_runs, in_order, lines_of
 from contoursolve.postprocess.conversion.program_words import ControlKind, ProgramFunction, cell_of, kind_of_control
 from contoursolve.postprocess.expansion_report import NotConverted
 from contoursolve.postprocess.post_processors import Arcs, MachineKind, machine_of
 from contoursolve.postprocess.written import Moves, translate
-from contoursolve.program import Request, Result, run
-from contoursolve.reading import Control, Effect, State, advance, blocks_of, leave
+from contoursolve.program import Request, run
+from contoursolve.reading import (
+    Control,
+    Effect,
+    Modes,
+    ReadIssue,
+    State,
+    blocks_of,
+    codes_of,
+)
 from contoursolve.solving import ArcSegment
 from contoursolve.tolerance import LENGTH
 
@@ -67,20 +77,6 @@ class Converted(Struct, frozen=True):
     """The program lines that stay as they are."""
 
 
-@dataclass(slots=True)
-class _Line:
-    """One line of the program: what it says, the states around it, its path, and the contour that begins there."""
-
-    block: Block
-    meaning: Meaning
-    before: State
-    after: State
-    answer: Answer | None
-    """That of the contour to which it belongs."""
-    travels: tuple[Travel, ...]
-    lost: tuple[Unfollowed, ...]
-
-
 _CORNERS_OF_KLARTEXT = (CornerShape.FILLET, CornerShape.CHAMFER_SETBACK)
 _MOST_ROUNDS = 60
 
@@ -101,15 +97,21 @@ def convert_program(
     source, target = controls
     result = run(parse(text, name), replace(asked, control=source))
     axes = tuple(sorted({*source.modes.axes, *target.modes.axes}))
-    old = follow(result, source, asked.unit, axes)
-    lines = [*_lines(result, source, asked.unit, old)]
+    is_kept = _are_alike(source, target) and all(
+        _statements(source.modes, each) == _statements(target.modes, each) for each in result.program.blocks
+    )
+    ran, notes = (None, ()) if is_kept else as_it_runs(result, replace(asked, control=source))
+    old = follow(result, source, asked.unit, axes, ran=ran)
+    lines = [
+        *lines_of(in_order(result, source, asked.unit) if ran is None else ran, source, old, is_run=ran is not None)
+    ]
     levels = dict[int, Plainness]()
     found = None
     for _ in range(_MOST_ROUNDS):
         writer = _Program(lines, controls, asked, levels, name, number, has_comments=has_comments)
         found = writer.write()
         blamed, comparison = _judge(found, target, asked, old, within)
-        found = replace(found, comparison=comparison)
+        found = replace(found, comparison=comparison, notes=(*notes, *found.notes))
         if not blamed:
             return found
         moved = [line for line in blamed if _retreat(line, lines, levels)]
@@ -119,18 +121,17 @@ def convert_program(
     return replace(found, text=None)
 
 
-def _retreat(line: int, lines: Sequence[_Line], levels: dict[int, Plainness]) -> bool:
+def _retreat(line: int, lines: Sequence[ProgramLine], levels: dict[int, Plainness]) -> bool:
     """Write a line more plainly; whether that is possible."""
-    own = next((each for each in lines if each.block.line == line), None)
-    if own is None:
-        return False
-    key = own.answer.lines[0] if own.answer is not None else line
-    level = levels.get(key, Plainness.OWN_WORDS)
-    if level is Plainness.LEFT:
-        return False
-    is_contour = own.answer is not None and level is Plainness.OWN_WORDS
-    levels[key] = Plainness.PLAIN if is_contour else Plainness.LEFT
-    return True
+    for own in lines:
+        key = own.answer.lines[0] if own.answer is not None else own.block.line
+        level = levels.get(key, Plainness.OWN_WORDS)
+        if own.block.line != line or level is Plainness.LEFT:
+            continue
+        is_contour = own.answer is not None and level is Plainness.OWN_WORDS
+        levels[key] = Plainness.PLAIN if is_contour else Plainness.LEFT
+        return True
+    return False
 
 
 def _judge(
@@ -140,8 +141,12 @@ def _judge(
     assert found.text is not None
     program = parse(found.text, "new", syntax=target.modes.syntax)
     result = run(program, replace(asked, control=target, start=None))
-    errors = [each.span.line for each in result.diagnostics if each.severity is Severity.ERROR]
-    blamed = [found.lines[line - 1] if 0 < line <= len(found.lines) else 0 for line in errors]
+    errors = [
+        (found.lines[each.span.line - 1] if 0 < each.span.line <= len(found.lines) else 0, each.about)
+        for each in result.diagnostics
+        if each.severity is Severity.ERROR
+    ]
+    blamed = [line for line, about in errors if line not in found.verbatim or about not in _NOT_KNOWN]
     if blamed:
         return [*dict.fromkeys(blamed)], None
     left = {each.line for each in found.left if each.is_block}
@@ -166,17 +171,20 @@ def _comparable(old: ToolPath, new: ToolPath, found: Converted, left: set[int]) 
         for each in old.steps
         if not each.file and (each.line in kept if isinstance(each, Unfollowed) else each.line not in left)
     ]
+    has_left = len(first) < len(old.steps)
     second = [each for each in new.steps if isinstance(each, Travel) or origins[each.line - 1] in kept]
     by_line = dict[int, list[int]]()
     for place, step in enumerate(second):
         by_line.setdefault(origins[step.line - 1], []).append(place)
     seen = dict[int, int]()
-    for step in first:
+    for number, step in enumerate(first):
         places, at = by_line.get(step.line, []), seen.get(step.line, 0)
         seen[step.line] = at + 1
         own = second[places[at]] if at < len(places) else None
         if isinstance(own, Travel) and isinstance(step, Travel):
             second[places[at]] = _as_unknown(own, step)
+            if has_left and step.bend is None:
+                first[number] = _at_rest(step, own)
     return replace(old, steps=tuple(first)), replace(new, steps=tuple(second))
 
 
@@ -187,45 +195,18 @@ def _as_unknown(step: Travel, like: Travel) -> Travel:
     return replace(step, start=start, end=end) if (start, end) != (step.start, step.end) else step
 
 
-def _lines(result: Result, source: Control, unit: Length, old: ToolPath) -> Iterator[_Line]:
-    """The lines of a program with what each of them says and does."""
-    reader = MeaningReader(source, kind_of_control(source))
-    travels, lost = dict[int, list[Travel]](), dict[int, list[Unfollowed]]()
-    for step in old.steps:
-        if not step.file and isinstance(step, Travel):
-            travels.setdefault(step.line, []).append(step)
-        elif not step.file and isinstance(step, Unfollowed):
-            lost.setdefault(step.line, []).append(step)
-    contours = {answer.lines[0]: answer for answer in result.answers if not answer.claim.blocks[0].file}
-    state = source.initial_state(unit)
-    for block in result.start.blocks if result.start else ():
-        state = advance(state, block, source.modes)
-    answer, end, behind = None, 0, state
-    for block in result.program.blocks:
-        before = state
-        if block.line in contours:
-            answer = contours[block.line]
-            end = answer.lines[-1]
-            finish = answer.contour.end if answer.contour else None
-            behind = leave(answer.claim, finish, source.modes, "the contour is not solved")
-            parts = {part.block.line: part.state for part in blocks_of(answer.claim, state, source.modes)}
-        if answer is not None and block.line <= end:
-            before = parts.get(block.line, state)
-            after = behind if block.line == end else state
-            is_own = block.line in parts
-            meaning = reader.read(block, before, after, is_contour=is_own)
-            yield _Line(
-                block, meaning, before, after, answer if is_own else None,
-                tuple(travels.get(block.line, ())), tuple(lost.get(block.line, ())),
-            )  # fmt: skip
-            state = after
-            answer = None if block.line == end else answer
-            continue
-        state = advance(state, block, source.modes) if block.words or block.macro or block.faults else state
-        meaning = reader.read(block, before, state, is_contour=False)
-        yield _Line(
-            block, meaning, before, state, None, tuple(travels.get(block.line, ())), tuple(lost.get(block.line, ()))
-        )
+def _at_rest(step: Travel, like: Travel) -> Travel:
+    """A step without the places of axes that it does not move, and that another one does not know: a block that is left
+    has led there."""
+    ways = [*zip(step.start, step.end, like.start, like.end, strict=True)]
+    unknown = [one == two and other is None and last is None for one, two, other, last in ways]
+    if not any(unknown):
+        return step
+    start, end = (
+        tuple(None if is_open else at for at, is_open in zip(place, unknown, strict=True))
+        for place in (step.start, step.end)
+    )
+    return replace(step, start=start, end=end)
 
 
 _HEADS = (
@@ -246,7 +227,7 @@ class _Program:
 
     def __init__(
         self,
-        lines: Sequence[_Line],
+        lines: Sequence[ProgramLine],
         controls: tuple[Control, Control],
         asked: Request,
         levels: Mapping[int, Plainness],
@@ -267,7 +248,14 @@ class _Program:
         self.name = "" if name.startswith("<") else PurePath(name).stem
         self.is_opened = False
         self.has_frame = False
-        self.is_alike = self.kinds[0] is self.kinds[1] or any({*self.kinds} <= each for each in _ALIKE)
+        self.is_alike = _are_alike(source, self.target)
+        self.is_run = (
+            self.is_alike
+            and kind_of((each.block.text for each in lines), source.modes.language) is ProgramKind.FOLLOWED
+        )
+        """Tells whether blocks run as relatives call and compute them, so that they stay as they are where both read
+        them alike."""
+        self._names = _names_of(source, self.target) if self.is_run else {}
         self.verbatim = set[int]()
         """The lines that stay as they are."""
         self.speeds_told = set[int]()
@@ -317,6 +305,8 @@ class _Program:
                 match = pattern.match(text)
                 if match is not None:
                     return {name: value for name, value in match.groupdict().items() if value}, line.block.line
+            if line.block.words or line.block.macro:
+                break
         return {}, 0
 
     def _begin(self, head: Mapping[str, str], line: int) -> None:
@@ -336,7 +326,7 @@ class _Program:
             width = 5 if kind in (ControlKind.HAAS_LATHE, ControlKind.HAAS_MILL) else 4
             writer.put("%", is_comment=True)
             comment = f" {writer.comments(said)[0]}" if said else ""
-            writer.put(f"O{int(digits or self.number):0{width}d}{comment}", is_comment=True)
+            writer.put(f"O{int(digits or self._free_number()):0{width}d}{comment}", is_comment=True)
             return
         own = name or (f"PROG{int(number)}" if number else self.name or "PROG")
         own = re.sub(r"\W", "_", own.upper())[:24]
@@ -351,6 +341,11 @@ class _Program:
             self.own_name = f"{own} {unit}"
         if told:
             writer.comment(told)
+
+    def _free_number(self) -> int:
+        """The number of a program that has none: one that no subprogram of it has."""
+        taken = {word.number for each in self.lines for word in each.block.words if word.address == "O"}
+        return next(number for number in count(self.number) if number not in taken)
 
     own_name = ""
 
@@ -369,7 +364,7 @@ class _Program:
         elif writer.is_klartext:
             writer.put(f"END PGM {self.own_name}")
 
-    def _opening(self, line: _Line) -> list[str]:
+    def _opening(self, line: ProgramLine) -> list[str]:
         """The codes of the first block: whatever the program leaves to how its control starts is written, too."""
         writer, target, meaning = self.writer, self.target, line.meaning
         if writer.is_klartext:
@@ -417,7 +412,7 @@ class _Program:
 
     # Lines
 
-    def _line(self, place: int, line: _Line) -> None:
+    def _line(self, place: int, line: ProgramLine) -> None:
         writer, block, meaning = self.writer, line.block, line.meaning
         text = block.text.strip()
         if block.line == self.head_line and self.head_line:
@@ -435,22 +430,40 @@ class _Program:
             self._comments(meaning)
             return
         reason = self._reason(line)
-        if not reason:
+        if self.is_run and self._is_read_alike(line):
+            self._keep(line)
+        elif not reason:
             self._write(place, line)
         else:
             self._keep_or_leave(line, reason)
         writer.here = {axis: at for axis, at in writer.here.items() if _is_known(line.after, axis)}
 
-    def _keep_or_leave(self, line: _Line, reason: str) -> None:
+    def _keep_or_leave(self, line: ProgramLine, reason: str) -> None:
         """A block that is not converted: between relatives that read it alike it stays as it is, else as a comment."""
-        if not self._is_read_alike(line):
+        if self._is_read_alike(line):
+            self._keep(line)
+        else:
             self._leave(line, reason)
-            return
-        self.writer.put(_without_number(line.block))
-        self.verbatim.add(line.block.line)
+
+    def _keep(self, line: ProgramLine) -> None:
+        """A block as it is, but for the names of its words."""
+        block, writer = line.block, self.writer
+        text = block.text
+        for word in reversed(block.words):
+            own, begin, end = self._names.get(word.address), word.span.column - 1, word.span.end_column - 1
+            if own is not None:
+                text = text[:begin] + own + text[begin:end].strip(" ,")[len(word.address.strip(",")) :] + text[end:]
+        text = text.strip()
+        # Its number and its skip are in it, which a statement needs as well.
+        writer.label = writer.skip = ""
+        writer.put(text, is_comment="O" in text[:1].upper())
+        writer.here = {}
+        if line.answer is not None and line.answer.lines[0] == block.line:
+            self.in_words += 1
+        self.verbatim.add(block.line)
         self.is_opened = True
 
-    def _write(self, place: int, line: _Line) -> None:
+    def _write(self, place: int, line: ProgramLine) -> None:
         """Write what a line says in the words of the target; what it has no words for is left."""
         writer, meaning = self.writer, line.meaning
         speed = self._speed_behind(place) if writer.is_klartext else None
@@ -473,7 +486,7 @@ class _Program:
             writer.trailing = ""
             self._keep_or_leave(line, str(error))
 
-    def _put(self, line: _Line, meaning: Meaning, speed: Decimal | None, opening: Sequence[str]) -> None:
+    def _put(self, line: ProgramLine, meaning: Meaning, speed: Decimal | None, opening: Sequence[str]) -> None:
         """The lines of a block, with its comments and what of it is not converted."""
         writer = self.writer
         moves = [*self._moves(line)]
@@ -481,7 +494,9 @@ class _Program:
         for text in above:
             writer.comment(text)
         for word in meaning.lost:
-            writer.leave(word, "no counterpart is known")
+            is_open = any(each.text.strip() == word.strip() and each.number is None for each in line.block.words)
+            is_value = is_open and word.strip()[:1].isalpha() and "=" in word
+            writer.leave(word, "its value is known only when it runs" if is_value else "no counterpart is known")
         writer.trailing = " ".join(writer.comments(last)) if last else ""
         radius = meaning.radius
         if radius is not None and radius.number != writer.tool and writer.tool and not writer.needs_d:
@@ -492,18 +507,41 @@ class _Program:
             writer.trailing = ""
             writer.comment(last)
 
-    def _is_read_alike(self, line: _Line) -> bool:
-        """Whether a block that has no row stays as it is: both controls are relatives that know all its codes."""
-        if not self.is_alike or self.levels.get(line.block.line) is Plainness.LEFT or line.answer is not None:
+    def _is_read_alike(self, line: ProgramLine) -> bool:
+        """Whether a block stays as it is: both controls are relatives that read its statements and its words alike."""
+        block, answer = line.block, line.answer
+        key = answer.lines[0] if answer is not None else block.line
+        level = self.levels.get(key, Plainness.OWN_WORDS)
+        if not self.is_alike or level is not Plainness.OWN_WORDS or block.faults:
             return False
-        if line.block.faults or line.block.callers:
+        if answer is not None and not (self.is_run and _is_sound(answer)):
             return False
-        pairs = [(self.source.modes.codes.get(n), self.target.modes.codes.get(n)) for n in _codes_of(line.block)]
-        # A name is a cycle or a subprogram, which only a control of the same kind calls so.
-        pairs = [each for each in pairs if each != (None, None) or self.kinds[0] is not self.kinds[1]]
-        return all(one is not None and other is not None and one.effect is other.effect for one, other in pairs)
+        one, other = self.source.modes, self.target.modes
+        said = _statements(one, block)
+        if said != _statements(other, block):
+            return False
+        is_same_kind = self.kinds[0] is self.kinds[1]
+        for own, new in zip(codes_of(block, one), codes_of(block, other), strict=True):
+            if isinstance(own, Word) or isinstance(new, Word):
+                # A name is a cycle or a subprogram, which only a control of the same kind calls so.
+                if not (is_same_kind and isinstance(own, Word) and isinstance(new, Word)):
+                    return False
+            elif own.effect is not new.effect:
+                return False
+        if not self.is_run or (said is not None and any(isinstance(each, Call) for each in said.statements)):
+            return True
+        has_same_words = all(
+            (word.address in one.lexicon.addresses)
+            is (self._names.get(word.address, word.address) in other.lexicon.addresses)
+            for word in block.words
+        )
+        return has_same_words and all(
+            cell_of(each.function, self.kinds[0]) == cell_of(each.function, self.kinds[1])
+            and (is_same_kind or each.function is not ProgramFunction.DWELL)
+            for each in line.meaning.functions
+        )
 
-    def _is_silent(self, line: _Line) -> bool:
+    def _is_silent(self, line: ProgramLine) -> bool:
         """Whether a line of Klartext is the pole of arcs, which each arc has itself, or says nothing more."""
         said = line.meaning.restated
         is_said = said is not None and not (said.ends or said.around or said.reason)
@@ -514,19 +552,23 @@ class _Program:
             if not (is_head and self.has_frame):
                 self.writer.comment(text)
 
-    def _leave(self, line: _Line, reason: str) -> None:
+    def _leave(self, line: ProgramLine, reason: str) -> None:
         self._comments(line.meaning)
         block = line.block
         bare = block.syntax.comment.sub("", block.text).strip().lstrip("/").strip()
         bare = re.sub(r"^\d+\s+", "", bare) if self.kinds[0] is ControlKind.KLARTEXT else bare
+        if self.is_run and self.writer.label:
+            # A jump may lead to it.
+            label, self.writer.label = self.writer.label, ""
+            self.writer.put(label)
         self.writer.leave(bare, reason, is_block=True)
 
-    def _reason(self, line: _Line) -> str:
+    def _reason(self, line: ProgramLine) -> str:
         """The reason why a line is not converted at all; empty if it is."""
         key = line.answer.lines[0] if line.answer is not None else line.block.line
         if self.levels.get(key) is Plainness.LEFT:
             return "the target would cut another path there"
-        if line.block.callers:
+        if any(each.cycle for each in line.block.callers):
             return "it is the profile of a cycle"
         if line.meaning.reason:
             return line.meaning.reason
@@ -549,7 +591,7 @@ class _Program:
                 return speed
         return None
 
-    def _moves(self, line: _Line) -> Iterator[WrittenMove]:
+    def _moves(self, line: ProgramLine) -> Iterator[WrittenMove]:
         answer = line.answer
         if answer is not None:
             level = self.levels.get(answer.lines[0], Plainness.OWN_WORDS)
@@ -586,7 +628,7 @@ class _Program:
     def _axes(self, _travel: Travel) -> tuple[str, ...]:
         return tuple(sorted({*self.source.modes.axes, *self.target.modes.axes}))
 
-    def _plain(self, line: _Line) -> Iterator[WrittenMove]:
+    def _plain(self, line: ProgramLine) -> Iterator[WrittenMove]:
         """The moves of a line that is no contour."""
         block, modes = line.block, self.source.modes
         if line.meaning.has(ProgramFunction.DWELL):
@@ -625,7 +667,7 @@ class _Program:
             raise NoWordsError("no motion is in force")
         yield WrittenMove(here.motion == 0, places, counts)
 
-    def _of_klartext(self, line: _Line) -> Iterator[WrittenMove]:
+    def _of_klartext(self, line: ProgramLine) -> Iterator[WrittenMove]:
         """The moves of a line of Klartext that is no contour."""
         block, modes, said = line.block, self.source.modes, line.meaning.restated
         if said is None or not said.ends:
@@ -639,7 +681,7 @@ class _Program:
         ends = dict(said.ends)
         yield WrittenMove(said.is_rapid, ends, {axis: self._step(line, axis) for axis in steps if axis in ends})
 
-    def _step(self, line: _Line, axis: str) -> float:
+    def _step(self, line: ProgramLine, axis: str) -> float:
         one, other = line.before.axes[axis].value, line.after.axes[axis].value
         if one is None or other is None:
             raise NoWordsError(f"where {axis} is before it is not known")
@@ -647,9 +689,9 @@ class _Program:
 
     # Contours
 
-    def _own_words(self, line: _Line, answer: Answer) -> list[WrittenMove] | None:
+    def _own_words(self, line: ProgramLine, answer: Answer) -> list[WrittenMove] | None:
         """The moves of a line of a contour in the words of the target; None where it has none for the contour."""
-        first = answer.lines[0]
+        first = id(answer)
         if first not in self.translated:
             self.translated[first] = None
             if not self.writer.is_klartext:
@@ -661,11 +703,9 @@ class _Program:
         moves = self.translated[first]
         if moves is None:
             return None
-        parts = [*blocks_of(answer.claim, answer.claim.before, self.source.modes)]
-        names = next((part for part in parts if part.block.line == line.block.line), None)
         found = list[WrittenMove]()
         for name, blocks in moves.items():
-            if names is None or not names.makes(name):
+            if line.part is None or not line.part.makes(name):
                 continue
             for each in blocks:
                 ends = dict(zip(answer.plane.axes, each.end, strict=True))
@@ -694,14 +734,12 @@ class _Program:
     def _states_radius(self, answer: Answer) -> bool:
         return any(word.address == self.source.modes.radius for block in answer.claim.blocks for word in block.words)
 
-    def _with_corners(self, line: _Line, answer: Answer) -> Iterator[WrittenMove]:
+    def _with_corners(self, line: ProgramLine, answer: Answer) -> Iterator[WrittenMove]:
         """The elements of a line with the words of Klartext for the corners behind them."""
         drawn, is_rapid = draw(answer), any(each.motion is Motion.RAPID for each in line.travels)
-        parts = [*blocks_of(answer.claim, answer.claim.before, self.source.modes)]
-        part = next((each for each in parts if each.block.line == line.block.line), None)
         for element in drawn.elements:
             segment = element.segment
-            if part is None or not part.makes(segment.name):
+            if line.part is None or not line.part.makes(segment.name):
                 continue
             corner = element.corner
             said = None
@@ -731,14 +769,31 @@ _HEAD = (ProgramFunction.MM, ProgramFunction.INCH, ProgramFunction.FEED_A_MINUTE
 _ALIKE = (_ALIKE_LATHES, _ALIKE_MILLS)
 
 
-def _codes_of(block: Block) -> list[int]:
-    """The numbers of the G codes of a block; -1 for one that cannot be read."""
-    return [-1 if word.number is None else int(word.number) for word in block.words if word.address == "G"]
+def _are_alike(one: Control, other: Control) -> bool:
+    """Whether two controls read the same words beside the path alike, statements among them."""
+    kinds = {kind_of_control(one), kind_of_control(other)}
+    return len(kinds) == 1 or any(kinds <= each for each in _ALIKE)
 
 
-def _without_number(block: Block) -> str:
-    """A block without its number and its skip, which are written apart."""
-    return re.sub(r"^\s*(?:/\d?)?\s*(?:[Nn]\d+\s*)?", "", block.text.strip())
+_NOT_KNOWN = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN, ReadIssue.MODE_UNKNOWN)
+
+
+def _is_sound(answer: Answer) -> bool:
+    """Whether a contour has no error but that something is not known before it runs."""
+    return all(each.about in _NOT_KNOWN for each in answer.diagnostics if each.is_error)
+
+
+def _statements(modes: Modes, block: Block) -> CodeLine | None:
+    """The statements of a block beside words with numbers, as a control reads them; None if it has none."""
+    language = modes.language
+    return language.read(block.text) if language is not None and language.may_say(block.text) else None
+
+
+def _names_of(source: Control, target: Control) -> Mapping[str, str]:
+    """The addresses of a control that have another name on a relative."""
+    own, new = source.modes.lexicon.addresses, target.modes.lexicon.addresses
+    by_meaning = {row.meaning: address for address, row in new.items() if address not in own}
+    return {a: by_meaning[row.meaning] for a, row in own.items() if a not in new and row.meaning in by_meaning}
 
 
 def _diameters(plane: Plane, other: Plane) -> tuple[bool, ...]:
@@ -751,7 +806,7 @@ def _is_known(state: State, axis: str) -> bool:
     return axis in state.axes and state.axes[axis].value is not None
 
 
-def _unit(line: _Line) -> Length | None:
+def _unit(line: ProgramLine) -> Length | None:
     return (
         Length.MM
         if line.meaning.has(ProgramFunction.MM)
@@ -761,7 +816,7 @@ def _unit(line: _Line) -> Length | None:
     )
 
 
-def _unit_of_head(lines: Sequence[_Line]) -> Length | None:
+def _unit_of_head(lines: Sequence[ProgramLine]) -> Length | None:
     """The unit in the first line of Klartext."""
     for line in lines[:3]:
         match = re.search(r"\bBEGIN\s+PGM\s+\S+\s+(MM|INCH)\b", line.block.text, re.IGNORECASE)
