@@ -88,7 +88,7 @@ _WAYS = {SAFE: safe_fixes, "likely": likely_fixes}
 def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction]:
     """The fixes of all findings in a range, those first that keep the contour; then fixes for all findings of their
     kinds, and the explanation of each."""
-    explanations, codes = {}, dict[str, types.Diagnostic]()
+    codes, control = dict[str, types.Diagnostic](), opened.program.control
     for finding, lines in opened.program.found():
         place = _range(opened, finding.span)
         if place.start.line > wanted.end.line or place.end.line < wanted.start.line:
@@ -108,15 +108,12 @@ def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction
                 is_preferred=fix.applicability.value == SAFE,
                 edit=opened.workspace_edit(changes),
             )
-        if finding.code not in explanations and opened.program.control is not None:
-            arguments = [finding.code, opened.program.control.name]
-            command = types.Command(f"Explain {finding.code}", "contoursolve.explain", arguments=arguments)
-            explanations[finding.code] = types.CodeAction(
-                command.title, kind=types.CodeActionKind.QuickFix, diagnostics=[shown], command=command
-            )
     for code, shown in codes.items():
         yield from _fixes_of_kind(opened, code, shown)
-    yield from explanations.values()
+    if control is not None:
+        for code, shown in codes.items():
+            command = types.Command(f"Explain {code}", "contoursolve.explain", arguments=[code, control.name])
+            yield types.CodeAction(command.title, types.CodeActionKind.QuickFix, [shown], command=command)
 
 
 def _fixes_of_kind(opened: Opened, code: str, shown: types.Diagnostic) -> Iterator[types.CodeAction]:

@@ -274,7 +274,7 @@ def _solutions(answer: Answer) -> Data:
         }
         for number, (each, (name, label, where, selects, _)) in enumerate(solution_rows(answer, listing))
     ]
-    left = f"; the first {MOST_SOLUTIONS} are shown" if len(items) > MOST_SOLUTIONS else ""
+    left = f"; the first {MOST_SOLUTIONS} are shown" if items[MOST_SOLUTIONS:] else ""
     return {"text": count_text(listing) + left, "items": items[:MOST_SOLUTIONS]}
 
 

@@ -95,9 +95,7 @@ class Examined(Struct, frozen=True):
     def _mend(self, finding: Diagnostic, fix: Fix, places: Sequence[int], lines: Sequence[str]) -> Mend | None:
         """A fix of a finding; None if it changes nothing, or is one of other texts than there are."""
         beside = {each.span.line: each.old for each in fix.beside}
-        if not all(0 < line <= len(lines) for line in beside):
-            return None
-        old = {line: lines[line - 1].rstrip("\r\n") for line in (*places, *beside)}
+        old = {line: "".join(lines[line - 1 : line]).rstrip("\r\n") for line in (*places, *beside)}
         made = Mend(finding, fix, old, changes_of(fix, places, old))
         is_there = fix.replaced == "\n".join(old[line] for line in places)
         return made if made.changes and is_there and all(old[line] == beside[line] for line in beside) else None

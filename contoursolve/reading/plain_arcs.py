@@ -4,6 +4,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping
 from functools import cache
+from itertools import accumulate
 from math import hypot
 
 from msgspec import Struct
@@ -381,23 +382,17 @@ _MOVING = late_pattern(r"[XYZ]", re.IGNORECASE)
 
 def _suspected_in_codes(passage: Passage, state: State, modes: Modes) -> Iterator[int]:
     text, syntax = passage.text, passage.syntax
-    is_round = state.motion in TURNS
-    found = _ARC_CODE.search(text)
-    if found is None and not is_round:
-        return
-    lines, reading = passage.lines, _Quick(state, modes)
-    if is_round:
-        yield from _modal_arcs(lines, 0, syntax)
-    begins, at = [0], 0
-    for line in lines[:-1]:
-        at += len(line)
-        begins.append(at)
+    if state.motion in TURNS:
+        yield from _modal_arcs(passage.lines, 0, syntax)
+    found, reading = _ARC_CODE.search(text), _Quick(state, modes)
+    lines = passage.lines if found is not None else ()
+    begins = [*accumulate(map(len, lines), initial=0)]
     while found is not None:
         index = bisect_right(begins, found.start()) - 1
         if not reading.is_right(lines, index, syntax):
             yield index
         yield from _modal_arcs(lines, index + 1, syntax)
-        found = _ARC_CODE.search(text, begins[index] + len(lines[index]))
+        found = _ARC_CODE.search(text, begins[index + 1])
 
 
 def _modal_arcs(lines: tuple[str, ...], index: int, syntax: Syntax) -> Iterator[int]:

@@ -168,7 +168,7 @@ def solve_sketch(sketch: ContourSketch, *, with_ranges: bool = False) -> SketchA
     else:
         found = _Reading(sketch, program, answer).result(with_ranges=with_ranges)
     first = next((at for at, each in enumerate(sketch.elements) if each.kind == "arc" and each.turn is None), None)
-    if answer is not None and first is not None:
+    if first is not None:
         # What is not the same whichever way such an arc turns is not known, except by what stands before it.
         turned = [replace(each, turn=each.turn or "cw") if each.kind == "arc" else each for each in sketch.elements]
         others = solve_sketch(replace(sketch, elements=tuple(turned))).elements

@@ -159,7 +159,7 @@ def find_runs(path: ToolPath, asked: ToolRequest, control: Control) -> list[Cutt
                 f"side {asked.side.value} is against {texts[SIDES[code]]} in program line {line}; leave one out"
             )
     is_stated = any(code in SIDES for _, code in stock.switches)
-    groups = list(_groups(path, is_stated=is_stated))
+    groups = list(_groups(path, stock, is_stated=is_stated))
     first = next((group.travels[0] for group in groups if group.travels), None)
     if not is_stated and asked.side is None and first is not None:
         where = f"{first.file or 'program'} line {first.line}, {first.text.strip()}"
@@ -176,7 +176,7 @@ def find_bare(path: ToolPath, asked: ToolRequest, control: Control, found: Seque
     a tool that nothing states, and none that lead to contours or away."""
     stock, bare = _Stock(asked, path.blocks, control), list[CuttingRun]()
     around = {id(each) for own in found for each in (own.lead, own.leaving)}
-    for group in _groups(path, is_stated=False) if found else ():
+    for group in _groups(path, stock, is_stated=False) if found else ():
         is_lead = any(each is not None and id(each) in around for each in (group.lead, group.leaving))
         group.travels = [each for each in group.travels if id(each) not in around]
         try:
@@ -214,7 +214,7 @@ class _Group(Struct):
 _ON = frozenset(f"G{code}" for code in SIDES)
 
 
-def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
+def _groups(path: ToolPath, stock: "_Stock", *, is_stated: bool) -> Iterator[_Group]:
     """Moves under G41 or G42, of which the first leads to the contour; or else cutting moves between those that do not
     cut. The first move behind leaves the contour."""
     group, before, broken = _Group([]), None, None
@@ -236,10 +236,12 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
         # Where only the side or the plane changes, the tool is at the contour already.
         is_there = is_cut and move is not None and (bool(group.travels) or not is_stated)
         group.leaving = None if is_there else move
-        is_off = isinstance(step, Travel) and step.compensation not in SIDES
+        is_lost = isinstance(step, Unfollowed) and not _ON.isdisjoint(step.words)
+        is_off = not is_lost and stock.is_off(step.number)
+        if isinstance(step, Travel):
+            is_off = step.compensation not in SIDES
         if group.side is not None and side is not None and side is not group.side:
             is_off = True
-        is_lost = isinstance(step, Unfollowed) and not _ON.isdisjoint(step.words)
         broken = None if is_off else broken or (step if group.side is not None or is_lost else None)
         group.broken = group.broken or broken
         yield group
@@ -444,6 +446,11 @@ class _Stock:
     def outside(self, step: Travel) -> OutsideCorner | None:
         """The way around outside corners that the program says for a move."""
         return next((way for place, way in reversed(self.corners) if place <= step.number), None)
+
+    def is_off(self, number: int) -> bool:
+        """Whether neither G41 nor G42 is in force where a block begins, or where a way home leads."""
+        reached = number + (number in self.ends)
+        return next((code not in SIDES for place, code in reversed(self.switches) if place < reached), True)
 
     def changed(self, travels: Sequence[Travel]) -> int:
         """The line of another tool behind the first of some moves and before the last; 0 without one."""

@@ -42,13 +42,13 @@ def offset_of(text: str, position: types.Position) -> int:
     return len(applied(text, types.TextEdit(types.Range(position, types.Position(10**6, 0)), "")))
 
 
-async def actions(editor: Editor, uri: str, where: types.Range) -> list[types.CodeAction]:
-    """The fixes at a place."""
+async def actions(editor: Editor, uri: str, where: types.Range, kind: type = types.CodeAction) -> list[Any]:
+    """The fixes at a place, or the commands."""
     document, context = types.TextDocumentIdentifier(uri), types.CodeActionContext([])
     found = await editor.ask(
         editor.client.text_document_code_action_async(types.CodeActionParams(document, where, context))
     )
-    return [each for each in found if isinstance(each, types.CodeAction)]
+    return [each for each in found if isinstance(each, kind)]
 
 
 def about(editor: Editor, uri: str, position: types.Position) -> dict[str, object]:
@@ -173,6 +173,7 @@ def test_the_broken_shaft_is_mended_fix_by_fix(served):
         assert reversed_.severity is types.DiagnosticSeverity.Warning
         assert any("start point" in each.message for each in reversed_.related_information)
         fix = (await actions(editor, SHAFT, large.range))[0]
+        (told,) = await actions(editor, SHAFT, large.range, types.Command)
         assert fix.title.startswith("write P2.5 for P4. -> the contour ends at Z-75.500 mm X66.000 mm, ")
         assert [each.code for each in fix.diagnostics] == ["g111-corner-too-large"]
         editor.edit(SHAFT, *edits_of(fix))
@@ -184,7 +185,8 @@ def test_the_broken_shaft_is_mended_fix_by_fix(served):
         page = Path(re.sub("^file://", "", large.code_description.href)).read_text()
         assert page.startswith("# g111-corner-too-large")
         assert "2.8.30" in page
-        await run(editor, "explain", "g111-corner-too-large", "yasnac-lx3")
+        assert told.title == "Explain g111-corner-too-large"
+        await run(editor, "explain", *told.command["arguments"])
         assert editor.shown == [large.code_description.href]
 
     served(use)
@@ -320,6 +322,8 @@ def test_a_hover_does_not_wait_for_the_end_of_a_long_program(served):
         assert hint.label == "ends at Z-50.2073 X100.0000"
         assert SHAFT not in editor.statuses
         assert "fixes V1, end of the first straight: Z-30.0000 X40.0000" in await hovered(editor, SHAFT, 3_002, 20)
+        wanted = {"textDocument": {"uri": SHAFT}, "position": {"line": 19_999, "character": 8}}
+        assert await editor.ask(editor.client.protocol.send_request_async("contoursolve/picture", wanted))
         assert SHAFT not in editor.statuses
 
     served(use)
@@ -399,6 +403,7 @@ def test_a_broken_project_file_is_a_finding(served, tmp_path):
         editor.open(uri, TURNED)
         (found,) = await editor.findings(uri)
         assert "there is no control 'fanuc-mil'" in found.message
+        assert not await actions(editor, uri, found.range, types.Command)
 
     served(use)
 

@@ -151,6 +151,7 @@ def lines(control: str, *blocks: str) -> str:
 
 TURN = ("G42 G01 Z0. F0.1", "X30. Z-10.", "Z-30.", "X40.", "G40 G00 X60. Z50.")
 BARE = ("G00 X20. Z2.", "G01 Z0.", "X30. Z-10.", "Z-30.", "X40.", "G00 X60. Z50.")
+AGAIN = ("G42 G00 X20. Z2.", "G01 Z0.", "X30. Z-10.", "Z-30.", "G40 G00 X60.", "M30")
 ISLAND = ("G41 D1 G01 X-30. F500", "Y30.", "X30.", "Y-30.", "X-40.", "G40 Y-50.")
 
 
@@ -209,12 +210,16 @@ def test_the_moves_to_a_contour_and_away_go_around_it(
     [
         (("G40 G00 X60.", "M30"), None),
         (("G40 G00 X60.", "G28 U0 W0", "M30"), None),
+        (("G40 G28 U0 W0", *AGAIN), None),
+        (("G40", "G28 U0 W0", "M30"), None),
         (("M30",), "still-on: G42 is still in force at program line 8"),
         (("G00 X60.", "M30"), "still-on: G42 is still in force at program line 9"),
         (("T0202", "G40 G00 X60.", "M30"), "still-on: G42 is still in force at program line 8"),
         (("G00 X60.", "T0202", "G40", "M30"), "still-on: G42 is still in force at program line 9"),
         (("G28 U0 W0", "G40", "M30"), "still-on: G42 is still in force at program line 8"),
         (("G28 U0 W0", "G00 X60.", "G40", "M30"), "interrupted: program line 8 (G28: reference point return)"),
+        (("G28 U0 W0", "G40", *AGAIN), "still-on: G42 is still in force at program line 8"),
+        (("G28 U0 W0", *AGAIN), "interrupted: program line 8 (G28: reference point return)"),
     ],
 )
 def test_compensation_that_does_not_end_behind_a_contour_is_told(blocks: tuple[str, ...], told: str | None):

@@ -146,6 +146,20 @@ def look(program: OpenProgram, line: int, control: str | None) -> None:
             assert (now.lines, now.contour, now.diagnostics) == (wanted.lines, wanted.contour, wanted.diagnostics)
 
 
+def test_what_is_examined_before_its_turn_parts_the_lines_around_it() -> None:
+    text = "G00 X40. Z0.\nG111 A180. K-30. B120. P5. X100.\nG01 Z-60.\n" * 4
+    program = OpenProgram(text)
+    for line in (1, 8, 11, 5):
+        look(program, line, None)
+    assert program.check()
+    for line in (11, 2):
+        place = (line, 12), (line, 13), "5"
+        text = edited(text, *place)
+        program.edit(*place)
+        assert program.check()
+        compare(program, text, None)
+
+
 def test_the_result_of_many_contours_on_lines_that_have_moved_is_that_of_the_text(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

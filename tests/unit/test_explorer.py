@@ -324,6 +324,16 @@ CONFLICTING = FRAME.format("2 FL AN+60 LEN50\n3 FL X+80 Y+20 AN-30")
 # A corner beside a departure is not solved, so that there is nothing to draw.
 APART = FRAME.format("2 L X+40 Y+0\n3 RND R5\n4 DEP LT LEN5").replace("99 END", "5 END")
 TNC = {"control": "heidenhain"}
+
+
+def test_of_many_solutions_the_first_are_shown_and_that_is_said():
+    arcs = [f"FC X+{20 * number} Y+0 R+15 DR-" for number in range(1, 6)]
+    told = Talk("\n".join(["L X+0 Y+0 R0 F500", *arcs, "L Y+50"]), **TNC).view["solutions"]
+    assert told["text"] == "32 solutions; these are all (by closed form); the first 24 are shown"
+    assert len(told["items"]) == 24
+    assert told["items"][1]["selects"].endswith("FSELECT 1 after arc 4, FSELECT 2 after arc 5")
+
+
 RULES = [rule for rule in CONTROLS["heidenhain"].catalogue if rule.code.startswith("heidenhain-")]
 ACCEPTED = {text for rule in RULES for text in rule.accepted} - {APART}
 READ = [

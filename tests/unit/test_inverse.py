@@ -348,6 +348,8 @@ def test_what_has_no_tolerance_says_why(word, keep, within, told):
     assert (told in str(caught.value), "\n" in str(caught.value)) == (True, False)
     with pytest.raises(FamilyError, match="as it stands, the block has no contour to keep: "):
         tolerance_for(BLOCK.replace("P5.", "P80."), "A", keep="end Z", within=1, start=START)
+    with pytest.raises(FamilyError, match=r"there is no result Q; the results are end Z"):
+        tolerance_for(ASKED, "X", keep="Q", within=1, start=START, facts=STRAIGHT)
 
 
 def test_a_range_of_a_free_contour_is_not_lost_where_roots_end():

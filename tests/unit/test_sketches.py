@@ -224,6 +224,8 @@ def test_what_an_arc_lacks_is_no_error_and_names_the_arc():
     assert [(each.number, each.field) for each in found.entries] == [(2, "turn"), (3, "turn")]
     assert not [each for each in found.findings if each.severity.value == "error"]
     assert found.elements[0].state.value == "known"
+    turned = states(changed(sketch("fk_cam"), 2, turn=None).solve())
+    assert [name for name, state in turned.items() if state == "known"] == ["line 1", "corner 4", "line 5"]
 
 
 @pytest.mark.parametrize(
