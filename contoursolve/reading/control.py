@@ -13,7 +13,7 @@ from contoursolve.reading.follow import Finder
 from contoursolve.reading.lexicon import Diameter
 from contoursolve.reading.modal_state import Modes, Position, State, with_diameters
 from contoursolve.reading.parsed_contour import ParsedContour, ReadIssue
-from contoursolve.reading.rules import Rule
+from contoursolve.reading.rules import Rule, Rules
 from contoursolve.reading.writer import Writing
 
 Follower = Callable[..., "Iterator[Behind]"]
@@ -133,7 +133,9 @@ class Control:
         # A setting is named with its control, so that it can be typed as it is shown.
         if any("{control}" in each.help and each.control != self.name for each in self.rules):
             named = (replace(each, control=self.name) if "{control}" in each.help else each for each in self.rules)
-            object.__setattr__(self, "rules", tuple(named))
+            object.__setattr__(self, "rules", Rules(named))
+        elif not isinstance(self.rules, Rules):
+            object.__setattr__(self, "rules", Rules(self.rules))
 
     @property
     def examples(self) -> tuple[LegalBlock, ...]:

@@ -318,6 +318,21 @@ class Rule(Shown):
         return _FIELD.sub(_gap, self.help)
 
 
+class Rules(tuple[Rule, ...]):
+    """Rules as a key of caches: their hash is worked out once, though it is asked for with every contour."""
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash(tuple(self))
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __reduce__(self) -> tuple[type["Rules"], tuple[tuple[Rule, ...]]]:
+        # The hash is another one in another process.
+        return Rules, (tuple(self),)
+
+
 _FIELD = re.compile(r"\{(\w+)(?::([^}]*))?\}")
 
 
@@ -389,11 +404,11 @@ def _check_role(
 
 
 @lru_cache(maxsize=256)
-def _rules_of(rules: tuple[Rule, ...], role: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:
+def _rules_of(rules: tuple[Rule, ...], role: str) -> tuple[Rules, Rules]:
     """The rules on combinations of a role: those on names alone, and those on values."""
     own = [rule for rule in rules if role in rule.roles and rule.when is not None]
-    by_values = tuple(rule for rule in own if rule.when is not None and rule.when.reads_values)
-    return tuple(rule for rule in own if rule not in by_values), by_values
+    by_values = Rules(rule for rule in own if rule.when is not None and rule.when.reads_values)
+    return Rules(rule for rule in own if rule not in by_values), by_values
 
 
 @lru_cache(maxsize=8192)

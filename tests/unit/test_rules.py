@@ -1,5 +1,8 @@
 """Every row of every control's catalogue proves itself, in the words of that control."""
 
+import re
+from collections import defaultdict
+
 import pytest
 
 from contoursolve.controls import CONTROLS
@@ -24,21 +27,30 @@ ALARMS = {
 """The alarm numbers on the pages that we have; no other may be invented."""
 
 RULES = {(name, rule.code): rule for name, control in CONTROLS.items() for rule in control.catalogue}
-EXAMPLES = [
-    pytest.param(CONTROLS[control], rule, program, is_right, id=f"{control}-{code}-{kind}{number}")
-    for (control, code), rule in RULES.items()
-    for kind, is_right, programs in (("wrong", False, rule.rejected), ("right", True, rule.accepted))
-    for number, program in enumerate(programs, 1)
-]
-"""Each example of each rule, in the words of its control."""
+EXAMPLES = defaultdict[tuple[str, str, str, str], dict[str, bool]](dict)
+"""The rules that each example is about, and whether it is right for them. Many a right one is that of several rules."""
+
+for (name, code), rule in RULES.items():
+    for is_right, programs in ((False, rule.rejected), (True, rule.accepted)):
+        for program in programs:
+            EXAMPLES[name, rule.options, rule.file, program][code] = is_right
 
 
-@pytest.mark.parametrize(("control", "rule", "program", "is_right"), EXAMPLES)
-def test_an_example_says_what_its_control_says(control, rule, program, is_right):
-    result = try_example(control, rule, program)
+def label_of(name, codes):
+    """The first rule of an example that is wrong for one, or else of all."""
+    return f"{name}-{next((code for code in codes if not codes[code]), [*codes][0])}"
+
+
+@pytest.mark.parametrize(
+    ("name", "program", "codes"),
+    [pytest.param(name, program, codes, id=label_of(name, codes)) for (name, _, _, program), codes in EXAMPLES.items()],
+)
+def test_an_example_says_what_its_control_says(name, program, codes):
+    control = CONTROLS[name]
+    result = try_example(control, RULES[name, next(iter(codes))], program)
     found = {each.code for each in result.diagnostics}
-    assert (rule.code in found) is not is_right
-    assert not (is_right and result.has_errors)
+    assert {code: code not in found for code in codes} == codes
+    assert not (all(codes.values()) and result.has_errors)
     assert found <= {each.code for each in control.catalogue}
     for each in result.diagnostics:
         # Line 0 is the start point that an option states.
@@ -46,6 +58,20 @@ def test_an_example_says_what_its_control_says(control, rule, program, is_right)
         assert 1 <= each.span.column < each.span.end_column <= max(len(line), 1) + 1
         assert not set("{}\n") & set(each.message + each.help)
         assert "None" not in each.message + each.help
+        assert unwritten(each) == []
+
+
+ASKED = re.compile(r"write (,?[A-FH-Z]-?\d[\d.]*+|-?\d[\d.]*+ deg)(?! if that is meant)")
+"""What a help tells to write, unless it asks whether that is meant."""
+
+NUMBER = re.compile(r"-?\d+\.?\d*")
+
+
+def unwritten(finding):
+    """What the help of a finding with fixes tells to write, and no fix writes."""
+    told = ASKED.findall(finding.help) if finding.fixes else []
+    written = {float(each) for fix in finding.fixes for each in NUMBER.findall(fix.replacement)}
+    return [each for each in told if float(NUMBER.search(each)[0]) not in written]
 
 
 @pytest.mark.parametrize("control", CONTROLS)

@@ -1,6 +1,5 @@
 """The first fix is what was meant: typing slips in sound blocks, and blocks that machinists have shown us."""
 
-import re
 from collections.abc import Iterator
 from random import Random
 
@@ -8,7 +7,6 @@ import pytest
 from generate_typing import FORMS, Slip, Sound, random_slip, random_sound
 
 from contoursolve import solve
-from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics.finding import Fix
 from contoursolve.program.pipeline import Result
 from contoursolve.solving.contour import Contour
@@ -48,34 +46,6 @@ def test_the_first_fix_is_what_a_colleague_would_name(text):
     control = "nct-99m" if "G17" in text else "yasnac-lx3"
     first = fixes_of(solve(text, control=control))[0]
     assert first.replacement in MEANT[text]
-
-
-# Help and fixes --------------------------------------------------------------------------------------------
-
-ASKED = re.compile(r"write (,?[A-FH-Z]-?\d[\d.]*+|-?\d[\d.]*+ deg)(?! if that is meant)")
-"""What a help tells to write, unless it asks whether that is meant."""
-
-
-def contradictions(text: str, control: str) -> Iterator[tuple[str, list[str]]]:
-    """What findings with fixes tell to write, and no fix does."""
-    for finding in solve(text, control=control).diagnostics:
-        written = " ".join(fix.replacement for fix in finding.fixes)
-        for value in ASKED.findall(finding.help) if finding.fixes else ():
-            (number,) = _NUMBERS.findall(value)
-            if not any(float(number) == float(each) for each in _NUMBERS.findall(written)):
-                yield value, [fix.description for fix in finding.fixes]
-
-
-_NUMBERS = re.compile(r"-?\d+\.?\d*")
-
-
-REJECTED = [(text, name) for name, each in CONTROLS.items() for rule in each.catalogue for text in rule.rejected]
-
-
-@pytest.mark.parametrize("part", range(20))
-def test_no_help_tells_to_write_what_no_fix_writes(part):
-    texts = [(text, "nct-99m" if "G17" in text else "yasnac-lx3") for text in MEANT] + REJECTED
-    assert {text: told for text, control in texts[part::60] if (told := list(contradictions(text, control)))} == {}
 
 
 # Slips in random blocks ------------------------------------------------------------------------------------
