@@ -38,7 +38,7 @@ for (name, code), rule in RULES.items():
 
 def label_of(name, codes):
     """The first rule of an example that is wrong for one, or else of all."""
-    return f"{name}-{next((code for code in codes if not codes[code]), [*codes][0])}"
+    return f"{name}-{next((code for code in codes if not codes[code]), next(iter(codes)))}"
 
 
 @pytest.mark.parametrize(
