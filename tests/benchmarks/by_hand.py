@@ -1,4 +1,4 @@
-"""NumPy written by hand, in chunks, for three families: the same points, corners, rooms, residuals, statuses, reasons.
+"""NumPy written by hand, in chunks, for two families: the same points, corners, rooms, residuals, statuses, reasons.
 
 It is what a user would write who knows the formulas of these blocks, and every check that contoursolve makes of them.
 """
@@ -153,70 +153,6 @@ def roundings() -> Table:
     return table
 
 
-C = np.linspace(0.1, 12, SIDE)
-
-
-def quadrant(first: Any, other: Any) -> Any:
-    return np.where(first == 0, np.sign(other), np.sign(first))
-
-
-def bevels() -> Table:
-    """G111 by A, K, B, X with C and D at 45 degrees to the axes."""
-    rows, d = A.size * C.size, 5.0
-    names = [f"{name} {axis}" for name in ("V1", "V2") for axis in "ZX"]
-    names += [f"corner {n}.{place} {axis}" for n in (1, 2) for place in ("begin", "end") for axis in "ZX"]
-    table = empty([*names, "line 1.room", "line 2.room", "residual"], rows)
-    ca_of, sa_of = np.cos(np.radians(A)), np.sin(np.radians(A))
-    cb, sb = np.cos(np.radians(120)), np.sin(np.radians(120))
-    for part in chunks(rows):
-        at = np.arange(part.start, part.stop)
-        ca, sa, c = ca_of[at // C.size], sa_of[at // C.size], C[at % C.size]
-        reasons = Reasons(at.size)
-        (v1z, v1x), (v2z, v2x), lengths, worst = skeleton(ca, sa, cb, sb, reasons)
-        points = [("V1 Z", v1z), ("V1 X", 2 * (v1x + 20)), ("V2 Z", v2z), ("V2 X", 2 * (v2x + 20))]
-        backs = []
-        qz, qx = quadrant(cb, ca), quadrant(sb, sa)
-        corners = (
-            (v1z, v1x, (ca, sa), (cb, sb), c, (np.sign(v2z), np.sign(v2x))),
-            (v2z, v2x, (cb, sb), (qz, 0.0), d, (qz, qx)),
-        )
-        for n, (z, y, u, v, size, way) in enumerate(corners):
-            turn, cosine = u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]
-            gz, gx = size * way[0], size * way[1]
-            back_in, back_out = (gz * v[1] - gx * v[0]) / turn, (u[0] * gx - u[1] * gz) / turn
-            bz, bx, ez, ex = -back_in * u[0], -back_in * u[1], back_out * v[0], back_out * v[1]
-            for place, pair in (("begin", (z + bz, y + bx)), ("end", (z + ez, y + ex))):
-                points += [(f"corner {n + 1}.{place} Z", pair[0]), (f"corner {n + 1}.{place} X", 2 * (pair[1] + 20))]
-            check_lengths(n, lengths, reasons)
-            if n == 1:
-                reasons.refuse(np.broadcast_to(qz == 0, at.shape), Kind.LANDING_UNKNOWN)
-            check_turn(turn, cosine, reasons, at.shape)
-            if n == 0:
-                outside = np.maximum.reduce(
-                    [
-                        np.minimum(0, v2z) - v1z,
-                        v1z - np.maximum(0, v2z),
-                        np.minimum(0, v2x) - v1x,
-                        v1x - np.maximum(0, v2x),
-                    ]
-                )
-                reasons.refuse(outside > LENGTH, Kind.BEVEL_OUTSIDE)
-            for back in (back_in, back_out):
-                reasons.refuse(back < -LENGTH, Kind.BEVEL_IN_BAND)
-            backs.append([(0, back_in), (1, back_out)] if n == 0 else [(1, back_in)])
-            for misfit in (
-                bz * u[1] - bx * u[0],
-                ez * v[1] - ex * v[0],
-                np.abs(ez - bz) - size,
-                np.abs(ex - bx) - size,
-            ):
-                worst = np.maximum(worst, np.abs(misfit))
-        rooms = check_room(backs, lengths, reasons)
-        reasons.refuse(~(worst <= RESIDUAL), Kind.NOT_VERIFIED)
-        finish(table, part, reasons, points, {"line 1.room": rooms[0], "line 2.room": rooms[1]}, worst)
-    return table
-
-
 COMMA_A, R = np.linspace(150, 200, SIDE), np.linspace(45, 80, SIDE)
 
 
@@ -270,7 +206,6 @@ def circle_line() -> Table:
 LATHE = {"start": "X40. Z0."}
 CASES = {
     "G111 with two roundings": Case("G111 X100. A180. K-30. B120. P5. Q5.", LATHE, {"A": A, "P": P}, roundings),
-    "G111 with two bevels": Case("G111 X100. A180. K-30. B120. C5. D5.", LATHE, {"A": A, "C": C}, bevels),
     "NCT circle and line": Case(
         "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1", {}, {",A": COMMA_A, "R": R}, circle_line
     ),

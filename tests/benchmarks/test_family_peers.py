@@ -58,43 +58,6 @@ def by_scipy(rows: int) -> np.ndarray:
     return np.array([fsolve(equations, GUESS, (radians(a), p)) for a, p in zip(A[:rows], P[:rows], strict=True)])
 
 
-def by_slvs(rows: int) -> np.ndarray:
-    slvs = pytest.importorskip("slvs")
-    found = []
-    for a, p in zip(np.radians(A[:rows]).tolist(), P[:rows].tolist(), strict=True):
-        slvs.clear_sketch()
-        normal = slvs.add_normal_3d(1, 1, 0, 0, 0)
-        plane = slvs.add_workplane(1, slvs.add_point_3d(1, 0, 0, 0), normal)
-
-        def fixed(z: float, x: float, plane: object = plane) -> object:
-            return slvs.add_point_2d(1, z, x, plane)
-
-        start, along, beside = fixed(0, 20), fixed(cos(a), 20 + sin(a)), fixed(cos(B), sin(B))
-        v1, v2, begin, end, center = (slvs.add_point_2d(2, *GUESS[2 * n : 2 * n + 2].tolist(), plane) for n in range(5))
-        origin = fixed(0, 0)
-        first, way = slvs.add_line_2d(1, start, along, plane), slvs.add_line_2d(1, origin, beside, plane)
-        upright = slvs.add_line_2d(1, fixed(K, 0), fixed(K, 1), plane)
-        level = slvs.add_line_2d(1, fixed(0, X), fixed(1, X), plane)
-        second = slvs.add_line_2d(2, v1, v2, plane)
-        kinds, none = slvs.ConstraintType, slvs.E_NONE
-
-        def say(kind: object, value: float, points: list, lines: list, plane=plane, none=none) -> None:
-            points, lines = [*points, none, none][:2], [*lines, none, none][:2]
-            slvs.add_constraint(2, kind, plane, value, *points, *lines)
-
-        for point, line in ((v1, first), (v1, upright), (v2, level), (begin, first), (end, second)):
-            say(kinds.PT_ON_LINE, 0, [point], [line])
-        say(kinds.PARALLEL, 0, [], [second, way])
-        say(kinds.PERPENDICULAR, 0, [], [slvs.add_line_2d(2, center, begin, plane), first])
-        say(kinds.PERPENDICULAR, 0, [], [slvs.add_line_2d(2, center, end, plane), second])
-        say(kinds.PT_PT_DISTANCE, p, [center, begin], [])
-        say(kinds.PT_PT_DISTANCE, p, [center, end], [])
-        slvs.solve_sketch(2, False)
-        points = (v1, v2, begin, end, center)
-        found.append([slvs.get_param_value(point["param"][axis]) for point in points for axis in (0, 1)])
-    return np.array(found)
-
-
 class PlaneSystem(NamedTuple):
     """A system of planegcs (FreeCAD) with the numbers of what varies and of what is asked."""
 
@@ -129,12 +92,6 @@ def plane_system(a: float, p: float) -> PlaneSystem:
         solver.l2l_angle(line, solver.add_line(center, contact), quarter)
         solver.p2p_distance(center, contact, radius)
     return PlaneSystem(solver, angle, radius, points)
-
-
-def by_planegcs(rows: int) -> np.ndarray:
-    """A fresh system from the guess for each row."""
-    values = zip(np.radians(A[:rows]).tolist(), P[:rows].tolist(), strict=True)
-    return np.array([plane_system(a, p).solve() for a, p in values])
 
 
 def by_planegcs_again(rows: int) -> np.ndarray:
@@ -201,9 +158,7 @@ PEERS: dict[str, tuple[Callable[[int], np.ndarray], int]] = {
     "function().map of a system, unchecked": (by_map, ROWS),
     "a loop over contoursolve.solve": (by_loop, 2_000),
     "planegcs (FreeCAD), one system solved again": (by_planegcs_again, 2_000),
-    "planegcs (FreeCAD), a fresh system for each": (by_planegcs, 2_000),
     "scipy.optimize.fsolve": (by_scipy, 2_000),
-    "SolveSpace (slvs 3.3)": (by_slvs, 300),
 }
 
 

@@ -83,15 +83,6 @@ def write_blocks(number: int) -> str:
     return "\n".join(lines)
 
 
-def test_ten_thousand_blocks_of_mixed_combinations(benchmark: BenchmarkFixture, tmp_path: Path) -> None:
-    program = tmp_path / "many.nc"
-    program.write_text(write_blocks(10_000), encoding="utf-8")
-    command = [sys.executable, "-m", "contoursolve", "solve", str(program)]
-    options = {"capture_output": True, "text": True, "env": INSTALLED}
-    done = benchmark.pedantic(subprocess.run, args=(command,), kwargs=options, rounds=3)
-    assert done.stdout.splitlines()[-1] == "10000 contours (10000 solved); nothing found"
-
-
 OVER_SPECIFIED = "G111 A135. I10. K-12. B180. Z-40. P2."
 
 
