@@ -1,5 +1,6 @@
-"""Contact sheets: the pictures of all examples of all rules, a few dozen on a page, for somebody to look at."""
+"""Contact sheets: the pictures of the examples of every rule, a few dozen on a page, for somebody to look at."""
 
+from collections import defaultdict
 from html import escape
 
 import pytest
@@ -17,14 +18,30 @@ figure { margin: 0; border: 1px solid #ccc } img { width: 100%; height: auto; di
 WIDTHS = "images => Promise.all(images.map(image => image.decode().then(() => image.naturalWidth)))"
 
 
+def rules():
+    """Each rule of the catalogues on one of its controls, by control: of those that controls share, each has some."""
+    by_code = defaultdict(list)
+    for name, control in CONTROLS.items():
+        for rule in control.catalogue:
+            by_code[rule.code].append((name, rule))
+    found = defaultdict(list)
+    for number, shared in enumerate(by_code.values()):
+        name, rule = shared[number % len(shared)]
+        found[name].append(rule)
+    return found
+
+
 def examples(name):
     """The examples of the rules of a control, each program once: what the first one shows."""
     found = {}
-    for rule in CONTROLS[name].catalogue:
+    for rule in RULES[name]:
         for kind, programs in (("wrong", rule.rejected), ("right", rule.accepted)):
             for number, program in enumerate(programs, 1):
                 found.setdefault(program, f"{rule.code}, {kind} {number}")
     return found
+
+
+RULES = rules()
 
 
 @pytest.mark.parametrize("name", CONTROLS)

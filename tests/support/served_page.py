@@ -2,10 +2,16 @@
 
 SCREENS = {
     "desktop": {"viewport": {"width": 1300, "height": 900}},
-    "desktop, dark": {"viewport": {"width": 1300, "height": 900}, "color_scheme": "dark"},
     "phone": {"viewport": {"width": 390, "height": 844}, "has_touch": True},
     "phone, dark": {"viewport": {"width": 390, "height": 844}, "has_touch": True, "color_scheme": "dark"},
 }
+
+
+def expect(what):
+    """What Playwright expects of a part of a page, and waits for."""
+    from playwright import sync_api  # noqa: PLC0415 - skipped without it
+
+    return sync_api.expect(what)
 
 
 def said(page, text) -> None:

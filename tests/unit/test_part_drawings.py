@@ -42,7 +42,7 @@ def meetings(picture) -> list[str]:
 def several_contours(rows, control):
     """Programs of the test vectors, one after the other: many contours beside and over one another."""
     texts = ["\n".join(row["program"]) for row in rows]
-    return contoursolve.solve("\n".join(texts), control=control)
+    return contoursolve.solve("\n".join(texts), control=control, depth="verdict")
 
 
 PROGRAMS = sorted(

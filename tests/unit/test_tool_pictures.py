@@ -130,6 +130,21 @@ def test_the_explorer_moves_the_radius_of_the_tool():
     assert "tool needs a number" in talk.answer({"do": "move", "values": {"tool": "x"}, "number": 6})["view"]["trouble"]
 
 
+def test_a_second_click_on_a_fix_and_a_move_that_is_given_up_leave_nothing_behind():
+    talk = Conversation(begin("G111 X100 A180 K-30 B120 P5 Q5", start="X40. Z0."))
+    first = talk.state["view"]["findings"][0]["fixes"][0]
+    action = {"do": "fix", "finding": first["finding"], "fix": first["number"], "of": talk.state["view"]["mark"]}
+    talk.answer({**action, "number": 1})
+    once = talk.exploration.text
+    talk.answer({**action, "number": 2})
+    assert talk.exploration.text == once
+    talk.answer({"do": "undo", "number": 3})
+    talk.answer({"do": "move", "values": {"K": -20}, "is_held": True, "number": 4})
+    talk.answer({"do": "cancel", "number": 5})
+    assert (talk.state["view"]["can_redo"], talk.state["view"]["can_undo"]) == (True, False)
+    assert talk.answer({"number": 6})["view"]["trouble"]
+
+
 @pytest.mark.parametrize(("tool", "side"), [("R0.8", "right"), ("R0.8, tip 3", None), ("8 mm", "right")])
 def test_an_explorer_of_what_is_no_tool_says_what_to_write(tool, side):
     with pytest.raises(ValueError, match=r"write|give|state"):

@@ -21,7 +21,6 @@ from click.testing import CliRunner
 from contoursolve.__main__ import commands
 
 pytestmark = pytest.mark.needs("starlette", "uvicorn")
-BROKEN = "G00 X40. Z0.\r\nG111 X100. A180. K-30. B120. P60. Q5.\r\nM30\r\n"
 SECONDS = 60
 JSON = "application/json"
 
@@ -305,7 +304,7 @@ def serve():
 
 @pytest.mark.slow
 def test_a_server_that_is_killed_while_it_saves_leaves_the_old_file_or_the_new_one(serve, tmp_path):
-    texts = [f"(TEXT {number})\r\n" * 20_000 for number in range(2)]
+    texts = [f"(TEXT {number} {'x' * 2_000})\r\n" * 100 for number in range(2)]
     (tmp_path / "part.nc").write_bytes(texts[0].encode())
 
     def save(served):
@@ -328,7 +327,7 @@ def test_a_server_that_is_killed_while_it_saves_leaves_the_old_file_or_the_new_o
 @pytest.mark.slow
 def test_ctrl_c_ends_it_also_while_it_works(serve, tmp_path):
     served = serve(tmp_path)
-    long = "G111 X100. A180. K-30. B120. P5.\n" * 1_000
+    long = "G111 X100. A180. K-30. B120. P5.\n" * 300
     served.ask("open", name="a.nc", text=f"G00 X40. Z0.\n{long}")
     given_up = []
     working = threading.Thread(target=lambda: given_up.append(served.ask("report")))
@@ -338,22 +337,3 @@ def test_ctrl_c_ends_it_also_while_it_works(serve, tmp_path):
     working.join()
     assert given_up == [(503, {"trouble": "the workbench was ended; your text stays on the page"})]
     assert ended == (130, "stopped\n")
-
-
-@pytest.mark.slow
-def test_on_a_full_disk_the_old_file_stays_and_there_is_room_later_for_the_new_one(serve, small_disk):
-    file = small_disk.folder / "a.nc"
-    file.write_bytes(BROKEN.encode())
-    server = serve(small_disk.folder)
-    server.ask("open", name="a.nc")
-    longer = f"{BROKEN}({'x' * 8_000})\r\n"
-    server.ask("edit", text=longer)
-    small_disk.fill()
-    full = "a.nc was not saved: it cannot be written: No space left on device; your text is still here"
-    assert server.ask("save") == (200, {"trouble": full})
-    assert server.ask("save", name="b.nc") == (200, {"trouble": full.replace("a.nc", "b.nc")})
-    assert (small_disk.names(), file.read_bytes()) == (["a.nc"], BROKEN.encode())
-    assert server.ask("view")[1]["has_changes"]
-    small_disk.make_room()
-    assert server.ask("save")[1]["saved"] == "a.nc"
-    assert (small_disk.names(), file.read_bytes()) == (["a.nc"], longer.encode())
