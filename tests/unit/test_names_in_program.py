@@ -54,36 +54,6 @@ def test_texts_are_told_with_them_and_facts_stay():
     )
 
 
-@pytest.mark.parametrize(
-    ("control", "text", "message", "note"),
-    [
-        (
-            "fanuc-lathe",
-            "G00 X50. Z0.\nG01 ,A150. ,R40.\nX80. Z-60.",
-            "the corner between program lines 2 and 3 is still open in Z and X: add ,A in program line 3",
-            "the corner between program lines 2 and 3 can still slide along 150.000 deg",
-        ),
-        (
-            "yasnac-lx3",
-            "G00 X40. Z0.\nG111 X100. A180. K-30. B120. U50.",
-            "",
-            "because X100. puts the end of the second straight at X100.000 mm, and U50. puts it at X90.000 mm",
-        ),
-    ],
-)
-def test_findings_name_points_by_where_they_lie(control, text, message, note):
-    findings = contoursolve.solve(text, control=control).answers[0].diagnostics
-    assert not message or message in [each.message for each in findings]
-    assert any(text.startswith(note) for each in findings for text in each.notes)
-
-
-def test_a_fix_says_where_a_point_lies_then():
-    text = "G17 G90 G00 X0. Y0.\nG01 X30. ,R5. ,C5.\nY30."
-    fixes = [fix for each in contoursolve.solve(text, control="fanuc-mill").diagnostics for fix in each.fixes]
-    told = [fix.description for fix in fixes]
-    assert any("-> the corner between program lines 2 and 3 is at X30.000 mm Y0.000 mm" in each for each in told), told
-
-
 @pytest.mark.parametrize("path", sorted(PROGRAMS.glob("*.[!d]*")), ids=lambda path: path.name)
 def test_a_point_has_one_label_in_the_picture_and_in_the_listing(path):
     options = {"control": "nct-99m"} if path.name == "plate.nc" else {}

@@ -241,47 +241,6 @@ def test_random_blocks_of_every_status_are_drawn(seed):
 
 
 @pytest.mark.parametrize(
-    ("name", "around"),
-    [
-        ("inches", ["G111 (taper multiple cornering), program line 2: solved", "G111 X4. A180. K-1. B120. P.2 Q.2",
-                    "Z (inch)", "X (diameter, inch)", "given", "worked out"]),
-        ("free", ["G111 (taper multiple cornering), program line 1: cannot be cut", "G111 X100. A180. K-30.", "Z",
-                  "X (diameter)", "given", "worked out", "still free", "other values",
-                  "error: the second straight needs two of B, X or U, Z or W; the block gives X100."]),
-        ("ambiguous", ["circle-line (circular-linear intersection), program lines 2 to 3: not enough given",
-                       "G3 X-50 Y0 R50", "G1 X-50 Y42.857 ,A171.87", "X", "Y", "solution A alone",
-                       "solution B alone", "given", "worked out",
-                       "error: 2 contours fit the block, and no word chooses one"]),
-        ("an end too far", ["G111 (taper multiple cornering), program line 1: cannot be cut",
-                            "G111 A180. K-30. B120. X10000000000.", "Z", "X (diameter)", "given", "worked out",
-                            "in conflict, or cannot be cut",
-                            "error: X10000000000. is larger than a control can travel",
-                            "no room for: X10000000000. dia"]),
-    ],
-)  # fmt: skip
-def test_around_a_drawing_stand_its_block_its_axes_its_legend_and_what_is_wrong(name, around):
-    assert [text.words for text in texts(draw_answer(answer_of(name)).sheet.around)] == around
-
-
-def test_a_description_tells_the_path_or_what_prevents_one():
-    told = {name: draw_answer(answer_of(name)).description for name in ("bevels", "circle-line", "parallel")}
-    assert told["bevels"] == (
-        "Z to the right, X up as a diameter, in mm. The path starts at Z0 X40. First straight to Z-27.887 X40. "
-        "Chamfer C5. to Z-32.887 X50. Second straight to Z-44.434 X90. Chamfer D5. to Z-49.434 X100. "
-        "V1, end of the first straight, is at Z-30 X40. V2, end of the second straight, is at Z-47.321 X100."
-    )
-    assert told["circle-line"] == (
-        "X to the right, Y up, in mm. The path starts at X50 Y0. "
-        "Arc (program line 2) counter-clockwise to X40 Y30, radius 50. Straight (program line 3) to X-50 Y42.857. "
-        "P1, end of program line 2, is at X40 Y30."
-    )
-    assert told["parallel"] == (
-        "Z to the right, X up as a diameter, in mm. There is no contour: cannot be cut. "
-        "error: no end of the second straight fits X100., A180. and B180.: the lines are parallel and 30.000 mm apart."
-    )
-
-
-@pytest.mark.parametrize(
     ("block", "in_block", "drawn"),
     [
         ("G111 Z-95 A180. X100. B120.", {"Z-95"}, {"Z-95 = -0.095 mm"}),
