@@ -75,7 +75,7 @@ def legal_blocks(control: Control) -> tuple[LegalBlock, ...]:
         LegalBlock(form.name, form.title, row.addresses, text)
         for form in control.forms
         if form.table.sample is not None and form.is_contour
-        for row, text in islice(legal_samples(form, control), MOST_WAYS)
+        for row, text in legal_samples(form, control)
     )
 
 

@@ -15,11 +15,12 @@ from contoursolve.diagnosis.examine import (
     list_alternatives,
 )
 from contoursolve.gcode import FACT
-from contoursolve.geometry import Length, Pick
+from contoursolve.geometry import Length, Pick, assemble
 from contoursolve.solving import (
     DECIMALS,
     Certificate,
     Proof,
+    groups_of,
     trace,
     up_to_one_digit,
 )
@@ -39,7 +40,7 @@ def list_solutions(answer: Answer) -> Solutions | None:
         choices = count_choices(answer.profile)
         why = "a half circle is one within the least increments" if is_rounded(answer) else "too many to list"
         doubts = (f"the other sides of {choices} points: {why}",) if choices else ()
-        return Solutions((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
+        return Solutions((only,), not doubts, "closed form", doubts, chosen_by="", steps=_steps(answer))
     from contoursolve.solving import choose, pick  # noqa: PLC0415 - most contours need no choice
 
     eligible = choose(alternatives, answer.profile.choices)
@@ -60,7 +61,13 @@ def list_solutions(answer: Answer) -> Solutions | None:
         doubts=tuple(f"{', '.join(doubt.unknowns)}: {doubt.obstacle.value}" for doubt in alternatives.doubts),
         chosen_by=" and ".join(words) if chosen and len(alternatives.items) > 1 else "",
         within=alternatives.reach,
+        steps=_steps(answer),
+        boxes=alternatives.boxes,
     )
+
+
+def _steps(answer: Answer) -> int:
+    return len(groups_of(assemble(answer.profile)))
 
 
 def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answer: Answer) -> Solution:

@@ -99,7 +99,7 @@ def _alternatives(profile: Profile, enumeration: Enumeration) -> Alternatives:
         doubts = (*doubts, Doubt((), Obstacle.UNDECIDED))
     # What the form chooses by itself is no alternative for a user.
     items = [item for item in items if _agrees(item, [choice for choice in profile.choices if not choice.given])]
-    return Alternatives(tuple(_named(items, profile)), doubts, enumeration.within)
+    return Alternatives(tuple(_named(items, profile)), doubts, enumeration.within, enumeration.boxes)
 
 
 def _exact_first(system: System) -> System | None:

@@ -55,6 +55,8 @@ class Enumeration(Struct, frozen=True):
     within: float | None = None
     """The distance from the start point within which there is no other solution, mm, where some step has no closed form
     and was searched for; None where all have one."""
+    boxes: int = 0
+    """The number of boxes that the search looked at."""
 
     @property
     def is_complete(self) -> bool:
@@ -153,6 +155,7 @@ class _Search:
         self.close = close
         self.doubts: list[Doubt] = []
         self.within: float | None = None
+        self.boxes = 0
         self.effort = effort
         self.left = effort.intervals
         self.near, self.far = ground.nearby(system), ground.farthest(system)
@@ -174,7 +177,7 @@ class _Search:
                 self.doubts.append(Doubt(group.unknowns, Obstacle.UNFINISHED))
                 states = states[:MOST_SOLUTIONS]
         states = [self._with_sides(state) for state in states]
-        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.within)
+        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.within, self.boxes)
 
     def _with_sides(self, state: ExactSolution) -> ExactSolution:
         """The state with the sides of facts that were not needed: where the fact is nearer to being true."""
@@ -251,6 +254,7 @@ class _Search:
             task = Task(inputs, reach, self.ground.sizes(self.system), budget, self.effort.is_guessing, inner)
             divisions, looked_at = yield group, task
             self.left -= looked_at
+            self.boxes += looked_at // len(kernel.unknowns)
             searched.append(divisions)
             if not all(division.is_complete for division in divisions):
                 obstacle = Obstacle.UNFINISHED if inner is None else Obstacle.FARTHER

@@ -175,13 +175,14 @@ class Alternative(Struct, frozen=True):
 class Alternatives(Struct, frozen=True):
     """All solutions of a profile's equations; the list is complete, with proof, if there is no doubt.
 
-    `reach` is how far from the start point there is no other one, mm, where they were searched for; None where the
-    closed form gives all.
+    `reach` is how far from the start point there is no other one, mm, where they were searched for, and `boxes` the
+    number of boxes that were looked at; None and 0 where the closed form gives all.
     """
 
     items: tuple[Alternative, ...]
     doubts: tuple[Doubt, ...]
     reach: float | None
+    boxes: int
 
     @property
     def is_complete(self) -> bool:

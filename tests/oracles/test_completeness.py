@@ -58,6 +58,10 @@ def test_the_travel_of_a_machine_is_a_setting_and_the_list_says_how_far_it_goes(
     assert listing.is_single
     assert listing.method.startswith("search within 500 mm of the start point")
     assert "1 solution; this is the only one (by search within 500 mm of the start point" in str(answer)
+    far, closed = solved(FAR)[1], solved("G111 X100. A180. B120. K-30. P5.", control="yasnac-lx3", start="X40. Z0.")[1]
+    assert 0 < listing.boxes < far.boxes
+    assert listing.steps == far.steps
+    assert (closed.steps, closed.boxes) == (4, 0)
 
 
 def test_the_natural_contour_of_a_block_with_facts_is_in_the_list() -> None:
