@@ -5,6 +5,7 @@ import shutil
 import signal
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from importlib.util import find_spec
 
 import pytest
@@ -93,6 +94,15 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
     missing += [name for name in sorted(packages) if find_spec(name) is None]
     if missing:
         (pytest.fail if item.config.getoption("--insist") else pytest.skip)(f"needs {', '.join(missing)}")
+
+
+@pytest.fixture
+def without_repairs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No repairs are looked for, which takes most of the time of a diagnosis: for tests of what is known besides."""
+    from contoursolve.diagnosis.attempt import Repairs  # noqa: PLC0415 - most runs need none of it
+
+    none = Repairs((), is_complete=False)
+    monkeypatch.setattr(import_module("contoursolve.diagnosis.diagnose"), "find_repairs", lambda *_: none)
 
 
 def missing_of(names: tuple[str, ...], advice: str) -> list[str]:

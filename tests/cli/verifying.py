@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Iterator
-from copy import deepcopy
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -224,12 +223,12 @@ def numbers(value: Any, place: Place = ()) -> Iterator[tuple[Place, float]]:
             yield from numbers(each, (*place, name))
 
 
-def changed(result: dict[str, Any], place: Place, value: Any) -> dict[str, Any]:
-    copy = deepcopy(result)
-    target: Any = copy
-    for name in place[:-1]:
-        target = target[name]
-    target[place[-1]] = value
+def changed(value: Any, place: Place, new: Any) -> Any:
+    """A value with something else at a place below it; the rest is shared, for copies take longer than verifying."""
+    if not place:
+        return new
+    copy = {**value} if isinstance(value, dict) else [*value]
+    copy[place[0]] = changed(value[place[0]], place[1:], new)
     return copy
 
 

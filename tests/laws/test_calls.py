@@ -57,7 +57,7 @@ def result_of(answer: Answer) -> object:
 def results(flat: Flat, control: str) -> dict[int, set[object]]:
     """The results of each contour of the flat program, by its line in the program."""
     found = defaultdict(set)
-    for answer in solve(flat.text, control=control).answers:
+    for answer in solve(flat.text, control=control, depth="verdict").answers:
         found[flat.origins[answer.lines[0]]].add(result_of(answer))
     return found
 
@@ -66,7 +66,7 @@ def results(flat: Flat, control: str) -> dict[int, set[object]]:
 def test_contours_are_those_of_the_flat_program(control, seed):
     program, own = drawn_program(control, seed), defaultdict(list)
     flat = Flat(program)
-    for answer in solve(program.text, control=control).answers:
+    for answer in solve(program.text, control=control, depth="verdict").answers:
         if answer.lines[0] in flat.origins.values():
             own[answer.lines[0]].append(result_of(answer))
     expected = results(flat, control)
@@ -94,6 +94,7 @@ def are_alike(one: str, other: str) -> bool:
 
 
 @drawn(7)
+@pytest.mark.usefixtures("without_repairs")
 def test_expanded_inline_it_is_the_flat_program(control, seed):
     program = drawn_program(control, seed)
     own = Flat(program)
@@ -113,7 +114,7 @@ def test_expanded_inline_it_is_the_flat_program(control, seed):
 @drawn(4)
 def test_verify_says_that_it_is_right(control, seed):
     program = drawn_program(control, seed).text
-    result, text = solve(program, control=control), Document("", program.encode())
+    result, text = solve(program, control=control, depth="verdict"), Document("", program.encode())
     told = json.loads(to_json(result))
     solved = [each for each in told["contours"] if each["status"] == "solved"]
     whole = ReceiptVerdict.VERIFIED if solved else ReceiptVerdict.NOTHING_CHECKED
@@ -132,5 +133,5 @@ def test_an_editor_finds_the_same_whatever_the_order_of_words_and_whenever_it_is
     assert opened.diagnostics == result.diagnostics
     assert {each.code for each in check(text, control=control)} == {each.code for each in result.diagnostics}
     assert to_json(solve(text, control=control)) == to_json(result)
-    other = solve(drawn_program(control, seed, is_shuffled=True).text, control=control)
+    other = solve(drawn_program(control, seed, is_shuffled=True).text, control=control, depth="verdict")
     assert [*map(result_of, other.answers)] == [*map(result_of, result.answers)]

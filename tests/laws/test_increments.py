@@ -107,6 +107,7 @@ def test_words_that_agree_within_their_increments_agree_in_the_text_and_in_the_t
 @pytest.mark.parametrize("rules", ["enforce", "off"])
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("off", [0.0, 0.0005, 0.002, 0.01])
+@pytest.mark.usefixtures("without_repairs")
 def test_text_and_tie_never_disagree_on_rounded_words(rules, seed, off):
     draw = Random(seed)
     k, i = (draw.choice((1, -1)) * draw.uniform(1, 60) for _ in range(2))

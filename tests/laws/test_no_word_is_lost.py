@@ -35,7 +35,7 @@ _UNKNOWN = {"position-unknown", "not-read", "value-variable"}
 def test_each_word_of_a_cutting_block_is_used_told_or_without_effect(control, words):
     before, cutting, *behind = _FRAME[control]
     cutting = cutting.format(" ".join(words))
-    result = contoursolve.solve("\n".join((before, cutting, *behind)), control=control)
+    result = contoursolve.solve("\n".join((before, cutting, *behind)), control=control, depth="verdict")
     lexicon, syntax = CONTROLS[control].modes.lexicon, CONTROLS[control].modes.syntax
     spans = [label.span for each in result.diagnostics for label in each.labels]
     told = [span for span in spans if span.line == 2]

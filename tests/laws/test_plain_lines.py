@@ -39,7 +39,7 @@ _LINES = {
 
 
 def told(text: str, control: str) -> object:
-    result = contoursolve.solve(text, control=control)
+    result = contoursolve.solve(text, control=control, depth="verdict")
     return result.diagnostics, [(each.start, each.contour, each.diagnostics) for each in result.answers]
 
 

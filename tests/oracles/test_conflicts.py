@@ -342,6 +342,7 @@ def assert_advice(text: str, answer, control: str = "heidenhain") -> None:
 
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("kind", PATHS)
+@pytest.mark.usefixtures("without_repairs")
 def test_the_sets_that_are_listed_are_the_smallest_that_no_contour_fits(kind, seed):
     assert_conflicts(kind, seed, 6)
 

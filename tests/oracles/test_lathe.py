@@ -72,7 +72,7 @@ def test_g112_is_the_drawing_it_was_written_from(count):
     for form, one, two in product(FORMS, ("", "P", "C"), ("", "Q", "D")):
         for _ in range(count):
             drawn = random_g112(rng, form, one, two)
-            (answer,) = solve(drawn.text).answers
+            (answer,) = solve(drawn.text, depth="verdict").answers
             assert_same(answer, drawn.elements, drawn.points)
             assert answer.certificate.proof.value in ("exact", "unique")
 
@@ -83,7 +83,7 @@ def test_g11_g12_and_g01_are_the_drawings_they_were_written_from(count):
     rng = random.Random(11)
     for _ in range(count):
         drawn = random_g11(rng, 4)
-        answers = solve(drawn.text).answers
+        answers = solve(drawn.text, depth="verdict").answers
         elements = [each for answer in answers for each in answer.contour.elements]
         assert len(answers) == 4
         assert len(elements) == len(drawn.elements)
@@ -101,7 +101,7 @@ def test_verdicts_on_disturbed_blocks_are_those_of_the_oracle(count):
         one, two = rng.choice(("", "P", "C")), rng.choice(("", "Q", "D"))
         drawn = random_g112(rng, rng.choice(FORMS), one, two) if number % 3 else random_g11(rng, 1)
         program = disturbed(rng, drawn)
-        expected, found = contours(program), solve("\n".join(program)).answers
+        expected, found = contours(program), solve("\n".join(program), depth="verdict").answers
         assert len(found) == len(expected), program
         for answer, outcome in zip(found, expected, strict=True):
             if not outcome.is_near:
@@ -299,10 +299,10 @@ def test_contours_that_are_solved_together_cross_the_axis_as_each_by_itself():
     """The columns of `solve` and the patterns of `expand` tell the same as one contour by itself."""
     blocks = [f"G111 I1.766 Z-4.662 A90. B-{60 + number / 2:.2f}" for number in range(20)]
     text = "\n".join(f"G00 X26.193 Z-11.645\n{block}" for block in blocks)
-    alone = [solve(f"G00 X26.193 Z-11.645\n{block}").diagnostics for block in blocks]
+    alone = [solve(f"G00 X26.193 Z-11.645\n{block}", depth="verdict").diagnostics for block in blocks]
     assert 0 < sum(map(bool, alone)) < len(blocks)
     messages = [(2 * number, each.message) for number, found in enumerate(alone, 1) for each in found]
-    assert [(each.span.line, each.message) for each in solve(text).diagnostics] == messages
+    assert [(each.span.line, each.message) for each in solve(text, depth="verdict").diagnostics] == messages
     assert contoursolve.expand(text).summary.warnings == len(messages)
 
 
@@ -349,6 +349,7 @@ G01 X100. Z-50. F.2|G112 U0 I10. K-50. P5. Q5. R30.|X120. Z-150.|g111-landing-le
 
 
 @pytest.mark.parametrize("row", BEHIND.split("\n")[1:-1])
+@pytest.mark.usefixtures("without_repairs")
 def test_the_block_behind_multiple_cornering_is_looked_at(row):
     *lines, expected = row.split("|")
     text = "\n".join(lines)
@@ -360,7 +361,7 @@ def test_the_block_behind_multiple_cornering_is_looked_at(row):
             assert (each.severity.value, each.span.line) == ("warning", len(lines))
             assert re.search("(rounding Q|chamfer D)5|second corner", each.message) or lines[1][:4] in each.message
     # With G01 in force behind them, there is no rapid.
-    other = contoursolve.solve(text, control="yasnac-lx3", settings={"yasnac-lx3.motion-after": "g01"})
+    other = solve(text, settings={"yasnac-lx3.motion-after": "g01"}, depth="verdict")
     assert "g111-rapid-behind" not in codes(other)
     # In a long program that is solved together, and as it is expanded, the same is told.
     many = solve("\n".join([text] * 12))
