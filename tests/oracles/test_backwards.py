@@ -5,17 +5,15 @@ as printed. Words have 12 decimals, so that rounding them moves a point by less 
 Blocks that nobody drew are held against the oracle's verdict.
 """
 
-from cmath import phase
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
-from math import degrees
 from random import Random
 from typing import NamedTuple
 
 import pytest
-from generate_g111 import SHAPES, Case, draw_g111, g111_case, numbers, printed, shuffled, within_one_turn
-from oracle import PLANES, circle_line, dot, heading, largest_gap, sign
+from generate_g111 import SHAPES, Case, draw_g111, g111_case, numbers, printed, shuffled
+from oracle import PLANES, circle_line, heading, largest_gap, sign
 
 from contoursolve import Answer, solve
 
@@ -160,41 +158,6 @@ PAIRS = tuple(
 )
 
 
-def draw_pair(rng: Random, pair: Pair) -> Case:
-    """A line that enters the circle at the crossing (Q-) or leaves it there (Q+), and the arc up to it."""
-    circle = complex(rng.uniform(-100, 100), rng.uniform(-100, 100))
-    radius, begin = rng.uniform(10, 80), rng.uniform(0, 360)
-    start = circle + radius * heading(begin)
-    out = heading(begin + rng.uniform(10, 350))
-    crossing = circle + radius * out
-    along = out * heading(rng.uniform(-80, 80) + (180 if pair.side == "Q-" else 0))
-    if rng.random() < 0.2:
-        along = min((1, 1j, -1, -1j), key=lambda axis: abs(axis - along))
-        if abs(dot(along, out)) < 0.1 or (dot(along, out) > 0) != (pair.side == "Q+"):
-            return draw_pair(rng, pair)
-    end = crossing + rng.uniform(1, 150) * along
-    swept = rng.uniform(190, 350) if pair.circle == "R-" else rng.uniform(10, 170)
-    swept = rng.uniform(10, 350) if pair.circle == "center+point" else swept
-    point = circle + radius * heading(begin + (swept if pair.turn == "G3" else -swept))
-    first, second, i, j = PLANES[pair.plane]
-    arc = {}
-    if pair.circle != "center":
-        step = point - start if pair.is_incremental else point
-        arc |= {first: printed(step.real), second: printed(step.imag)}
-    if pair.circle.startswith("center"):
-        arc |= {i: printed((circle - start).real), j: printed((circle - start).imag)}
-    else:
-        arc["R"] = printed(radius if pair.circle == "R+" else -radius)
-    angle = within_one_turn(degrees(phase(along)), rng)
-    line = {
-        first: printed(end.real),
-        second: printed(end.imag),
-        ",A": printed(angle),
-        "Q": pair.side[1:] + rng.choice(("1", "0.001", "77")),
-    }
-    return pair_case(rng, pair, start, arc, line, (start, crossing, end))
-
-
 def pair_case(
     rng: Random,
     pair: Pair,
@@ -223,21 +186,6 @@ def pair_case(
     return Case(program, outcome, pair, vertices)
 
 
-@pytest.mark.parametrize("times", [1, pytest.param(4, marks=pytest.mark.slow)])
-def test_every_drawn_arc_and_line_is_found_again(times: int) -> None:
-    rng = Random(1633)
-    cases = [draw_pair(rng, pair) for pair in PAIRS for _ in range(times)]
-    assert_drawings_come_back(cases, MILL)
-
-
-@pytest.mark.parametrize("count", [60, pytest.param(1_000, marks=pytest.mark.slow)])
-def test_an_arc_and_line_are_refused_or_solved_as_the_sheet_says_whatever_their_words(count: int) -> None:
-    rng = Random(3014)
-    compared = assert_verdicts_agree([random_pair(rng) for _ in range(count)], MILL)
-    assert compared.total() > 0.99 * count
-    assert min(compared[status] for status in ("solved", "rejected", "no-solution", "conflicting")) > 0.05 * count
-
-
 @pytest.mark.parametrize("stride", [39, pytest.param(2, marks=pytest.mark.slow)])
 def test_an_arc_and_line_on_round_numbers_are_judged_as_the_sheet_says(stride: int) -> None:
     """Tangents, lines through the centre or the start, half circles, ends on the circle."""
@@ -262,38 +210,3 @@ def test_an_arc_and_line_on_round_numbers_are_judged_as_the_sheet_says(stride: i
 
 
 ON_50 = tuple(complex(x, y) for x in range(-50, 51) for y in range(-50, 51) if x * x + y * y == 2_500)
-
-
-def random_pair(rng: Random) -> Case:
-    pair = rng.choice(PAIRS)._replace(compensation=rng.choice(("G41", "G42") * 9 + ("G40",)))
-    first, second, i, j = PLANES[pair.plane]
-    start = complex(rng.uniform(-50, 50), rng.uniform(-50, 50))
-
-    def length() -> str:
-        return printed(rng.choice((rng.uniform(-90, 90), rng.uniform(-90, 90), float(rng.randint(-1, 1)))))
-
-    arc = {}
-    if pair.circle != "center":
-        arc |= {first: length(), second: length()}
-    if pair.circle == "center+point" and rng.random() < 0.8:
-        # A point that is on the circle, or off it by less or more than the control allows.
-        center = complex(rng.uniform(-90, 90), rng.uniform(-90, 90))
-        point = center - center * heading(rng.uniform(0, 360)) * rng.choice((1, 1, 1 + 1e-5, 1.01))
-        point += 0 if pair.is_incremental else start
-        arc = {first: printed(point.real), second: printed(point.imag)}
-        arc |= {i: printed(center.real), j: printed(center.imag)}
-    elif pair.circle.startswith("center"):
-        arc |= {i: length(), j: length()}
-    else:
-        arc["R"] = pair.circle[1:] + printed(rng.uniform(0, 150))
-    angle = rng.choice((rng.uniform(-360, 360), 45.0 * rng.randint(-8, 8)))
-    line = {first: length(), second: length(), ",A": printed(angle), "Q": pair.side[1:] + "1"}
-    if rng.random() < 0.2:
-        name = rng.choice((*arc, "Q", "R", i))
-        if name == "Q":
-            line["Q"] = "0"
-        elif name in arc:
-            del arc[name]
-        else:
-            arc[name] = length()
-    return pair_case(rng, pair, start, arc, line)

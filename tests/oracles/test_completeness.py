@@ -116,7 +116,7 @@ def test_one_contour_that_is_not_known_to_be_the_only_one_is_undecided(tmp_path:
     assert "a list that is complete holds all in the control's travel" in refuted.output
 
 
-@pytest.mark.parametrize("seed", range(80))
+@pytest.mark.parametrize("seed", range(50))
 def test_a_complete_list_holds_every_chain_that_newton_finds_in_100_m(seed: int) -> None:
     chain = random_chain(Random(seed), 3, 5)
     _, listing = solved(chain.text, depth="verdict")

@@ -31,7 +31,7 @@ def off(equation, values):
 
 
 @pytest.mark.parametrize(
-    "programs", [pytest.param(RIGHT[::90], id="some"), pytest.param(RIGHT[::12], id="more", marks=pytest.mark.slow)]
+    "programs", [pytest.param(RIGHT[::90], id="some"), pytest.param(RIGHT[::20], id="more", marks=pytest.mark.slow)]
 )
 def test_contours_satisfy_their_equations_and_are_what_their_function_gives(programs):
     for name, answer in contours(programs):
@@ -95,7 +95,7 @@ SYSTEMS = sorted(write_tables.systems().items())
 
 @pytest.mark.parametrize(
     "systems",
-    [pytest.param(SYSTEMS[::60], id="some"), pytest.param(SYSTEMS[::10], id="a tenth", marks=pytest.mark.slow)],
+    [pytest.param(SYSTEMS[::60], id="some"), pytest.param(SYSTEMS[5::20], id="a twentieth", marks=pytest.mark.slow)],
 )
 def test_conditions_of_all_forms_are_zero_exactly_where_the_rank_falls(systems):
     """At values that nothing but the words for coordinates ties: the rank of each step's own matrix, by numpy."""
@@ -202,7 +202,7 @@ def shown(system):
 
 
 @pytest.mark.parametrize(
-    "programs", [pytest.param(RIGHT[::60], id="some"), pytest.param(RIGHT[1::4], id="more", marks=pytest.mark.slow)]
+    "programs", [pytest.param(RIGHT[::60], id="some"), pytest.param(RIGHT[1::9], id="more", marks=pytest.mark.slow)]
 )
 def test_a_system_with_other_numbers_is_that_of_the_block_so_written(programs):
     count = 0
@@ -460,7 +460,7 @@ def at_drawing(expression, values):
 
 
 @pytest.mark.parametrize(
-    "programs", [pytest.param(RIGHT[::60], id="some"), pytest.param(RIGHT[::8], id="more", marks=pytest.mark.slow)]
+    "programs", [pytest.param(RIGHT[::60], id="some"), pytest.param(RIGHT[::15], id="more", marks=pytest.mark.slow)]
 )
 def test_what_can_still_move_keeps_every_equation_and_is_all_that_does(programs):
     random = Random(5)

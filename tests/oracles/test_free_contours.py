@@ -1,10 +1,6 @@
 """Free contours in Klartext: the programs of the manuals, and chains that are drawn forwards and told backwards."""
 
-import faulthandler
 import re
-import signal
-import sys
-from contextlib import contextmanager
 from dataclasses import replace
 from itertools import pairwise
 from math import atan2, cos, dist, pi, radians, sin, tau
@@ -338,8 +334,6 @@ def test_a_closing_line_in_the_wrong_direction_is_told_with_the_right_one():
 # Chains drawn forwards ------------------------------------------------------------------------------------------
 
 CHAINS, SHARE, FAST = 60, 10, 3
-PATIENCE = 120
-"""Seconds after which a chain counts as missed; the longest known one takes 15."""
 WITHIN = 1e-3
 """mm. Their data are written with nine decimals."""
 
@@ -380,37 +374,9 @@ def is_true(contour, chain):
     return smooth and all(abs(a) < 1e-6 or min(b, 360 - b) < 1e-6 for a, b in zip(off, turned, strict=True))
 
 
-class Impatient(BaseException):
-    """A chain took too long; what catches exceptions lets it pass."""
-
-
-@contextmanager
-def patience():
-    """Raise Impatient, and print where it was, if what is inside takes too long; for as long as it takes on Windows."""
-
-    def stop(*_):
-        faulthandler.dump_traceback(sys.__stderr__)
-        raise Impatient
-
-    if not hasattr(signal, "SIGALRM"):
-        yield
-        return
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.alarm(PATIENCE)
-    try:
-        yield
-    finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
-
-
 def has_drawn(chain):
     """Whether what was drawn is among the contours of a chain; none of them may be wrong."""
-    try:
-        with patience():
-            found = solutions(solved(chain.text))
-    except Impatient:
-        return False
+    found = solutions(solved(chain.text))
     for each in found:
         assert is_true(each.contour, chain), chain.text
     drawn = [each.head for each in chain.drawn]

@@ -382,7 +382,7 @@ def pair(
 ) -> Answer:
     """A circle of radius 50 about (50, 0) from its point at 0, and a line."""
     program = f"G17 G90 G41 G0 X0 Y0\nG3 I50 J0\nG1 X{Decimal(x):f} Y{Decimal(y):f} ,A{angle} {word}"
-    return contoursolve.solve(program, control="nct-99m", rules=rules).answers[0]
+    return contoursolve.solve(program, control="nct-99m", rules=rules, depth="verdict").answers[0]
 
 
 @pytest.mark.parametrize("rules", ["enforce", "off"])
@@ -538,7 +538,9 @@ def test_a_contour_follows_a_value_that_moves_without_a_jump_or_says_why_it_ends
     for number in range(steps + 1):
         value = format(Decimal(repr(round(family.first + number * step, 9))), "f")
         value += "" if "." in value else "."
-        answers.append(contoursolve.solve(family.program.format(value), control=family.control).answers[0])
+        answers.append(
+            contoursolve.solve(family.program.format(value), control=family.control, depth="verdict").answers[0]
+        )
     assert sum(answer.contour is not None for answer in answers) > steps / 2
     for before, after in pairwise(answers):
         if before.diagnostics or after.diagnostics:
@@ -606,10 +608,6 @@ def line_and_arc() -> Drawings:
     ):
         sketch.state(fact)
     return sketch.solve()
-
-
-def test_a_list_without_a_proven_solution_is_not_said_to_be_complete() -> None:
-    assert_count(line_and_arc(), 1)
 
 
 def test_a_proven_solution_is_drawn() -> None:
@@ -698,7 +696,7 @@ def test_the_exact_places_of_a_g111_contour_are_within_the_certified_radius() ->
             start = round(Decimal(random.uniform(-10, 10)), places), Decimal(random.randint(36, 44))
             block = " ".join(f"{name}{value:f}" + ("" if "." in f"{value:f}" else ".") for name, value in words.items())
             z, x = (f"{value:f}" + ("" if "." in f"{value:f}" else ".") for value in start)
-            answer = contoursolve.solve(f"G00 X{x} Z{z}\nG111 {block}").answers[0]
+            answer = contoursolve.solve(f"G00 X{x} Z{z}\nG111 {block}", depth="verdict").answers[0]
             assert answer.contour is not None, block
             exact = exact_g111((start[0], start[1] / 2), words)
             assert_certified(answer, exact)
@@ -761,7 +759,7 @@ def test_the_exact_intersection_of_a_pair_is_within_the_certified_radius(count: 
                 f"G17 G90 G41 G0 X{start[0]:f} Y{start[1]:f}\nG3 I{i:f} J{j:f}\n"
                 f"G1 X{end[0]:f} Y{end[1]:f} ,A{angle:f} Q{random.choice((1, -1))}"
             )
-            answer = contoursolve.solve(program, control="nct-99m").answers[0]
+            answer = contoursolve.solve(program, control="nct-99m", depth="verdict").answers[0]
             if answer.contour is None:
                 continue
             x, y = (mpf(str(value)) for value in center)

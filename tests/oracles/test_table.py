@@ -1,4 +1,5 @@
-"""The table of all sets of words: kept as reviewed files, and G111's part restated by linear algebra of our own."""
+"""The table of all sets of words: kept as reviewed files, and G111's part restated by linear algebra of our own; what
+`solve` says of these sets. The values of their words agree with each other, so that a set alone tells its status."""
 
 import re
 from functools import lru_cache
@@ -10,6 +11,7 @@ import numpy
 import pytest
 from click.testing import CliRunner
 
+from contoursolve import Answer, solve
 from contoursolve.cli import main
 
 TABLES = Path(__file__).parent / "tables"
@@ -258,3 +260,78 @@ def test_condition_is_zero_exactly_where_the_equations_are_singular():
             a, b = (radians(angle) for angle in numpy.random.default_rng(seed).uniform(5, 85, 2))
             value = abs(eval(condition, {"__builtins__": {}}, {**names, "A": a, "B": b}))
             assert value == pytest.approx(abs(numpy.linalg.det(matrix(rows, seed))), abs=1e-12), sorted(letters)
+
+
+# What solve says of the sets of G111 ---------------------------------------------------------------------
+
+WORDS = ["A160.", "B120.", "C2.", "D2.", "I10.919", "K-30.", "P3.", "Q3.", "U61.838", "W-41.547", "X101.838"]
+WORDS += ["Z-41.547"]
+V1, V2 = (-30.0, 30.919), (-41.547, 50.919)
+AGREE = 2e-3
+"""mm. The words are rounded to 0.001 mm."""
+
+SETS = [frozenset(chosen) for size in range(13) for chosen in combinations(LETTERS, size)]
+
+
+def geometry(letters: frozenset[str]) -> str:
+    """The status that the equations alone give a set."""
+    count = len(letters & set(EQUATIONS))
+    if letters >= set("CP") or letters >= set("DQ"):
+        return "conflicting"  # two shapes for one corner
+    if not count or ranks(letters) < 4:
+        return "underdetermined"
+    end_x, end_z = letters & set("XU"), letters & set("ZW")
+    if letters & set("DQ") and bool(end_x) == bool(end_z):
+        return "underdetermined"  # no line to land on
+    if count > 4:
+        return "overdetermined"
+    # 135 deg does not lie between 120 and 90 deg: no 45 deg segment joins line 2 and a line parallel to X.
+    return "no-solution" if "D" in letters and end_z else "solved"
+
+
+@pytest.fixture(scope="module", params=["some", pytest.param("many", marks=pytest.mark.slow)])
+def answers(request) -> dict[tuple[str, frozenset[str]], Answer]:
+    """By policy and set: of those that are legal all or some, of all others a sixth or a few."""
+    step = 6 if request.param == "many" else 50
+    some = [*[letters for letters in SETS if is_legal(letters)][:: step // 7 + 1], *SETS[::step]]
+    found = {}
+    for rules in ("enforce", "warn", "off"):
+        asked = some if rules == "enforce" else some[::2]
+        for letters in asked:
+            block = " ".join(("G111", *(word for word in WORDS if word[0] in letters)))
+            (answer,) = solve(block, control="yasnac-lx3", start="X40. Z0.", rules=rules, depth="verdict").answers
+            found[rules, letters] = answer
+    return found
+
+
+def statuses(answers, rules):
+    return {letters: answer.status.value for (own, letters), answer in answers.items() if own == rules}
+
+
+def test_a_set_is_rejected_exactly_when_the_sheet_refuses_it_and_else_has_the_status_of_the_words_that_are_used(
+    answers,
+):
+    for letters, status in statuses(answers, "enforce").items():
+        assert status == (geometry(letters - ignored(letters)) if is_legal(letters) else "rejected"), sorted(letters)
+
+
+def test_without_rules_a_set_has_the_status_of_the_geometry(answers):
+    for letters, status in statuses(answers, "off").items():
+        assert status == geometry(letters), sorted(letters)
+
+
+def test_rules_as_warnings_refuse_nothing_and_keep_the_refusal(answers):
+    for letters, status in statuses(answers, "warn").items():
+        found = answers["warn", letters].diagnostics
+        strict = {each.code for each in answers["enforce", letters].diagnostics if each.basis.value == "rule"}
+        assert status != "rejected"
+        assert strict <= {each.code for each in found}
+        assert not any(each.severity.value == "error" and each.basis.value == "rule" for each in found)
+
+
+def test_every_set_that_is_solved_gives_the_same_two_points_and_an_error_is_found_exactly_without_them(answers):
+    for (_, letters), answer in answers.items():
+        assert (answer.contour is None) == any(each.is_error for each in answer.diagnostics), sorted(letters)
+        if answer.contour:
+            found = chain(answer.contour.points["V1"], answer.contour.points["V2"])
+            assert list(found) == pytest.approx([*V1, *V2], abs=AGREE)
