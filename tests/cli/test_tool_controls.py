@@ -116,24 +116,6 @@ CALLED = """\
 """
 
 
-def test_klartext_with_labels_and_a_helix_stays_klartext(tmp_path: Path):
-    (tmp_path / "a.h").write_text(CALLED.format(""))
-    new, words = tmp_path / "new.h", ("--control", "heidenhain", "--tool", "R4")
-    made = ["expand", *words, "--inline", "--no-comments", tmp_path / "a.h", "-o", str(new)]
-    done = call(*made)
-    assert (done.exit_code, "3 contours expanded" in done.stderr) == (0, True), done.output
-    lines = new.read_text().splitlines()
-    at = lines.index("9 L X+226 Y+20 F300")
-    assert lines[at + 2] == "C X+214 Y+20 Z-5 DR+"
-    assert lines[at + 8] == "C X+226 Y+20 Z-8 DR+"
-    # The arc behind turns about the pole of the program.
-    assert lines[lines.index("12 L X+221 Y+20") + 1] == "CC X+220 Y+20"
-    same = call("diff", *words, tmp_path / "a.h", str(new))
-    assert same.exit_code == 0, same.output
-    done = call(*made[:-2], "--post", "fanuc")
-    assert (done.exit_code, "then expand it for fanuc" in done.stderr) == (2, True)
-
-
 def test_an_approach_that_is_not_followed_is_no_entry(tmp_path: Path):
     (tmp_path / "a.h").write_text(CALLED.format("APPR LT X+0 Y+10 LEN10 RL F300 ;"))
     done = call("check", "--control", "heidenhain", "--tool", "R4", tmp_path / "a.h")
