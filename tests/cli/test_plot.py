@@ -117,9 +117,9 @@ def test_a_turned_part_is_drawn_whole_or_by_its_half(tmp_path):
 
 
 def test_without_ezdxf_the_message_says_what_to_install(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "ezdxf", None)
-    monkeypatch.delitem(sys.modules, "contoursolve.output.dxf")
     monkeypatch.delattr("contoursolve.output.drawing_for_cad")
+    monkeypatch.delitem(sys.modules, "contoursolve.output.dxf")
+    monkeypatch.setitem(sys.modules, "ezdxf", None)
     status, output = plot(PROGRAMS / "shaft.nc", "-o", tmp_path / "part.dxf")
     assert status == 2
     assert f'{sys.executable} -m pip install "contoursolve[dxf]"' in output

@@ -5,7 +5,6 @@ Nothing here looks at what the package says about it. Same generator, same slips
 """
 
 import re
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import cos, radians, sin, tan
 from random import Random
@@ -58,127 +57,56 @@ _BESIDE = {"1": "2", "2": "13", "3": "24", "4": "35", "5": "46", "6": "57", "7":
 _NEIGHBOURS = {"C": "D", "D": "C", "P": "Q", "Q": "P"}
 
 
-def _parts(word: str) -> tuple[str, str, str]:
+KINDS = (
+    *("sign lost", "sign added", "two signs", "two points", "comma for point", "point missing", "point swallowed"),
+    *("stray comma", "letter for digit", "wrong digit", "digit lost", "digit twice", "digits swapped"),
+    *("comma of address", "word of the other corner", "R for P or Q"),
+)
+
+
+def _typed(kind: str, word: str, rng: Random) -> str:
+    """A word with a slip of a kind; empty where it can have none."""
     match = _WORD.fullmatch(word)
     assert match is not None, word
-    return match[1], match[2], match[3]
+    address, sign, number = match.groups()
+    has_point, is_whole = "." in word, word.endswith(".")
+    plain = {
+        "sign lost": address + number if sign == "-" else "",
+        "sign added": f"{address}-{number}" if not sign and float(number) else "",
+        "two signs": f"{address}--{number}" if sign else "",
+        "two points": word.replace(".", "..") if has_point else "",
+        "comma for point": address + sign + number.replace(".", ",") if has_point else "",
+        "point missing": word[:-1] if is_whole else "",
+        "point swallowed": word.replace(".", "") if has_point and not is_whole else "",
+        "stray comma": f"{word},",
+        "comma of address": word[1:] if word.startswith(",") else "",
+        "word of the other corner": _NEIGHBOURS[word[0]] + word[1:] if word[0] in _NEIGHBOURS else "",
+        "R for P or Q": "R" + word[1:] if word[0] in "PQ" and has_point else "",
+    }
+    if kind in plain:
+        return plain[kind]
+    digits = [at for at, char in enumerate(number) if char.isdigit()]
+    places = {
+        "letter for digit": [at for at in digits if number[at] in "01"],
+        "digit lost": digits[: len(digits) * (len(digits) > 1)],
+        "digits swapped": [at for at in digits[:-1] if number[at + 1].isdigit() and number[at] != number[at + 1]],
+    }.get(kind, digits)
+    if not places:
+        return ""
+    at = rng.choice(places)
+    old, behind = number[at], number[at + 1 :]
+    match kind:
+        case "letter for digit":
+            new = {"0": "O", "1": "l"}[old]
+        case "wrong digit":
+            new = rng.choice(_BESIDE[old])
+        case "digits swapped":
+            new, behind = behind[0] + old, behind[1:]
+        case _:
+            new = 2 * old if kind == "digit twice" else ""
+    return address + sign + number[:at] + new + behind
 
 
-def _digits(number: str) -> list[int]:
-    return [at for at, char in enumerate(number) if char.isdigit()]
-
-
-def _sign_lost(word: str, rng: Random) -> Iterator[str]:
-    address, sign, number = _parts(word)
-    if sign == "-":
-        yield address + number
-
-
-def _sign_added(word: str, rng: Random) -> Iterator[str]:
-    address, sign, number = _parts(word)
-    if not sign and float(number):
-        yield f"{address}-{number}"
-
-
-def _two_signs(word: str, rng: Random) -> Iterator[str]:
-    address, sign, number = _parts(word)
-    if sign:
-        yield f"{address}--{number}"
-
-
-def _two_points(word: str, rng: Random) -> Iterator[str]:
-    if "." in word:
-        yield word.replace(".", "..")
-
-
-def _comma_for_point(word: str, rng: Random) -> Iterator[str]:
-    if "." in word:
-        address, sign, number = _parts(word)
-        yield address + sign + number.replace(".", ",")
-
-
-def _point_missing(word: str, rng: Random) -> Iterator[str]:
-    if word.endswith("."):
-        yield word[:-1]
-
-
-def _point_swallowed(word: str, rng: Random) -> Iterator[str]:
-    if "." in word and not word.endswith("."):
-        yield word.replace(".", "")
-
-
-def _stray_comma(word: str, rng: Random) -> Iterator[str]:
-    yield f"{word},"
-
-
-def _letter(word: str, rng: Random) -> Iterator[str]:
-    address, sign, number = _parts(word)
-    places = [at for at, char in enumerate(number) if char in "01"]
-    if places:
-        at = rng.choice(places)
-        yield address + sign + number[:at] + {"0": "O", "1": "l"}[number[at]] + number[at + 1 :]
-
-
-def _wrong_digit(word: str, rng: Random) -> Iterator[str]:
-    address, sign, number = _parts(word)
-    at = rng.choice(_digits(number))
-    yield address + sign + number[:at] + rng.choice(_BESIDE[number[at]]) + number[at + 1 :]
-
-
-def _digit_lost(word: str, rng: Random) -> Iterator[str]:
-    address, sign, number = _parts(word)
-    if len(_digits(number)) > 1:
-        at = rng.choice(_digits(number))
-        yield address + sign + number[:at] + number[at + 1 :]
-
-
-def _digit_twice(word: str, rng: Random) -> Iterator[str]:
-    address, sign, number = _parts(word)
-    at = rng.choice(_digits(number))
-    yield address + sign + number[:at] + number[at] + number[at:]
-
-
-def _swapped(word: str, rng: Random) -> Iterator[str]:
-    address, sign, number = _parts(word)
-    places = [at for at in _digits(number)[:-1] if number[at + 1].isdigit() and number[at] != number[at + 1]]
-    if places:
-        at = rng.choice(places)
-        yield address + sign + number[:at] + number[at + 1] + number[at] + number[at + 2 :]
-
-
-def _comma_of_address(word: str, rng: Random) -> Iterator[str]:
-    if word.startswith(","):
-        yield word[1:]
-
-
-def _neighbour(word: str, rng: Random) -> Iterator[str]:
-    if word[0] in _NEIGHBOURS:
-        yield _NEIGHBOURS[word[0]] + word[1:]
-
-
-def _radius(word: str, rng: Random) -> Iterator[str]:
-    if word[0] in "PQ" and "." in word:
-        yield "R" + word[1:]
-
-
-KINDS: dict[str, Callable[[str, Random], Iterator[str]]] = {
-    "sign lost": _sign_lost,
-    "sign added": _sign_added,
-    "two signs": _two_signs,
-    "two points": _two_points,
-    "comma for point": _comma_for_point,
-    "point missing": _point_missing,
-    "point swallowed": _point_swallowed,
-    "stray comma": _stray_comma,
-    "letter for digit": _letter,
-    "wrong digit": _wrong_digit,
-    "digit lost": _digit_lost,
-    "digit twice": _digit_twice,
-    "digits swapped": _swapped,
-    "comma of address": _comma_of_address,
-    "word of the other corner": _neighbour,
-    "R for P or Q": _radius,
-}
 OFTEN = {"sign added": 1, "R for P or Q": 1, "digits swapped": 1, "wrong digit": 1, "digit lost": 1}
 """How often a kind is drawn, where that is not twice: a sign is rather lost than added."""
 
@@ -190,8 +118,7 @@ def random_slip(sound: Sound, rng: Random) -> Slip | None:
         Slip(sound, kind, line, at, typed)
         for line, block in enumerate(sound.blocks)
         for at, word in enumerate(block)
-        if _can_have(sound, block, word, kind)
-        for typed in KINDS[kind](word, rng)
+        if _can_have(sound, block, word, kind) and (typed := _typed(kind, word, rng))
     ]
     return rng.choice(found) if found else None
 
