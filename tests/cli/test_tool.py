@@ -210,8 +210,6 @@ def test_the_moves_to_a_contour_and_away_go_around_it(
     [
         (("G40 G00 X60.", "M30"), None),
         (("G40 G00 X60.", "G28 U0 W0", "M30"), None),
-        (("G40 G28 U0 W0", *AGAIN), None),
-        (("G40", "G28 U0 W0", "M30"), None),
         (("M30",), "still-on: G42 is still in force at program line 8"),
         (("G00 X60.", "M30"), "still-on: G42 is still in force at program line 9"),
         (("T0202", "G40 G00 X60.", "M30"), "still-on: G42 is still in force at program line 8"),
@@ -220,6 +218,8 @@ def test_the_moves_to_a_contour_and_away_go_around_it(
         (("G28 U0 W0", "G00 X60.", "G40", "M30"), "interrupted: program line 8 (G28: reference point return)"),
         (("G28 U0 W0", "G40", *AGAIN), "still-on: G42 is still in force at program line 8"),
         (("G28 U0 W0", *AGAIN), "interrupted: program line 8 (G28: reference point return)"),
+        (("G40 G28 U0 W0", *AGAIN), None),
+        (("G40", "G28 U0 W0", "M30"), None),
     ],
 )
 def test_compensation_that_does_not_end_behind_a_contour_is_told(blocks: tuple[str, ...], told: str | None):
@@ -284,6 +284,28 @@ def test_a_closed_contour_that_begins_in_an_inside_corner(tmp_path: Path):
         assert [each["largest_radius"] for each in contour["tool"]["faults"]] == [None]
         (found,) = data("find", "--word", "tool", *MILL, tmp_path / "a.nc")["contours"]
         assert found["stated"] is None
+
+
+@pytest.mark.parametrize(
+    ("radius", "told"),
+    [
+        ("R5", "2.0711 mm stays in it, 5.0000 mm and 5.0000 mm along"),
+        ("R5.001", "the cutter R5.001 needs 10.0020 mm between its corners: 0.0020 mm short"),
+    ],
+)
+def test_a_slot_as_wide_as_the_tool_is_cut_but_for_its_corners(radius: str, told: str):
+    """A right angle keeps (√2 - 1) R of the tool, and R along both sides: between two of them a straight needs 2 R."""
+    slot = ("G17 G90 G00 X0 Y30.", "G41 D1 G01 X-5. Y20. F500", "Y-10.", "X5.", "Y20.", "G40 X0. Y30.")
+    text = call("check", *MILL, "--tool", radius, "-", stdin=lines(MILL[1], *slot)).stdout
+    assert told in text
+    assert ("tool-element-vanishes" in text) is (radius != "R5")
+    assert "as the path of the centre" not in text
+
+
+def test_what_leads_away_from_a_closed_contour_is_no_wall():
+    around = ("G41 D1 G01 X-30. Y-45. F500", "Y-30.", "Y30.", "X30.", "Y-30.", "X-30.", "X-60.", "G40 Y-60.")
+    text = lines(MILL[1], "G17 G90 G00 X-60. Y-60.", *around)
+    assert "no problems" in call("check", *MILL, "--tool", "R5", "-", stdin=text).stdout
 
 
 def test_what_is_not_followed_or_not_solved_is_told_once(tmp_path: Path):

@@ -332,6 +332,11 @@ def test_lengths_and_directions_are_kept_as_facts_name_them(block, facts, word, 
     assert found.low.value < found.stated < found.high.value
 
 
+def test_a_word_that_is_not_asked_for_is_no_result():
+    with pytest.raises(FamilyError, match=r"there is no result Q; the results are end Z"):
+        tolerance_for(ASKED, "X", keep="Q", within=1, start=START, facts=STRAIGHT)
+
+
 @pytest.mark.parametrize(
     ("word", "keep", "within", "told"),
     [
@@ -348,8 +353,6 @@ def test_what_has_no_tolerance_says_why(word, keep, within, told):
     assert (told in str(caught.value), "\n" in str(caught.value)) == (True, False)
     with pytest.raises(FamilyError, match="as it stands, the block has no contour to keep: "):
         tolerance_for(BLOCK.replace("P5.", "P80."), "A", keep="end Z", within=1, start=START)
-    with pytest.raises(FamilyError, match=r"there is no result Q; the results are end Z"):
-        tolerance_for(ASKED, "X", keep="Q", within=1, start=START, facts=STRAIGHT)
 
 
 def test_a_range_of_a_free_contour_is_not_lost_where_roots_end():
