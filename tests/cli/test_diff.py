@@ -239,20 +239,13 @@ def test_a_harmless_difference_hides_no_other_one(diff):
     for before, behind in changed:
         new = new.replace(before, behind)
     found = diff(TURNED, new.replace("SHAFT", "SHAFT B"), "--control", "fanuc-lathe")
-    assert [quoted(each["changes"]) for each in found["differences"]] == [
-        [("Z-70.", "Z-70.2")],
-        [("X30.", "X30.01")],
-    ]
+    assert [quoted(each["changes"]) for each in found["differences"]] == [[("Z-70.", "Z-70.2")], [("X30.", "X30.01")]]
     assert [each["changes"][0]["by"] for each in found["differences"]] == [-0.2, 0.01]
     assert [each["old_lines"] for each in found["differences"]] == [[13, 14], [9, 12]]
     # The line of 150 degrees begins 0.005 mm higher, and ends on X40. so much farther along Z.
     assert [each["distance_mm"] for each in found["differences"]] == [0.2, pytest.approx(0.005 * 3**0.5, abs=1e-6)]
     assert found["difference"]["old"]["line"] == 9
-    assert quoted(found["besides"]) == [
-        ("T0101", "T0202"),
-        ("F0.15", "F0.25"),
-        ("(STUB SHAFT)", "(STUB SHAFT B)"),
-    ]
+    assert quoted(found["besides"]) == [("T0101", "T0202"), ("F0.15", "F0.25"), ("(STUB SHAFT)", "(STUB SHAFT B)")]
 
 
 @pytest.mark.parametrize(

@@ -230,11 +230,7 @@ MILL_LINES = in_row(
     st.sampled_from(("yasnac-lx3", "nct-99m")).flatmap(
         lambda control: st.tuples(
             st.just(control),
-            st.lists(
-                st.sampled_from(LATHE_LINES if control == "yasnac-lx3" else MILL_LINES),
-                min_size=2,
-                max_size=10,
-            ),
+            st.lists(st.sampled_from(LATHE_LINES if control == "yasnac-lx3" else MILL_LINES), min_size=2, max_size=10),
         )
     ),
     few=2,
@@ -374,8 +370,7 @@ def test_a_program_that_is_cut_while_it_is_expanded_is_noticed(tmp_path):
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
 @pytest.mark.parametrize(
-    ("lines", "is_terminal", "is_shown"),
-    [(30_000, True, True), (30_000, False, False), (30, True, False)],
+    ("lines", "is_terminal", "is_shown"), [(30_000, True, True), (30_000, False, False), (30, True, False)]
 )
 def test_progress_is_shown_on_a_terminal_and_nowhere_else(lines, is_terminal, is_shown, tmp_path):
     import pty  # noqa: PLC0415 - only where there are terminals

@@ -90,11 +90,7 @@ def test_what_is_not_in_the_drawing_is_named_with_its_lines(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("output", "said"),
-    [
-        ("part.jpg", "drawings end in .svg, .png or .dxf"),
-        ("program.dxf", "is the program itself"),
-    ],
+    ("output", "said"), [("part.jpg", "drawings end in .svg, .png or .dxf"), ("program.dxf", "is the program itself")]
 )
 def test_a_target_that_makes_no_sense_is_named(tmp_path, output, said):
     program = tmp_path / "program.dxf"

@@ -137,10 +137,7 @@ def test_the_command_writes_one_page_and_tells_by_its_status_whether_there_are_e
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
-    [
-        (["x.nc", "-o", "x.pdf"], "x.pdf: pages end in .html"),
-        (["-", "-o", "absent/x.html"], "is no directory"),
-    ],
+    [(["x.nc", "-o", "x.pdf"], "x.pdf: pages end in .html"), (["-", "-o", "absent/x.html"], "is no directory")],
     ids=lambda value: " ".join(value) if isinstance(value, list) else None,
 )
 def test_what_cannot_be_done_is_said_in_a_line(tmp_path, monkeypatch, arguments, message):

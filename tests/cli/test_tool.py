@@ -82,10 +82,7 @@ def test_a_family_has_the_tool_as_a_word(command):
         ("T0101 = {radius = 0.8, tip = 12}", "tools.T0101: there is no tip 12"),
         ("X1 = {radius = 0.8}", "tools.X1: it is no tool; write T0101"),
         ("T0202 = {radius = 0.8, tip = 3}", "T0101 in program line 1 has no row in the table of tools"),
-        (
-            "T0101 = {radius = 0.8, tip = 3}\nT101 = {radius = 0.4, tip = 3}",
-            "T0101 and T101 in the table of tools",
-        ),
+        ("T0101 = {radius = 0.8, tip = 3}\nT101 = {radius = 0.4, tip = 3}", "T0101 and T101 in the table of tools"),
         ("D1 = {radius = 5}\nD01 = {radius = 6}", "D1 and D01 in the table of tools name one tool; leave one out"),
     ],
 )

@@ -181,11 +181,7 @@ def test_no_other_status_passes_for_what_lists_solutions_and_answers(desk, name)
     [
         (block("X100. A180. K-30. B120."), ["length of line 1 = 30"], "G111 X100. A180. K-30."),
         (block("X100. A180. K-30. B120."), ["Z of V1 = -30"], "G111 X100. A180. K-30."),
-        (
-            pair("G3 I-50 J0", "G1 X-80 Y42.857", "line tangent to arc"),
-            ["radius of arc = 50"],
-            "G1 X-80 Y42.857",
-        ),
+        (pair("G3 I-50 J0", "G1 X-80 Y42.857", "line tangent to arc"), ["radius of arc = 50"], "G1 X-80 Y42.857"),
     ],
 )
 def test_words_that_leave_the_points_loose_fix_none(desk, text, facts, line):

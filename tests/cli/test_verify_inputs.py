@@ -12,19 +12,7 @@ from typing import Any
 import pytest
 from calling import run
 from hypothesis import HealthCheck, given, settings, strategies as st
-from verifying import (
-    EXTENDED,
-    LINE,
-    MILL,
-    PAIR,
-    PROGRAM,
-    PROGRAMS,
-    SAMPLES,
-    Desk,
-    Place,
-    failures,
-    with_contour,
-)
+from verifying import EXTENDED, LINE, MILL, PAIR, PROGRAM, PROGRAMS, SAMPLES, Desk, Place, failures, with_contour
 
 import contoursolve
 

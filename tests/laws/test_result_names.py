@@ -13,11 +13,7 @@ BLOCKS = {
     "inches": ("G111 X4. A175. K-1.2 B120. P.2 Q.2", "B", {"start": "X1.6 Z0.", "units": "inch"}),
     "a chain of a lathe": ("G01 Z-30. ,R5.\nX60. ,A150.\nZ-80.", ",A", {"start": "X40. Z0.", "control": "fanuc-lathe"}),
     "a mill": ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1", ",A", {}),
-    "arcs": (
-        "G17 G41 D0 G0 X-30 Y60\nG1 ,A180 ,R3\nG3 X-85 Y50 I-60 J50 R25 Q-1\nG1 X-75 Y0 ,A-90 Q1",
-        "2:,A",
-        {},
-    ),
+    "arcs": ("G17 G41 D0 G0 X-30 Y60\nG1 ,A180 ,R3\nG3 X-85 Y50 I-60 J50 R25 Q-1\nG1 X-75 Y0 ,A-90 Q1", "2:,A", {}),
 }
 
 

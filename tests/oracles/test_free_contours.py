@@ -90,8 +90,7 @@ ARC = "FC X+50 Y+20 CCX+30 CCY+20 DR+ R20"
 
 
 @pytest.mark.parametrize(
-    ("name", "word"),
-    [("block-no-line", "RAN 2"), ("block-missing", "PAR 9"), ("block-missing-2", "RY 7")],
+    ("name", "word"), [("block-no-line", "RAN 2"), ("block-missing", "PAR 9"), ("block-missing-2", "RY 7")]
 )
 def test_a_reference_to_a_block_that_it_cannot_mean_is_told(name, word):
     row = VECTORS[HEIDENHAIN][f"heidenhain-{name}"]
@@ -184,11 +183,7 @@ def test_a_block_number_that_stands_twice_is_told_where_data_refer_to_it():
 
 def test_a_circle_that_may_slide_lacks_one_word():
     text = chain(
-        "FL X+5 Y+15",
-        "FC CCX+20 CCY+15 DR+ R15",
-        "FPOL X+20 Y+15",
-        "FL AN+40",
-        "FC DR+ R15 CCPR+35 CCPA+40 CCA+180",
+        "FL X+5 Y+15", "FC CCX+20 CCY+15 DR+ R15", "FPOL X+20 Y+15", "FL AN+40", "FC DR+ R15 CCPR+35 CCPA+40 CCA+180"
     )
     answer = solved(text)
     assert answer.status.value == "underdetermined"
@@ -387,10 +382,7 @@ def has_drawn(chain):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "seeds",
-    [
-        range(FAST),
-        *(pytest.param(range(at, at + SHARE), marks=pytest.mark.slow) for at in range(0, CHAINS, SHARE)),
-    ],
+    [range(FAST), *(pytest.param(range(at, at + SHARE), marks=pytest.mark.slow) for at in range(0, CHAINS, SHARE))],
     ids=lambda seeds: f"{seeds.start}-{seeds.stop}",
 )
 def test_a_chain_that_its_data_just_determine_is_among_the_solutions_and_none_is_wrong(seeds):

@@ -141,10 +141,7 @@ def test_a_full_circle_rests_on_an_assumption_and_is_verified():
 PATHS = {
     "as a mill": (["L X+40 Y+0 RL", "RND R20", "L X+40 Y+20"], [(20, 0), (40, 20, 20, 20, 1)]),
     "its own feed": (["L X+40 Y+0", "RND R5 F100", "L X+40 Y+30"], [(35, 0), (40, 5, 35, 5, 1), (40, 30)]),
-    "words between": (
-        ["L X+40", "M8", "RND R5", "* - PART", "M9", "L Y+30"],
-        [(35, 0), (40, 5, 35, 5, 1), (40, 30)],
-    ),
+    "words between": (["L X+40", "M8", "RND R5", "* - PART", "M9", "L Y+30"], [(35, 0), (40, 5, 35, 5, 1), (40, 30)]),
     "chamfer": (["L X+40 Y+0", "CHF 5", "L IY+30", "L X+0"], [(35, 0), (40, 5), (40, 30)]),
     "behind a tangent arc": (
         ["L X+40", "CT X+60 Y+20", "RND R5", "L X+80 Y+20"],
@@ -212,11 +209,7 @@ APART = {
     "behind a call": (["CALL LBL 1", "RND R5", *_BEHIND, "M30", "LBL 1", "L X+40 Y+30", "LBL 0"], 1, [_END]),
     "first of a call": (["L X+40 Y+30", "CALL LBL 1", "M30", "LBL 1", "RND R5", *_BEHIND, "LBL 0"], 1, [_END]),
     "last of a call": (["CALL LBL 1", *_BEHIND, "M30", "LBL 1", "L X+40 Y+30", "RND R5", "LBL 0"], 1, [_END]),
-    "a parameter that is not known": (
-        ["L X+40 Y+0", "RND RQ5", "DEP LT LEN5", "L X+40 Y+30", *_BEHIND],
-        1,
-        [_END],
-    ),
+    "a parameter that is not known": (["L X+40 Y+0", "RND RQ5", "DEP LT LEN5", "L X+40 Y+30", *_BEHIND], 1, [_END]),
     "a program that is not there": (["RND R5", "CALL PGM AWAY.H", "RND R4", "L X+40 Y+30", *_BEHIND], 2, [_END]),
 }
 

@@ -21,10 +21,7 @@ ALIKE = {
     ISG: {f"{ISG}.pair-sense": "ray"},
 }
 """Settings with which the oracle and the control agree."""
-LATHE = {
-    SINUMERIK: Machine(is_lathe=True, guard=0.0),
-    ISG: Machine(is_lathe=True, guard=0.0, strict=True, sense="ray"),
-}
+LATHE = {SINUMERIK: Machine(is_lathe=True, guard=0.0), ISG: Machine(is_lathe=True, guard=0.0, strict=True, sense="ray")}
 MILL = Machine(is_lathe=False, guard=0.0)
 TYPED = {
     True: (",A", ",C", ",R", "X", "Z", "U", "W", "R", "I", "K"),

@@ -457,12 +457,7 @@ def two_rods(x: Decimal = Decimal(60)) -> Sketch:
     sketch = Sketch()
     sketch.line("E1")
     sketch.line("E2")
-    for fact in (
-        "length of E1 = 40",
-        "E2 tangent to circle (X50 Y10 R15)",
-        "length of E2 = 30",
-        f"X of P2 = {x:f}",
-    ):
+    for fact in ("length of E1 = 40", "E2 tangent to circle (X50 Y10 R15)", "length of E2 = 30", f"X of P2 = {x:f}"):
         sketch.state(fact)
     return sketch
 

@@ -17,8 +17,7 @@ PATIENCE = 60
 
 CAPABILITIES = types.ClientCapabilities(
     workspace=types.WorkspaceClientCapabilities(
-        workspace_edit=types.WorkspaceEditClientCapabilities(document_changes=True),
-        configuration=True,
+        workspace_edit=types.WorkspaceEditClientCapabilities(document_changes=True), configuration=True
     ),
     text_document=types.TextDocumentClientCapabilities(
         publish_diagnostics=types.PublishDiagnosticsClientCapabilities(related_information=True, version_support=True),

@@ -19,10 +19,7 @@ def law(
     """In the place of `given`: two cases, with the few examples of the profile dev and with the many of the profile ci,
     and always with `examples`. Parameters before those of the strategies are fixtures."""
     dev, ci = settings.get_profile("dev"), settings.get_profile("ci")
-    counts = {
-        "few": few or dev.max_examples,
-        "many": many or ci.max_examples,
-    }
+    counts = {"few": few or dev.max_examples, "many": many or ci.max_examples}
 
     def hold(check: Callable[..., None]) -> Callable[..., None]:
         @pytest.mark.parametrize("count", ["few", "many"])

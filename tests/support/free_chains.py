@@ -52,15 +52,9 @@ def draw(start: Point, direction: float, steps: list[Step]) -> list[Drawn]:
     here, way, found = start, direction, []
     for step in steps:
         if step.sense:
-            center = (
-                here[0] - step.sense * step.radius * sin(way),
-                here[1] + step.sense * step.radius * cos(way),
-            )
+            center = (here[0] - step.sense * step.radius * sin(way), here[1] + step.sense * step.radius * cos(way))
             end = way + step.sense * step.sweep
-            head = (
-                center[0] + step.sense * step.radius * sin(end),
-                center[1] - step.sense * step.radius * cos(end),
-            )
+            head = (center[0] + step.sense * step.radius * sin(end), center[1] - step.sense * step.radius * cos(end))
         else:
             center, end = here, way
             head = here[0] + step.length * cos(way), here[1] + step.length * sin(way)

@@ -178,11 +178,7 @@ BLOCKS: Mapping[str, Callable[[Random], Block]] = {
     "conventional": _conventional,
     "tangent": _tangent,
     "angles": _angles,
-    "lathe": lambda r: (
-        "\n".join(random_lathe(r, r.randint(2, 5))),
-        r.choice(("fanuc-lathe", "haas-lathe")),
-        None,
-    ),
+    "lathe": lambda r: ("\n".join(random_lathe(r, r.randint(2, 5))), r.choice(("fanuc-lathe", "haas-lathe")), None),
     "mill": _mill,
     "pair": lambda r: (
         random_pair(r, r.choice(FORMS), r.choice((17, 18, 19)), r.choice(" CR").strip()).text,

@@ -272,13 +272,7 @@ def circle_line(
 
 
 def _circle_line(
-    plane: int,
-    start: complex,
-    turn: str,
-    arc: Words,
-    line: Words,
-    is_incremental: bool,
-    outcome: Outcome,
+    plane: int, start: complex, turn: str, arc: Words, line: Words, is_incremental: bool, outcome: Outcome
 ) -> None:
     first, second, i, j = PLANES[plane]
     if is_incremental:
