@@ -70,6 +70,12 @@ _WRITTEN_OUT = "G0 X0 Y0|G91 G1 X{0}|G90|G91 G1 X{0}|G90|G1 X60 RND=2 F100|Y20|M
         ("M97 P9 L2\nG00 X5.\nM30\nN9 G91 G00 X1.\nG90\nM99", "haas-mill", "fanuc-mill", {},
          "G91 G00 X1.|G90|G91 G00 X1.|G90|G00 X5.", []),
         ("M98 P1\nM30\nO1\nG04 P500\nM99", "fanuc-mill", "haas-mill", {}, "O00002|M98 P1|M30|O1|G04 P500", []),
+        ("G21 G99\nG00 X9. Z1.\nG01 Z-5. F20\nG04 X500\nG98\nX20. F100\nM30", "fanuc-lathe", "haas-lathe", {},
+         "G01 Z-5. F0.2|G04 P500|G98|X20. F100.", []),
+        ("G70\nG0 X0 Y0\nG1 X1 F254\nM30", "siemens-840d", "heidenhain", {},
+         "1 L X+0 Y+0 R0 FMAX|2 L X+1 F100", []),
+        ("G00 X0.\nN1 #1=#1+1.\nG00 X#1\nGOTO 1\nM30", "fanuc-mill", "isg", {},
+         "(NOT CONVERTED: GOTO 1)|M30", [2, 3, 4]),
         ("R1=2 ; DEPTH\nG0 X=R1 F=R2\nM30", "siemens-840d", "isg", {}, "(NOT CONVERTED: F=R2)|G00 X2|M30", [2]),
     ],
 )  # fmt: skip

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from contoursolve.gcode import Block, own_comments
 from contoursolve.geometry import Length
 from contoursolve.postprocess.conversion.program_words import TABLE, ControlKind, ProgramFunction, cell_of
-from contoursolve.reading import MOTIONS, Bearing, Code, Control, Effect, Plain, Restated, State
+from contoursolve.reading import MOTIONS, Bearing, Code, Control, Effect, Plain, Restated, State, WithoutPoint
 
 
 class SaidFunction(NamedTuple):
@@ -20,6 +20,8 @@ class SaidFunction(NamedTuple):
     number: Decimal = Decimal(0)
     text: str = ""
     place: int = 0
+    has_point: bool = True
+    """Whether its number has a point, where one without counts steps."""
 
 
 class Token(NamedTuple):
@@ -113,7 +115,10 @@ class MeaningReader:
         self.control, self.kind, self.modes = control, kind, control.modes
         self.plain: Plain | None = control.writing.plain() if control.writing is not None else None
         self.tool = Decimal(0)
-        self.has_ended = False
+        is_haas = kind in (ControlKind.HAAS_LATHE, ControlKind.HAAS_MILL)
+        numbers = control.modes.lexicon.numbers
+        self.counts = kind.is_fanuc and not is_haas and numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+        """Tells whether a feed and a dwell without a point count steps; on a Haas, a setting decides."""
 
     def read(self, block: Block, before: State, after: State, *, is_contour: bool) -> Meaning:
         """Read a block, between two states."""
@@ -182,6 +187,8 @@ class MeaningReader:
                 and value.has_point
             ):
                 number *= 1000
+            if self.counts and pattern.function is ProgramFunction.DWELL and value is not None:
+                number *= 1 if value.has_point or value.address == "P" else _MS
             said = " ".join(each.text for each in taken)
             meaning.functions.append(
                 SaidFunction(pattern.function, number * pattern.factor, said, tokens.index(taken[0]))
@@ -255,7 +262,8 @@ class MeaningReader:
             if token.number is None:
                 meaning.lost.append(token.text)
             else:
-                meaning.functions.append(SaidFunction(_STRAY[address], token.number, token.text))
+                has_point = token.has_point or not self.counts
+                meaning.functions.append(SaidFunction(_STRAY[address], token.number, token.text, has_point=has_point))
         elif address == "G":
             code = self.modes.codes.get(int(token.number)) if token.number is not None else None
             if code is not None and (code.effect is Effect.NONE or code.effect is Effect.CANCEL) and code.is_read:

@@ -131,7 +131,7 @@ class BlockWriter:
         self.label = ""
         self.feeds, self.source_feeds = Feeds(first_feed(control)), Feeds(first)
         self.feed: dict[ProgramFunction, Decimal] = {}
-        self.is_feed_due = False
+        self.is_feed_due = self.has_metric_feed = False
         self.tool = Decimal(0)
         self.tool_name = ""
         """The name of the tool that was called last, if it has no number."""
@@ -240,17 +240,24 @@ class BlockWriter:
         return text if self.has_two_digits or text[:1] != "G" else "G" + (text[1:].lstrip("0") or "0")
 
     def _converted_feed(self, number: Decimal) -> Decimal:
-        """A feed in the units of the target: the ISG kernel counts mm in any program, Klartext tenths of an inch."""
+        """A feed in the units of the target: the ISG kernel counts mm in any program, Klartext tenths of an inch. The
+        program counts mm, too, with G70 of SINUMERIK."""
         if self.state.unit is not Length.INCH:
             return number
+        mm, inch = number * Length.INCH.in_mm, number
+        if self.has_metric_feed:
+            mm, inch = number, round(number / Length.INCH.in_mm, 5)
         if self.kind is ControlKind.ISG:
-            return number * Length.INCH.in_mm
-        return number * 10 if self.is_klartext else number
+            return mm
+        return inch * 10 if self.is_klartext else inch
 
     def _settle(self, meaning: Meaning) -> list[SaidFunction]:
         """The functions of a block as the target needs them: its feed mode, and the feed again where that is due."""
         functions = list(meaning.functions)
         self.source_feeds.take((each.function for each in functions), self.source)
+        if meaning.has(ProgramFunction.MM, ProgramFunction.INCH):
+            self.has_metric_feed = meaning.is_metric_feed
+        functions = [self._with_point(each) for each in functions]
         is_minute = self.source_feeds.mode is ProgramFunction.FEED_A_MINUTE
         if self.kind is ControlKind.SINUMERIK and is_minute:
             functions = [each._replace(function=_SPEEDS.get(each.function, each.function)) for each in functions]
@@ -274,6 +281,18 @@ class BlockWriter:
         is_changed = self.kind is ControlKind.SINUMERIK and before is not self.feeds.mode
         self.is_feed_due = (self.is_feed_due or is_changed) and not has_feed
         return functions
+
+    def _with_point(self, said: SaidFunction) -> SaidFunction:
+        """A feed a revolution without a point counts 0.01 mm or 0.0001 inch (Siemens ISO milling 04.07, p. 1-13)."""
+        is_feed = said.function is ProgramFunction.FEED and self.source_feeds.mode is ProgramFunction.FEED_A_TURN
+        if said.has_point or not is_feed:
+            return said
+        number = said.number * (_STEP_INCH if self.state.unit is Length.INCH else _STEP_MM)
+        if not any(said.text in each for each in self.notes):
+            self.notes.append(
+                f"{said.text} has no point: read as {number.normalize():f} {self.state.unit.value} a turn"
+            )
+        return said._replace(number=number, has_point=True)
 
     def _with_known_tool(self, meaning: Meaning, functions: list[SaidFunction]) -> list[SaidFunction]:
         """The functions without those of a tool that has a name, where the target calls tools by number."""
@@ -349,7 +368,7 @@ class BlockWriter:
         placed.sort(key=lambda each: each[0])
         parts.codes += [text for _, text in placed if text and text not in parts.codes]
         parts.codes.sort(key=lambda each: each in _LAST)
-        for function, number, _, _ in functions:
+        for function, number, *_ in functions:
             if function is ProgramFunction.FEED:
                 parts.words.append(self.feed_word(self._converted_feed(number)))
             elif function is ProgramFunction.SPEED:
@@ -694,6 +713,7 @@ class _Written(Struct, frozen=True):
 
 
 _NO_SIDE = 40
+_STEP_MM, _STEP_INCH = Decimal("0.01"), Decimal("0.0001")
 _COUNTS = (Effect.ABSOLUTE, Effect.INCREMENTAL)
 _LAST = ("DIAMON", "G51")
 _BARE = re.compile(r",?[XYZUVWABCIJKR]=?-?\d+")

@@ -537,7 +537,7 @@ class _Program:
         )
         return has_same_words and all(
             cell_of(each.function, self.kinds[0]) == cell_of(each.function, self.kinds[1])
-            and (is_same_kind or each.function is not ProgramFunction.DWELL)
+            and (is_same_kind or (each.has_point and each.function is not ProgramFunction.DWELL))
             for each in line.meaning.functions
         )
 

@@ -40,7 +40,7 @@ def as_it_runs(result: Result, asked: Request) -> tuple[Sequence[Step] | None, t
     if machine is None or not machine.computes:
         return None, ()
     ran = [*walk((), asked, machine=machine, told=events.append)]
-    lost = next((each for each in events if each.kind is EventKind.UNDECIDED), None)
+    lost = next((each for each in events if each.kind in (EventKind.UNDECIDED, EventKind.STOPPED)), None)
     if lost is not None:
         return None, (f"calls, jumps and variables are not written out: {lost.reason}",)
     if any(block.file for step in ran for block in step.blocks):
