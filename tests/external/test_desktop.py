@@ -131,8 +131,11 @@ def test_nothing_is_written_beside_it(built, folder, place):
     assert contents(built) == before
 
 
-@pytest.mark.parametrize("kind", ["folder", "one_file"])
-@pytest.mark.parametrize("arguments", [(), ("cam.h",), ("serve", "--no-browser")], ids=" ".join)
+@pytest.mark.parametrize(
+    ("kind", "arguments"),
+    [("folder", ()), ("folder", ("serve", "--no-browser")), ("one_file", ("cam.h",)), ("one_file", ())],
+    ids=str,
+)
 def test_a_double_click_and_a_dropped_file_open_the_workbench(request, kind, place, tmp_path, arguments):
     told, browser = tmp_path / "address", tmp_path / "browser.py"
     note = "import os, sys; open(sys.argv[1], 'w').write(sys.argv[2] + os.environ.get('LD_LIBRARY_PATH', ''))"

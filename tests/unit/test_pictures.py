@@ -230,7 +230,7 @@ def test_random_blocks_of_every_status_are_drawn(seed):
         text = draw.choice(examples(control))
         for _ in range(draw.randrange(1, 4)):
             text = mutate(text, draw)
-        others = contoursolve.solve(text, control=control, rules=options["rules"]).answers
+        others = contoursolve.solve(text, control=control, **options).answers
         for answer in (*answers, *others):
             check(draw_answer(answer, theme=draw.choice(list(Theme))))
         for answer in answers:

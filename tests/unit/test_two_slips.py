@@ -1,6 +1,7 @@
 """Two slips at once: each has its finding and its fix, and the fixes apply one after the other."""
 
 import pytest
+from test_slip_corpus import mended
 
 import contoursolve
 from contoursolve.program import changed
@@ -9,18 +10,9 @@ TURNED = "G00 X40. Z-48.|G01 Z-60. ,R3. F0.2|X50. ,C1.|Z-75.|X60."
 PLATE = "N10 G17 G90|N20 G0 X0 Y0|N30 G41 G1 X60 ,R8 F200|N40 Y40 ,C5|N50 X30 ,R8|N60 X0 Y0"
 
 
-def one_after_the_other(control: str, lines: list[str]) -> list[str]:
-    """A program with the first fix of its first error or warning, and so on until nothing is left or has a fix."""
-    for _ in range(4):
-        result = contoursolve.solve("\n".join(lines), control=control)
-        found = [(each, fix) for each in result.diagnostics for fix in each.fixes[:1]]
-        if not found:
-            break
-        finding, fix = found[0]
-        old = dict(enumerate(lines, 1))
-        changes = contoursolve.editing.changes_of(fix, result.lines_of(finding), old)
-        lines = changed("\n".join(lines), changes).split("\n")
-    return lines
+def one_after_the_other(control: str, text: str) -> str:
+    """A program with its first fixes."""
+    return "|".join(mended({"control": control, "slip": text.split("|"), "settings": []}))
 
 
 CASES = {
@@ -47,7 +39,7 @@ def test_two_slips_have_a_finding_and_a_fix_each(name):
         assert any(span_text(text, span) in typed for typed in slips.values())
         new = each.fixes[0].by_line(result.lines_of(each))
         assert [line for line in new if new[line] != text.split("|")[line - 1]] == [span.line]
-    assert "|".join(one_after_the_other(control, text.split("|"))) == right
+    assert one_after_the_other(control, text) == right
 
 
 def span_text(text: str, span: tuple[int, int, int]) -> str:
@@ -97,11 +89,11 @@ def test_a_lost_point_is_the_first_error_and_nothing_else_is_blamed_for_it(name)
     result = contoursolve.solve(text.replace("|", "\n"), control="fanuc-lathe")
     (finding,) = result.diagnostics
     assert (finding.code, finding.is_error) == ("point-lost", True)
-    assert "|".join(one_after_the_other("fanuc-lathe", text.split("|"))) == right
+    assert one_after_the_other("fanuc-lathe", text) == right
     both = text.replace(",R3.", ",R30.")
     found = contoursolve.solve(both.replace("|", "\n"), control="fanuc-lathe").diagnostics
     assert [each.code for each in found] == ["point-lost", "fanuc-corner-too-large"]
-    assert "|".join(one_after_the_other("fanuc-lathe", both.split("|"))) == right
+    assert one_after_the_other("fanuc-lathe", both) == right
 
 
 @pytest.mark.parametrize(
