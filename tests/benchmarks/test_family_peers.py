@@ -3,8 +3,7 @@
 The work is two lines by A, K, B and X with one rounding P, for random A and P: the intersections, the ends and the
 centre of the rounding. contoursolve also makes every check, and says of each row what is wrong with it.
 
-A peer that is not installed has no row, and the test says so. `pip install -e '.[test]' --group peers` has them all but
-planegcs: `by_planegcs.py` says how to install it.
+A peer that is not installed has no row, and the test says so. How general solvers find a chain: `peers.py`.
 """
 
 import sys
@@ -12,7 +11,7 @@ from collections.abc import Callable
 from functools import cache
 from math import cos, hypot, radians, sin
 from time import process_time
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
@@ -56,52 +55,6 @@ GUESS = np.array([-30, 20, -47, 50, -27, 20, -31, 22, -27, 25], float)
 def by_scipy(rows: int) -> np.ndarray:
     fsolve = pytest.importorskip("scipy.optimize").fsolve
     return np.array([fsolve(equations, GUESS, (radians(a), p)) for a, p in zip(A[:rows], P[:rows], strict=True)])
-
-
-class PlaneSystem(NamedTuple):
-    """A system of planegcs (FreeCAD) with the numbers of what varies and of what is asked."""
-
-    solver: Any
-    angle: int
-    radius: int
-    points: list[int]
-
-    def solve(self) -> list[float]:
-        self.solver.solve()
-        return [value for point in self.points for value in self.solver.get_point(point)]
-
-
-def plane_system(a: float, p: float) -> PlaneSystem:
-    """Angles have a direction, so that the centre stays on the side of the first guess."""
-    solver = pytest.importorskip("planegcs").SketchSolver()
-
-    def fixed(value: float) -> int:
-        return solver.add_param(value, fixed=True)
-
-    start = solver.add_point(0, 20)
-    v1, v2, begin, end, center = points = [solver.add_point(*GUESS[2 * n : 2 * n + 2].tolist()) for n in range(5)]
-    angle, radius, quarter = fixed(a), fixed(p), fixed(radians(90))
-    solver.coordinate_x(start, fixed(0))
-    solver.coordinate_y(start, fixed(20))
-    solver.coordinate_x(v1, fixed(K))
-    solver.coordinate_y(v2, fixed(X))
-    solver.p2p_angle(start, v1, angle)
-    solver.p2p_angle(v1, v2, fixed(B))
-    for line, contact in ((solver.add_line(start, v1), begin), (solver.add_line(v1, v2), end)):
-        solver.point_on_line(contact, line)
-        solver.l2l_angle(line, solver.add_line(center, contact), quarter)
-        solver.p2p_distance(center, contact, radius)
-    return PlaneSystem(solver, angle, radius, points)
-
-
-def by_planegcs_again(rows: int) -> np.ndarray:
-    """One system, solved from the last row's solution after its two values were changed."""
-    system, found = plane_system(radians(180), 5), []
-    for a, p in zip(np.radians(A[:rows]).tolist(), P[:rows].tolist(), strict=True):
-        system.solver.set_param(system.angle, a)
-        system.solver.set_param(system.radius, p)
-        found.append(system.solve())
-    return np.array(found)
 
 
 def by_lambdify(rows: int) -> np.ndarray:
@@ -157,7 +110,6 @@ PEERS: dict[str, tuple[Callable[[int], np.ndarray], int]] = {
     "sympy.lambdify, unchecked": (by_lambdify, ROWS),
     "function().map of a system, unchecked": (by_map, ROWS),
     "a loop over contoursolve.solve": (by_loop, 2_000),
-    "planegcs (FreeCAD), one system solved again": (by_planegcs_again, 2_000),
     "scipy.optimize.fsolve": (by_scipy, 2_000),
 }
 
