@@ -531,6 +531,8 @@ def test_tolerances_add_up_at_worst_and_in_squares():
     spreads = found.spread({"K": 0.03, "X": 0.04 / abs(found.slopes["V2 Z"]["X"])})
     spread = spreads["V2 Z"]
     assert (spread.worst, spread.typical) == pytest.approx((0.07, 0.05))
+    # V2 lies 30 mm (on radius) above V1: 30 cot B behind it.
+    assert found.slopes["V2 Z"]["B"] == pytest.approx(-30 / np.sin(np.radians(120)) ** 2 * np.pi / 180)
     assert spreads["Z of V2"] == spread  # a name that the slopes take, too
     with pytest.raises(FamilyError, match="no word R; there are X, A, K, B, P, Q"):
         found.spread({"R": 1})
