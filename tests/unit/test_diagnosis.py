@@ -6,7 +6,7 @@ The equations are written down a second time here, as rows of a matrix, and ever
 import re
 from collections import Counter
 from decimal import Decimal
-from itertools import combinations
+from itertools import combinations, product
 from math import atan2, cos, degrees, hypot, inf, radians, sin
 from random import Random
 from typing import Any
@@ -153,7 +153,7 @@ def random_words(random: Random, letters: str) -> Words:
     return words
 
 
-@pytest.mark.parametrize("seed", range(100))
+@pytest.mark.parametrize("seed", range(40))
 def test_ties_freedoms_and_status_are_those_of_the_ranks(seed):
     random = Random(seed)
     size = random.choice((1, 2, 3, 4, 5, 5, 6, 6, 7, 8))
@@ -247,10 +247,15 @@ def exact_v1(a: Decimal, b: Decimal, x: Decimal, z: Decimal) -> tuple[Any, Any]:
         return s * u[0], 20 + s * u[1]
 
 
-@pytest.mark.parametrize("power", range(1, 15))
-@pytest.mark.parametrize("half_turn", [0, 180])
-@pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize("aside", [0, 20], ids=["on the way", "10 mm aside"])
+PARALLEL = [
+    (power, half_turn, sign, aside)
+    for number, (half_turn, sign, aside) in enumerate(product((0, 180), (1, -1), (0, 20)))
+    for power in range(1 + number.bit_count() % 2, 15, 2)
+]
+"""Ever smaller angles; line 2 runs on or back, and the contour is on the way or 10 mm aside."""
+
+
+@pytest.mark.parametrize(("power", "half_turn", "sign", "aside"), PARALLEL)
 def test_lines_ever_more_parallel_are_never_solved_wrongly(power, half_turn, sign, aside):
     a, z = Decimal(150), Decimal(-40)
     b = a - half_turn + sign * Decimal(10) ** -power
@@ -275,8 +280,8 @@ def test_lines_ever_more_parallel_are_never_solved_wrongly(power, half_turn, sig
 @pytest.mark.parametrize("power", range(1, 15))
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("side", [1, -1])
-@pytest.mark.parametrize("circle", ["I-50", "X-50 Y0 R50", "X-50 Y0 I-50"])
-def test_line_ever_closer_to_touching_the_circle_is_never_solved_wrongly(power, sign, side, circle):
+def test_line_ever_closer_to_touching_the_circle_is_never_solved_wrongly(power, sign, side):
+    circle = ("I-50", "X-50 Y0 R50", "X-50 Y0 I-50")[(power + sign - side) % 3]
     height = 50 * (1 + sign * Decimal(10) ** -power)
     (answer,) = solve(f"G17 G42 G0 X50 Y0\nG3 {circle}\nG1 X-60 Y{height:f} ,A180 Q{side}").answers
     assert_layers_fit(answer)
