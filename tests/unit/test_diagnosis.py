@@ -5,6 +5,7 @@ The equations are written down a second time here, as rows of a matrix, and ever
 
 import re
 from collections import Counter
+from collections.abc import Mapping
 from decimal import Decimal
 from itertools import combinations, product
 from math import atan2, cos, degrees, hypot, inf, radians, sin
@@ -16,6 +17,7 @@ import numpy
 import pytest
 
 from contoursolve import Answer, Severity, solve
+from contoursolve.pictures import draw_result
 
 START = "X40. Z0."
 LAYERS = ["grammar", "rules", "structure", "generic rank", "values", "geometry"]
@@ -79,7 +81,7 @@ def test_line_that_misses_the_circle_is_told_by_how_much_and_which_angles_meet_i
 # Ties and freedoms against every subset of words ------------------------------------------------------
 
 
-def rows_of(words: Words, start: tuple[float, float] = (0, 20)) -> tuple[numpy.ndarray, numpy.ndarray]:
+def rows_of(words: Mapping[str, Any], start: tuple[float, float] = (0, 20)) -> tuple[numpy.ndarray, numpy.ndarray]:
     """The words as rows of a matrix and right sides; unknowns V1z, V1x, V2z, V2x from the start point, mm."""
     z, x = start
 
@@ -214,6 +216,81 @@ def assert_freedoms(words: Words, answer: Answer) -> None:
             motion = numpy.linalg.lstsq(part.T, direction, rcond=None)[0] @ null
             assert motion[list(columns)] == pytest.approx(direction, abs=1e-9)
             assert matrix @ motion == pytest.approx(numpy.zeros(len(matrix)), abs=1e-9)
+
+
+# Blocks that lack something in one part and contradict themselves in another ----------------------------------
+
+
+def rank_and_misses(values: dict[str, float], start: tuple[float, float]) -> tuple[int, dict[str, float]]:
+    """The rank of the equations of some words; and by how much each word that the words before it make unnecessary
+    misses what they say."""
+    names = [name for name in "IKAXUZWB" if name in values]
+    rows, right = rows_of({name: values[name] for name in names}, start)
+    kept, off = list[int](), dict[str, float]()
+    for number, name in enumerate(names):
+        weights = numpy.linalg.lstsq(rows[kept].T, rows[number], rcond=None)[0] if kept else numpy.zeros(0)
+        if abs(rows[number] - weights @ rows[kept]).max() < 1e-9:
+            off[name] = abs(right[number] - weights @ right[kept])
+        else:
+            kept.append(number)
+    return len(kept), off
+
+
+def draw_values(draw: Random, letters: list[str], *, is_shaken: bool) -> tuple[dict[str, float], tuple[float, float]]:
+    """Values of the words of one contour, and its start; shaken, some are moved, by far more than what is told."""
+    z, x = draw.uniform(-50, 50), draw.uniform(5, 60)
+    (v1z, v1x), (v2z, v2x) = ((draw.uniform(-90, 90), draw.uniform(5, 90)) for _ in range(2))
+    values = {"I": v1x - x, "K": v1z - z, "X": 2 * v2x, "U": 2 * (v2x - x), "Z": v2z, "W": v2z - z}
+    values |= {"A": degrees(atan2(v1x - x, v1z - z)), "B": degrees(atan2(v2x - v1x, v2z - v1z))}
+    for letter in draw.sample(EQUATIONS, 3) if is_shaken else ():
+        values[letter] += draw.choice((1, -1)) * draw.uniform(1, 9)
+    values |= {letter: draw.uniform(0.1, 0.5) for letter in "CPDQ"}
+    return {letter: round(values[letter], 12) for letter in letters}, (round(z, 12), round(x, 12))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_both_parts_of_blocks_of_any_words_are_told(seed):
+    draw = Random(seed)
+    for _ in range(40):
+        letters = draw.sample(EQUATIONS + "CPDQ", draw.randint(1, 12))
+        values, start = draw_values(draw, letters, is_shaken=draw.random() < 0.5)
+        rank, off = rank_and_misses(values, start)
+        if any(1e-9 < each <= 0.01 for each in off.values()):
+            continue
+        block = "G111 " + " ".join(f"{letter}{value:.12f}" for letter, value in values.items())
+        answer = answer_to(block, "off", f"X{2 * start[1]:.12f} Z{start[0]:.12f}", depth="verdict")
+        codes = {each.code: each for each in answer.diagnostics}
+        conflicts = [each for each in answer.diagnostics if each.code == "words-conflict"]
+        told = {each.addresses[0]: each.values["off_by_mm"] for each in conflicts}
+        assert told == pytest.approx({letter: each for letter, each in off.items() if each > 0.01}, abs=1e-6), block
+        # Nothing tells on which line corner 2 lands.
+        is_nowhere = bool({*letters} & {*"DQ"}) and bool({*letters} & {*"XU"}) == bool({*letters} & {*"ZW"})
+        assert ("words-missing" in codes, "corner-nowhere" in codes) == (rank < 4, is_nowhere), (block, codes)
+        if told or {*"CP"} <= {*letters} or {*"DQ"} <= {*letters}:
+            statuses = {"conflicting"}
+        elif rank < 4 or is_nowhere:
+            statuses = {"underdetermined"}
+        else:
+            statuses = {"overdetermined"} if off else {"solved", "no-solution"}
+        assert answer.status.value in statuses, (block, codes)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G17 G90 G41 G0 X120.8 Y-55.9\nG1 G90 ,R7.75\nG3 R17.36 Q77 Y-101.97 I-100.41 J-117.73 X107.69",
+        "G17 G90 G41 G0 X124 Y34.4\nG1 ,C9.9 ,A-270.\nG91 Y29.2 ,A-42.7\nG3 G91 X123.6 Y-35.3 R86.9 J64.3 I205.5 Q-77",
+    ],
+    ids=["pair", "chain"],
+)
+def test_a_circle_that_misses_its_point_is_told_where_its_beginning_is_not_determined(text):
+    found = {each.code for each in solve(text, control="nct-99m").diagnostics}
+    assert {"nct-radius-difference", "words-missing"} <= found
+
+
+def test_the_picture_shows_what_the_text_says():
+    result = solve("G111 Z-27.727 W-4.211 A180. B-152.", start="X40. Z0.", rules="off")
+    assert "23.516 off" in str(draw_result(result).svg)
 
 
 # Ladders to the edge ----------------------------------------------------------------------------------

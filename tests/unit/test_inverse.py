@@ -8,21 +8,15 @@ from random import Random
 import calling
 import numpy as np
 import pytest
+from generate_g111 import SHAPES, draw_g111
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from msgspec.structs import replace
-from test_family import ALL, filled
 
 import contoursolve
 from contoursolve.families import FamilyError, Way, family, feasible, find, inverse, spec_of, tolerance_for
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
-
-
-def solved(name, word, value):
-    block, options, _ = ALL[name]
-    text, more = filled(block, options, {word: value})
-    return contoursolve.solve(text, depth="verdict", **more).answers[0]
 
 
 def place_of(point, contour):
@@ -127,25 +121,14 @@ def test_a_value_that_single_solves_do_not_confirm_leaves_the_list_open(give, mo
 
 
 def g111_of(rng):
-    """A sound block with any words and corners, round numbers among them."""
-    while True:
-        line2 = rng.choice(("BX", "BZ", "BU", "BW", "XZ", "UW", "XW", "UZ"))
-        words = rng.choice(("AI", "AK", "IK", "AIK")) + line2 + rng.choice(("", "C", "P"))
-        words += rng.choice(("", "D", "Q")) if "B" in line2 else ""
-        texts = []
-        for word in words:
-            if word in "AB":
-                value = rng.choice((rng.choice((0, 90, 180, -90, 270)), rng.uniform(-360, 360)))
-            elif word in "CPDQ":
-                value = rng.choice((5, 1000)) if rng.random() < 0.1 else rng.uniform(0.1, 15)
-            else:
-                value = 0 if word in "IK" and rng.random() < 0.3 else rng.uniform(-90, 90)
-            texts.append(f"{word}{round(float(value), 3)}")
-        start = f"X{round(rng.uniform(20, 150), 3)} Z{round(rng.uniform(-50, 50), 3)}"
-        block = f"G111 {' '.join(texts)}"
-        answer = contoursolve.solve(block, start=start, depth="verdict").answers[0]
-        if answer.contour is not None:
-            return block, {"start": start}, answer
+    """A sound block with any words and corners."""
+    square = (rng.random() < 0.3, rng.random() < 0.3)
+    case = draw_g111(rng, rng.choice(SHAPES), rng.randrange(4), rng.choice((1, -1)), square)
+    if case is None or case.outcome.status != "solved":
+        return g111_of(rng)
+    start, block = case.program
+    options = {"start": start.removeprefix("G00 ")}
+    return block, options, contoursolve.solve(block, depth="verdict", **options).answers[0]
 
 
 def drawn_of(rng):
@@ -221,26 +204,29 @@ def test_asked_for_the_end_that_it_has_each_word_finds_its_own_value(seed):
         asked += ask_back(rng, 0.03)
 
 
+LATHE, NCT = {"start": START}, "G17 G90 G41 G0 X{} Y{}\n"
 KEPT = [
-    ("G111, two roundings", "A", "end", 0.5),
-    ("G111, two roundings", "P", "corner 1.center X", 30.0),
-    ("G111, every start word", "A", "V1 Z", 0.02),
-    ("inches", "A", "corner 1.end X", 0.001),
-    ("circle-line", ",A", "P1", 1.0),
-    ("G112 landing beyond the centre", "R", "V2 Z", 0.1),
-    ("circle-circle", "2:R", "P1 X", 3.0),
-    ("chain of three with corners", "3:,A", "corner 2.end X", 0.05),
+    (BLOCK, LATHE, "A", "end", 0.5),
+    (BLOCK, LATHE, "P", "corner 1.center X", 30.0),
+    ("G111 A160. B120. I10. Z-60. P2. Q2.", LATHE, "A", "V1 Z", 0.02),
+    ("G111 X4. A180. K-1.2 B120. P.2 Q.2", {"start": "X1.6 Z0.", "units": "inch"}, "A", "corner 1.end X", 0.001),
+    (NCT.format(50, 0) + "G3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1", {}, ",A", "P1", 1.0),
+    ("G112 X44. K-30. I2. R20.", LATHE, "R", "V2 Z", 0.1),
+    (NCT.format(50, 0) + "G3 X-50 Y0 R50 ,R2\nG3 X-40 Y60 I-40 J20 R40 Q-1", {}, "2:R", "P1 X", 3.0),
+    (
+        NCT.format(90, 10) + "G1 ,A150 ,R2\nG1 X10 Y20 ,A225 Q1 ,C2\nG3 X-40 Y-20 I-20 J-20 R20 Q1",
+        *({}, "3:,A", "corner 2.end X", 0.05),
+    ),
 ]
 
 
-@pytest.mark.parametrize(("name", "word", "keep", "within"), KEPT)
-def test_a_result_stays_near_between_the_ends_of_a_tolerance_and_not_beyond(name, word, keep, within):
+@pytest.mark.parametrize(("block", "options", "word", "keep", "within"), KEPT)
+def test_a_result_stays_near_between_the_ends_of_a_tolerance_and_not_beyond(block, options, word, keep, within):
     """Every value of a fine grid, solved by itself as a family: the ends are where the result has moved, or is lost."""
-    block, options, _ = ALL[name]
     found = tolerance_for(block, word, keep=keep, within=within, **options)
     assert found.is_complete
     point, _, letter = keep.rpartition(" ") if keep[-2:-1] == " " else (keep, "", "")
-    answer = solved(name, word, found.stated)
+    answer = contoursolve.solve(block, depth="verdict", **options).answers[0]
     letters, in_mm = answer.plane.axes, float(answer.unit.in_mm)
     point = "corner 2.end" if point == "end" else point
     width = max(found.plus, found.minus)
