@@ -4,7 +4,6 @@ from math import cos, hypot, radians, sin, tan
 from random import Random
 
 import pytest
-from free_chains import Drawn, Step
 from vectors import program_of
 
 from contoursolve import ArcSegment, solve
@@ -67,19 +66,6 @@ def test_the_centre_of_an_arc_counts_from_the_end_of_a_line_also_where_that_is_c
     wanted = [tail[0], 2 * tail[1], turn, hypot(*step), center[0], 2 * center[1], end[0], 2 * end[1]]
     assert path(result) == pytest.approx(wanted, abs=5e-3)
     assert not [each for each in result.diagnostics if each.is_error]
-
-
-def center(each: Drawn, is_step: bool) -> str:
-    along, across = each.tail if is_step else (0.0, 0.0)
-    return f"I{each.center[1] - across:.9f} K{each.center[0] - along:.9f}"
-
-
-def arc(each: Drawn, number: int = 0) -> str:
-    return f"G{number + (2 if each.step.sense < 0 else 3)}"
-
-
-def line(random: Random) -> Step:
-    return Step(length=random.uniform(15, 60))
 
 
 def test_the_centre_of_an_arc_counts_from_an_end_that_is_computed():

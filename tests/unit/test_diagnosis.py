@@ -42,8 +42,6 @@ def block_of(words: Words) -> str:
 
 # Six blocks that other solvers trip over -----------------------------------------------------------------
 
-AIK = "A135. I10. K{k} B180. Z-40."
-
 
 BEFORE = "G17 G42 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y60 ,A180 Q-1"
 BEHIND = "G17 G90 G42 D1 G0 X0 Y0\nG1 ,A0\nG3 X50 Y50 I40 J50 R10 Q1"

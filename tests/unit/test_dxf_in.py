@@ -11,9 +11,8 @@ import ezdxf
 import pytest
 from ezdxf import units
 
-from contoursolve import ArcSegment, LineSegment, read_dxf
+from contoursolve import ArcSegment, read_dxf
 from contoursolve.errors import DxfError
-from contoursolve.geometry import Turn
 from contoursolve.sketches import SketchCorner
 
 ROOT = Path(__file__).parents[2]
@@ -60,25 +59,6 @@ def refused(document, **options) -> str:
 
 
 # What we write is read back -----------------------------------------------------------------------------------------
-
-
-def reversed_way(segments):
-    for each in reversed(segments):
-        if isinstance(each, LineSegment):
-            yield LineSegment("", each.end, each.start)
-        else:
-            turn = Turn.CW if each.turn is Turn.CCW else Turn.CCW
-            yield ArcSegment("", each.end, each.start, each.center, each.radius, turn)
-
-
-def around(segments):
-    """All ways to travel a chain: from each place if it is closed, and both directions."""
-    is_closed = segments[0].start == segments[-1].end
-    return [
-        plain(way[place:] + way[:place])
-        for way in (segments, [*reversed_way(segments)])
-        for place in range(len(segments) if is_closed else 1)
-    ]
 
 
 # Dimensions ---------------------------------------------------------------------------------------------------------

@@ -450,27 +450,6 @@ def test_words_that_say_something_twice_have_no_handles():
     assert len([each for each in view["handles"] if each["name"].startswith("C")]) >= 1
 
 
-@pytest.mark.boundary
-@pytest.mark.parametrize(
-    ("text", "options"),
-    [
-        (WHOLE, START),
-        ("G00 X20. Z0.\nG01 X40. ,A150.", {"control": "fanuc-lathe"}),
-        ("G00 X100. Z-50.\nG112 U0 I10. K-50. R30. P0", {"control": "yasnac-lx3"}),
-    ],
-)
-def test_where_a_drag_stops_there_is_a_contour(text, options):
-    now, count = Talk(text, **options), 0
-    for key in [each["key"] for each in now.view["fields"]]:
-        found = now.range(key)
-        for stops, ends in zip(found.get("stops", ()), found.get("ends", ()), strict=True):
-            for value, told in zip(stops, ends, strict=True):
-                if told and stops[0] <= stops[1]:
-                    count += 1
-                    assert now.has_contour(key, value), (key, value)
-    assert count >= 2
-
-
 @pytest.mark.parametrize(
     ("name", "line", "key", "short", "whole"),
     [

@@ -67,7 +67,10 @@ def test_solutions_are_a_dimension_of_arrays_tables_and_executors():
     assert "solutions: P1 nearer and P1 farther" in str(found)
     with pytest.raises(ValueError, match="a map shows one solution"):
         contoursolve.pictures.draw_family_map(found)
-    assert contoursolve.pictures.draw_family_map(found.solution("P1 nearer")).svg
+    nearer = found.solution("P1 nearer")
+    assert "length [mm]" in contoursolve.pictures.draw_family_map(nearer, result="length").title
+    with pytest.raises(ValueError, match="write the word that chooses"):
+        contoursolve.explore(nearer)
 
 
 def test_a_chain_without_closed_form_says_that_it_has_no_branches():

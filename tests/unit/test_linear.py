@@ -1,9 +1,5 @@
-"""Reading and judging a line, a program or a chain takes work by its length: eight times as long, and it takes eight
-times the work, or less; and a slip in a long chain is told as in a short one.
-
-What Python does is counted in calls; what a regular expression does within one call shows in processor time alone, of
-which the shortest of several runs counts.
-"""
+"""Judging a program or a chain takes work by its length: eight times as long, and it takes eight times the work, or
+less; and a slip in a long chain is told as in a short one. Work is counted in calls."""
 
 import re
 from functools import partial
@@ -12,31 +8,7 @@ import pytest
 from counted import calls
 from long_chains import angles, corners, klartext
 
-from contoursolve import CONTROLS, check, expand, parse
-
-TIMES = 8
-"""How much longer the long line is than the short one."""
-
-SHORT = 200
-"""Characters of the short line; of the longest block, which has 2,000, the long one has 1,600."""
-
-
-ATOMS = re.findall(
-    r"\S+", "X. X1 X100000 ( ) (a) [ ] #1 ; ? (contoursolve: , .. -- N1 G0 G111 G1l lO1 % / e5 \u00e9 = K--3. _ A.. IF"
-)
-ATOMS += [" ", "\t", "(contoursolve: a="]
-
-
-def line(shape: tuple[str, str, str], length: int) -> str:
-    head, unit, tail = shape
-    return head + unit * (length // len(unit)) + tail
-
-
-def read(text: str) -> None:
-    parse(text)
-    for control in CONTROLS.values():
-        control.modes.syntax.plain.several.match(text)
-
+from contoursolve import check, expand
 
 # Programs ------------------------------------------------------------------------------------------------------------
 
@@ -66,8 +38,8 @@ def test_work_goes_by_the_number_of_lines_that_say_nothing(control, line, place)
         expand("".join((*lines[:place], line * count, *lines[place:])), control=control)
 
     act(1)
-    few, many = (calls(lambda count=count: act(count)) for count in (SHORT // 2, TIMES * SHORT // 2))
-    assert many <= 1.2 * TIMES * few
+    few, many = (calls(lambda count=count: act(count)) for count in (100, 800))
+    assert many <= 1.2 * 8 * few
 
 
 # Chains --------------------------------------------------------------------------------------------------------------

@@ -82,39 +82,6 @@ def solved_alone(family, values):
 # Results ----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", PAGES)
-def test_the_length_and_the_end_of_each_row_are_those_of_its_contour(name):
-    family = family_of(name, 3, 4)
-    axes = list(family.ranges.values.values())
-    length, ends = family.result("length"), [family.result(each) for each in family.results if each.startswith("end ")]
-    assert family.has_contour.any()
-    for row in numpy.ndindex(*family.shape):
-        contour = solved_alone(family, [axis[place] for axis, place in zip(axes, row, strict=True)])
-        assert (contour is None) == numpy.isnan(length[row])
-        if contour is not None:
-            assert length[row] == pytest.approx(sum(each.length for each in contour.elements), abs=1e-9)
-            factors = [1 + each for each in contour.plane.diameters]
-            assert [each[row] for each in ends] == pytest.approx(numpy.multiply(contour.end, factors), abs=1e-9)
-
-
-def test_each_solution_of_a_row_has_its_results_and_its_map():
-    free = CHAIN.replace("Q-1", "").replace("Q1", "")
-    vary = {"2:,A": [150.0, 175.0, 200.0], ",R": [1.0, 9.0]}
-    family = contoursolve.family(free, vary=vary, branches="all")
-    lengths = family.result("length")
-    assert lengths.shape == (3, 2, len(family.solutions))
-    chosen = contoursolve.family(CHAIN, vary=vary).result("length")
-    is_made = numpy.isfinite(chosen)
-    assert is_made.any()
-    assert numpy.nanmin(numpy.abs(lengths - chosen[..., None])[is_made], axis=1).max() < 1e-9
-    for place, name in enumerate(family.solutions):
-        own = family.solution(name)
-        assert numpy.array_equal(own.result("length"), lengths[..., place], equal_nan=True)
-    assert "length [mm]" in draw_family_map(own, result="length").title
-    with pytest.raises(ValueError, match="write the word that chooses"):
-        contoursolve.explore(own)
-
-
 def test_an_unknown_result_is_refused_with_those_that_are_like_it():
     family = family_of("a taper", 4, 3)
     for wrong, said in (
