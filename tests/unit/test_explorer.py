@@ -339,7 +339,7 @@ ACCEPTED = {text for rule in RULES for text in rule.accepted} - {APART}
 READ = [
     *((text, START, seed) for text in (WHOLE, "G112 X60. I10. K-8. R10. P1. Q1.") for seed in range(2)),
     *((f"{PAIR} Q-1", {}, seed) for seed in range(2)),
-    *((text, TNC, 0) for text in (LINES, PARTED, POLAR, CLOSED, OPEN, CONFLICTING, *sorted(ACCEPTED))),
+    *((text, TNC, 0) for text in (LINES, PARTED, POLAR, CLOSED, OPEN, CONFLICTING, *sorted(ACCEPTED)[::3])),
 ]
 
 

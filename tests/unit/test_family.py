@@ -89,64 +89,36 @@ def test_a_value_that_is_asked_for_is_a_column():
     assert found["asked.length of line 1"] == pytest.approx([30, 40])
 
 
-@pytest.mark.parametrize(
-    ("block", "options", "error", "message"),
-    [
-        (BLOCK, {"vary": {}}, FamilyError, "no word varies"),
-        (
-            "G00 X10.",
-            {"vary": {"X": [1]}, "control": "yasnac-lx3"},
-            FamilyError,
-            "nothing to solve: the program has no",
-        ),
-        (
-            f"{BLOCK}\n{BLOCK}",
-            {"vary": {"1:K": [-30], "2:K": [-30]}},
-            FamilyError,
-            "1:K and 2:K are in 2 contours; a family is about one",
-        ),
-        (BLOCK, {"vary": {"R": [1]}}, FamilyError, "the block has no word R; its words are X, A, K, B, P, Q"),
-        (BLOCK, {"vary": {"A": []}}, FamilyError, "A needs a list of one or more numbers"),
-        (BLOCK, {"vary": {"A": ["x"]}}, FamilyError, "the values of A are not numbers"),
-        (BLOCK, {"vary": {"A": [float("nan")]}}, FamilyError, "the values of A must be finite"),
-        (BLOCK, {"vary": {"A": [1, 2], "P": [1, 2, 3]}, "paired": True}, FamilyError, "A has 2, P has 3"),
-        (
-            BLOCK,
-            {"vary": {"length of line 1": [180]}},
-            FamilyError,
-            "no fact says what length of line 1 is; there are none",
-        ),
-        (BLOCK, {"vary": {"start.U": [180]}}, FamilyError, "the start point has no word U; its words are X, Z"),
-        (
-            BLOCK + " (contoursolve: length of line 1 = ?)",
-            {"vary": {"length of line 1": [1]}},
-            FamilyError,
-            "? is no number",
-        ),
-        (
-            BLOCK + "\n" + BLOCK,
-            {"vary": {"start.X": [40]}},
-            FamilyError,
-            "2 contours (program lines 1, 2); a family is about one: name",
-        ),
-        (BLOCK + "\n" + BLOCK, {}, FamilyError, "the block has 2 words A; write 1:A or 2:A"),
-        (BLOCK, {"facts": ["lenght of line 1 = 30"]}, FamilyError, "lenght"),
-        (BLOCK, {"start": None}, FamilyError, "start point"),
-        (BLOCK, {"units": "cm"}, ValueError, "units cannot be 'cm'; choose from mm, inch"),
-        (BLOCK, {"rules": "none"}, ValueError, "rules cannot be 'none'; choose from enforce, warn, off"),
-        (BLOCK, {"start": ("X40.", "Z0.")}, TypeError, "the start is words such as"),
-        (BLOCK, {"vary": ["A", "B"]}, TypeError, "vary is a mapping"),
-        (
-            BLOCK,
-            {"vary": {"A": range(10**6), "P": range(10**6)}},
-            FamilyError,
-            "1,000,000,000,000 rows do not fit",
-        ),
-    ],
-)
-def test_what_makes_no_family_is_refused_with_its_reason(block, options, error, message):
-    with pytest.raises(error) as caught:
-        family(block, **({"start": START, "vary": {"A": [180]}} | options))
+TWICE, LENGTH = f"{BLOCK}\n{BLOCK}", "length of line 1"
+NO_FAMILY = [
+    ({"vary": {}}, "no word varies"),
+    ({"block": "G00 X10.", "vary": {"X": [1]}, "control": "yasnac-lx3"}, "nothing to solve: the program has no"),
+    ({"block": TWICE, "vary": {"1:K": [-30], "2:K": [-30]}}, "1:K and 2:K are in 2 contours; a family is about one"),
+    ({"vary": {"R": [1]}}, "the block has no word R; its words are X, A, K, B, P, Q"),
+    ({"vary": {"A": []}}, "A needs a list of one or more numbers"),
+    ({"vary": {"A": ["x"]}}, "the values of A are not numbers"),
+    ({"vary": {"A": [float("nan")]}}, "the values of A must be finite"),
+    ({"vary": {"A": [1, 2], "P": [1, 2, 3]}, "paired": True}, "A has 2, P has 3"),
+    ({"vary": {LENGTH: [180]}}, "no fact says what length of line 1 is; there are none"),
+    ({"vary": {"start.U": [180]}}, "the start point has no word U; its words are X, Z"),
+    ({"block": f"{BLOCK} (contoursolve: {LENGTH} = ?)", "vary": {LENGTH: [1]}}, "? is no number"),
+    ({"block": TWICE, "vary": {"start.X": [40]}}, "2 contours (program lines 1, 2); a family is about one: name"),
+    ({"block": TWICE}, "the block has 2 words A; write 1:A or 2:A"),
+    ({"facts": ["lenght of line 1 = 30"]}, "lenght"),
+    ({"start": None}, "start point"),
+    ({"vary": {"A": range(10**6), "P": range(10**6)}}, "1,000,000,000,000 rows do not fit"),
+    ({"units": "cm", "error": ValueError}, "units cannot be 'cm'; choose from mm, inch"),
+    ({"rules": "none", "error": ValueError}, "rules cannot be 'none'; choose from enforce, warn, off"),
+    ({"start": ("X40.", "Z0."), "error": TypeError}, "the start is words such as"),
+    ({"vary": ["A", "B"], "error": TypeError}, "vary is a mapping"),
+]
+
+
+@pytest.mark.parametrize(("asked", "message"), NO_FAMILY)
+def test_what_makes_no_family_is_refused_with_its_reason(asked, message):
+    options = {"block": BLOCK, "error": FamilyError, "start": START, "vary": {"A": [180]}, **asked}
+    with pytest.raises(options.pop("error")) as caught:
+        family(options.pop("block"), **options)
     assert message in str(caught.value)
 
 

@@ -90,15 +90,15 @@ def lacking(count: int) -> str:
 
 
 CHAINS = {
-    "FK, a word twice": ("heidenhain", lambda size: klartext(size, "twice"), "heidenhain-repeated", 24),
-    "FK, a word that disagrees": ("heidenhain", lambda size: klartext(size, "disagrees"), "words-conflict", 24),
-    "FK, a word missing": ("heidenhain", lambda size: klartext(size, "missing"), "words-missing", 24),
+    "FK, a word twice": ("heidenhain", lambda size: klartext(size, "twice"), "heidenhain-repeated", 16),
+    "FK, a word that disagrees": ("heidenhain", lambda size: klartext(size, "disagrees"), "words-conflict", 16),
+    "FK, a word missing": ("heidenhain", lambda size: klartext(size, "missing"), "words-missing", 16),
     "FK, many words missing": ("heidenhain", lacking, "words-missing", 10),
-    "NCT, an angle reversed": ("nct-99m", lambda size: angles(size, "reversed"), "nct-reversed", 24),
-    "NCT, a corner too large": ("nct-99m", lambda size: angles(size, "large"), "nct-corner-too-large", 24),
-    "NCT, an angle twice": ("nct-99m", lambda size: angles(size, "twice"), "address-repeated", 24),
-    "no corner on a line": ("siemens-840d", lambda size: corners(size, "siemens-840d", 0.0), "siemens-corner", 96),
-    "corners": ("nct-99m", lambda size: corners(size, "nct-99m"), "", 24),
+    "NCT, an angle reversed": ("nct-99m", lambda size: angles(size, "reversed"), "nct-reversed", 16),
+    "NCT, a corner too large": ("nct-99m", lambda size: angles(size, "large"), "nct-corner-too-large", 16),
+    "NCT, an angle twice": ("nct-99m", lambda size: angles(size, "twice"), "address-repeated", 16),
+    "no corner on a line": ("siemens-840d", lambda size: corners(size, "siemens-840d", 0.0), "siemens-corner", 48),
+    "corners": ("nct-99m", lambda size: corners(size, "nct-99m"), "", 16),
     **{
         f"{control}, pairs": (
             control,
@@ -113,7 +113,7 @@ CHAINS = {
         for control in ("nct-99m", "fanuc-lathe")
     },
     **{
-        f"{control}, straight": (control, lambda size, control=control: straight(size, control), "", 20)
+        f"{control}, straight": (control, lambda size, control=control: straight(size, control), "", 12)
         for control in ROWS
     },
 }

@@ -385,7 +385,8 @@ def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
             assert re.findall("[LA]", path) == ["A" if hasattr(each, "radius") else "L" for each in contour.elements]
 
 
-def test_a_map_beside_the_values_of_the_block_still_shows_the_block():
+def test_a_map_beside_the_values_of_the_block_still_shows_the_block(monkeypatch):
+    monkeypatch.setattr("contoursolve.output.map_frames.MOST_FRAMES", 12)
     vary = {"A": [150, 160, 170], "P": [1, 2, 3]}
     for record in (
         contoursolve.family(BLOCK, start=START, vary=vary),
