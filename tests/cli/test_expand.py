@@ -32,13 +32,6 @@ def run(*arguments, stdin=None):
     return done.exit_code, done.stdout_bytes, done.stderr
 
 
-def expand(text, **options):
-    """The expanded lines, without the comments that keep the original blocks."""
-    expansion = contoursolve.expand(text, comments=False, **options)
-    assert expansion.text is not None, expansion.summary.left
-    return expansion.text.split("\n")
-
-
 def path_of(text, control, unit=Length.MM):
     """The path of a program; blocks that are not solved are a part of it, with the modes that they rely on."""
     return follow(run_program(parse(text), Request(control, unit)), control, unit, control.modes.axes)

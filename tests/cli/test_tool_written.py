@@ -16,13 +16,6 @@ def lines(control: str, *blocks: str) -> str:
     return "\n".join([f"(contoursolve control: {control})", *blocks]) + "\n"
 
 
-def written(*words, text):
-    """The lines of a program for the path of a tool."""
-    done = call("expand", *words, "--no-comments", "-", stdin=text)
-    assert done.exit_code == 0, done.stderr
-    return done.stdout.splitlines()
-
-
 def test_diff_compares_a_contour_with_the_path_of_the_tool_beside_it(tmp_path: Path):
     (tmp_path / "a.nc").write_text(COMPENSATED)
     made = call("expand", *LATHE, *NOSE, tmp_path / "a.nc")

@@ -39,9 +39,6 @@ KINDS = (
 )
 """Every kind of fact. Of the `POINT_KINDS`, `Fact.elements` holds the number of a point, of all others of elements."""
 
-ANGULAR = frozenset({"direction", "angle", "tangent"})
-"""The kinds whose residual is in degrees; of all others it is in mm."""
-
 
 @dataclass(frozen=True)
 class Line:
@@ -450,12 +447,6 @@ def jacobian(chain: Chain, facts: Sequence[Fact]) -> numpy.ndarray:
         rows[:, column] = numpy.subtract(residuals(above, facts), residuals(below, facts)) / (2 * step)
     lengths = numpy.linalg.norm(rows, axis=1, keepdims=True)
     return rows / numpy.where(lengths > 0, lengths, 1)
-
-
-def condition(chain: Chain, facts: Sequence[Fact]) -> float:
-    """Smallest singular value of the `jacobian` over its largest: 0 if the chain can move, or if facts are too many."""
-    rows = jacobian(chain, facts)
-    return ratio(rows) if rows.shape[0] == rows.shape[1] else 0.0
 
 
 def ratio(rows: numpy.ndarray) -> float:
