@@ -7,7 +7,7 @@ combination of rows that is zero is a set of facts that say the same.
 
 import cmath
 from collections import ChainMap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, MutableMapping, Sequence
 from functools import cached_property
 from itertools import combinations
 from math import comb, copysign, hypot
@@ -251,17 +251,19 @@ def rows_at(system: System, facts: Sequence[Fact], at: Values) -> AffineFacts:
     columns = {name: column for column, name in enumerate(system.unknowns)}
     at = replace(at, functions=_COMPLEX)
     here = {name: at.scalar(name) for fact in facts for name in system.unknowns_of(fact)}
-    moved = dict[str, Any]()
-    following = replace(at, scalars=ChainMap(moved, cast("dict[str, Any]", at.scalars)))
+    # A copy is read far more often than it is made; what makes each value when it is asked for cannot be copied.
+    given = cast("dict[str, Any]", at.scalars)
+    scalars: MutableMapping[str, Any] = {**given} if isinstance(given, dict) else ChainMap({}, given)
+    following = replace(at, scalars=scalars)
     rows = list[dict[int, float]]()
     constants = numpy.zeros(len(facts))
     for row, fact in enumerate(facts):
         constants[row] = complex(fact.residual(at)).real
         rows.append({})
         for name in system.unknowns_of(fact):
-            moved[name] = complex(here[name], _STEP)
+            scalars[name] = complex(here[name], _STEP)
             slope = complex(fact.residual(following)).imag / _STEP
-            del moved[name]
+            scalars[name] = here[name]
             if slope:
                 rows[row][columns[name]] = slope
             constants[row] -= slope * here[name]

@@ -41,6 +41,7 @@ def pair(arc: str, line: str, facts: str = "") -> str:
 
 
 EXTENDED = {
+    "coordinate of V1": block("K-30. X100. B120. P3.", "X of V1 = 44"),
     "begin of a corner": block("X100. A180. K-30. B120. P?", "Z of begin of corner 1 = -25"),
     "two contours": block("X100. Z-47. B120.", "length of line 1 = 30"),
 }

@@ -80,7 +80,9 @@ def run(case: Case, folder: Path) -> Parts:
 
 def contents(folder: Path) -> dict[Path, bytes]:
     """The files of a folder."""
-    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    files = (path for path in folder.rglob("*") if path.is_file())
+    # What Python keeps of a control of one's own is no work of the command.
+    return {path: path.read_bytes() for path in files if path.parent.name != "__pycache__"}
 
 
 def shown(path: Path, content: bytes) -> str:
