@@ -21,7 +21,6 @@ UNRECORDED = {
 """What no record has, each with the reason."""
 
 
-@pytest.mark.boundary  # each of them, always
 @pytest.mark.parametrize("path", [pytest.param(each, id=each.relative_to(FOLDER).as_posix()) for each in paths()])
 def test_what_a_command_prints_and_writes_is_as_recorded(path: Path, tmp_path: Path) -> None:
     expected = stored(path)
