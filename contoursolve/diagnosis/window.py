@@ -79,7 +79,8 @@ class Seen(Struct, frozen=True):
 
 class Window(Struct, frozen=True, dict=True):
     """The blocks of something that is wrong (`own`) with the state before them, those `ahead` of it, a contour or a
-    block each, with the states before these, and those `behind` it; `examine` examines blocks from a state on."""
+    block each, with the states before these, and those `behind` it, which are all there are with `is_end`; `examine`
+    examines blocks from a state on."""
 
     ahead: tuple[tuple[Sequence[Block], State], ...]
     own: tuple[Block, ...]
@@ -87,6 +88,7 @@ class Window(Struct, frozen=True, dict=True):
     state: State
     control: Control
     examine: Callable[[Sequence[Block], State, tuple[tuple[Sequence[Block], State], ...]], Iterable[WindowPart]]
+    is_end: bool = False
 
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
@@ -224,7 +226,7 @@ class Window(Struct, frozen=True, dict=True):
         old, keys = self.before, self._known_problems
         lost = self._waiting - seen.changed
         # The last blocks may belong to what is not seen any more.
-        end = self.behind[-1].line if self.behind else last + 1
+        end = self.behind[-1].line + self.is_end if self.behind else last + 1
         found = list[Diagnostic]()
         has_error = any(each.is_error and first <= each.span.line <= last for each in old.problems)
         extended = (answer for answer in seen.answers if has_error and answer.profile.is_extended)

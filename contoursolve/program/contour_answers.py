@@ -125,7 +125,8 @@ def _window(control: Control, answer: Answer, pending: Pending, ahead: Ahead, pa
     behind, count = view[after : after + BEHIND], NEAR
     while count < len(behind) and control.signs(behind[count - 1]):
         count += 1
-    return window_of(ahead, view[:after], behind[:count], answer.claim.before, control, parts)
+    is_end = count >= len(behind) < BEHIND and not view.end_at_call
+    return window_of(ahead, view[:after], behind[:count], answer.claim.before, control, parts, is_end=is_end)
 
 
 def _around(pending: Pending, ahead: Ahead) -> Sequence[Block]:

@@ -68,12 +68,15 @@ def window_of(
     state: State,
     control: Control,
     parts: Parts,
+    *,
+    is_end: bool = False,
 ) -> "Window":
-    """Blocks in a state, with what is ahead of them, as far as it is near, and some blocks behind."""
+    """Blocks in a state, with what is ahead of them, as far as it is near, and some blocks behind; with `is_end`, all
+    of these."""
     from contoursolve.diagnosis import Window  # noqa: PLC0415 - most programs need no diagnosis
 
     held, count = _read(ahead, control.modes), sum(1 for _ in near(ahead))
-    return Window(tuple(held[len(held) - count :]), tuple(own), tuple(behind), state, control, parts)
+    return Window(tuple(held[len(held) - count :]), tuple(own), tuple(behind), state, control, parts, is_end)
 
 
 def near(ahead: Ahead, *, has_plain: bool = True) -> Iterator[Sequence[Block]]:

@@ -131,3 +131,10 @@ def test_a_list_of_fixes_is_short_and_its_numbers_were_tried():
             lines = [each.replace(number.word, number.example) for each in fix.replacement.split("\n")]
             whole = [text.split("|", maxsplit=1)[0], text.split("|")[1], *lines, text.rsplit("|", maxsplit=1)[-1]]
             assert contoursolve.solve("\n".join(whole), control="heidenhain").answers[0].contour is not None
+
+
+def test_no_fix_leaves_a_mistake_in_the_last_block_of_a_program():
+    """With its two contours exchanged, the chamfer of the last one is too large in place of that of the first."""
+    text = "G50 X300. Z200.\nG00 X12. Z0.\nG11 X7.5 K7.5\nG12 Z-20. I3."
+    first, *_ = contoursolve.check(text, control="yasnac-lx3")
+    assert [each.description.split()[0] for each in first.fixes] == ["write"] * len(first.fixes) != []
