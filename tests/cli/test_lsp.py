@@ -75,7 +75,7 @@ def examples() -> list[pytest.ParameterSet]:
             name, [rule.rejected[0] for rule in control.catalogue[first::24] if rule.rejected], id=f"{name}-{first}"
         )
         for number, (name, control) in enumerate(CONTROLS.items())
-        for first in range(number % 6, 24, 6)
+        for first in range(number % 12, 24, 12)
     ]
 
 

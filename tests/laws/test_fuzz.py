@@ -75,7 +75,7 @@ def test_arbitrary_text_is_answered(text, control, rules):
 
 
 @pytest.mark.parametrize(
-    ("control", "seeds"), [(each, range(first, first + 4)) for each in NAMED for first in range(100, 148, 4)]
+    ("control", "seeds"), [(each, range(first, first + 4)) for each in NAMED for first in range(100, 120, 4)]
 )
 def test_every_command_answers_mutants_of_every_control(control, seeds):
     for seed in seeds:

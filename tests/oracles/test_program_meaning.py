@@ -67,7 +67,7 @@ def test_the_interpreter_reads_what_the_manuals_show(name):
 
 
 @pytest.mark.parametrize("control", CONTROLS)
-@pytest.mark.parametrize("case", range(40))
+@pytest.mark.parametrize("case", range(16))
 def test_a_start_and_a_path_are_the_interpreters_or_unknown_with_a_line(case, control):
     for seed in range(case * EACH, case * EACH + EACH):
         text = drawn(str(seed), control)

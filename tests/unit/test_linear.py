@@ -106,7 +106,7 @@ CHAINS = {
             f"{name}-corner-too-large",
             4,
         )
-        for control, name in (("nct-99m", "nct"), ("siemens-840d", "siemens"), ("fanuc-lathe", "fanuc"))
+        for control, name in (("nct-99m", "nct"), ("siemens-840d", "siemens"))
     },
     **{
         f"{control}, increments": (control, lambda size, control=control: increments(size, control), "", 12)
