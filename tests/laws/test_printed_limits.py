@@ -158,7 +158,7 @@ def of_explorers(asked: Asked) -> Limits:
         yield from (("end", each) for end in ends for each in REASON.findall(end))
 
 
-@law(drawn(), few=4, many=12)
+@law(drawn(), few=4, many=6)
 def test_a_limit_that_is_typed_in_as_it_is_printed_has_the_contour(asked: Asked) -> None:
     limits = {*of_variables(asked), *of_ranges(asked), *of_explorers(asked)}
     for where, number in limits:
