@@ -409,8 +409,8 @@ def test_commands_make_new_documents_and_leave_the_program(window, address, tmp_
     editor.command("Show the Report")
     page.get_by_role("tab", name="Report: shaft.nc").wait_for()
     report = editor.webview()
-    report.locator("article").nth(6).wait_for()
-    assert report.locator("article figure svg").count() == 7
+    report.locator("#contours figure svg").wait_for()
+    assert report.locator("#program .listing code").count() == len(before.splitlines())
     page.screenshot(path=artefacts / "vscode-report.png")
 
     editor.go_to(71, 12)
