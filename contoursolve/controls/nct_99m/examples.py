@@ -33,7 +33,7 @@ _GAPS = {
 }
 _SLIPS = {
     "contour-sensitive": {"wrong": "G17 G41 G0 X5000 Y0\nG3 I-5000 J0\nG1 X-6000 Y4999.9999999999 ,A180 Q-1"},
-    "line-vanishes": {"wrong": "G17 G90 G41 G0 X90 Y10 D0\nG1 ,A150\nG1 X10 ,A225"},
+    "line-vanishes": {"wrong": "G17 G90 G41 G0 X10 Y10 D0\nG1 X10 ,A225"},
 }
 _ABSENT = {
     **AS_WRITTEN,
