@@ -1,6 +1,6 @@
 """A control: a record of tables, and how its contours are found among the blocks."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from msgspec import Struct
@@ -131,11 +131,11 @@ class Control:
 
     def __post_init__(self) -> None:
         # A setting is named with its control, so that it can be typed as it is shown.
-        if any("{control}" in each.help and each.control != self.name for each in self.rules):
-            named = (replace(each, control=self.name) if "{control}" in each.help else each for each in self.rules)
-            object.__setattr__(self, "rules", Rules(named))
-        elif not isinstance(self.rules, Rules):
-            object.__setattr__(self, "rules", Rules(self.rules))
+        rules: Iterable[Rule] = self.rules
+        if any("{control}" in each.help and each.control != self.name for each in rules):
+            rules = [replace(each, control=self.name) if "{control}" in each.help else each for each in rules]
+        if not isinstance(rules, Rules):
+            object.__setattr__(self, "rules", Rules(rules))
 
     @property
     def examples(self) -> tuple[LegalBlock, ...]:
