@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from calling import call
 from examples import law
-from hypothesis import strategies as st
+from hypothesis import assume, strategies as st
 
 import contoursolve
 from contoursolve.comparison import follow
@@ -184,7 +184,7 @@ def write(drawing, turned=(), split=()):
 PLAIN = ("--control", "linuxcnc")
 
 
-@law(pieces, st.data(), derandomize=False)
+@law(pieces, st.data())
 def test_dividing_lines_and_arcs_changes_nothing(diff, drawing, data):
     parts = [data.draw(st.sets(st.integers(0, len(drawing) - 1))) for _ in range(2)]
     one, other = (write(drawing, split=each) for each in parts)
@@ -195,7 +195,7 @@ def test_dividing_lines_and_arcs_changes_nothing(diff, drawing, data):
     assert (back["verdict"], back["largest_deviation"]["mm"]) == ("equal", found["largest_deviation"]["mm"])
 
 
-@law(pieces, st.data(), derandomize=False)
+@law(pieces, st.data())
 def test_every_coordinate_that_is_changed_by_a_hundredth_is_found(diff, drawing, data):
     one = write(drawing)
     other = write(drawing, split=data.draw(st.sets(st.integers(0, len(drawing) - 1))))
@@ -329,7 +329,7 @@ def polygon(points, more=()):
     return "\n".join(blocks), places
 
 
-@law(corners, st.data(), derandomize=False, many=60)
+@law(corners, st.data(), many=60)
 def test_each_change_is_told_by_its_amount_behind_inserted_and_deleted_moves(diff, points, data):
     _, places = polygon(points)
     kinds = data.draw(st.lists(st.sampled_from(("same", "moved", "added")), min_size=len(points), max_size=len(points)))
@@ -342,6 +342,9 @@ def test_each_change_is_told_by_its_amount_behind_inserted_and_deleted_moves(dif
         used, away, before = number, off / 500, kind
         (x, y), (u, v) = places[number - 1], places[number]
         if kind == "moved":
+            # A corner of two lines that are almost one can move along them: the path stays the same then.
+            ends = places[number - 1], *places[number + 1 :][:1]
+            assume(all(abs(away * (v - b)) > 0.002 * dist((u, v), (a, b)) for a, b in ends))
             moved[number - 1] = (u + away, v - y)
         else:
             # Beside the middle of a line, at a right angle to it.

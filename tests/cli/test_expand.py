@@ -196,7 +196,6 @@ ENDS = st.sampled_from(["\n", "\r\n", "\r"])
     ENDS,
     st.sampled_from(["same", "linuxcnc", "fanuc"]),
     few=2,
-    derandomize=False,
 )
 def test_only_contours_change_and_only_once(blocks, end, post):
     blocks = [each.replace("\n", end) for each in blocks]
@@ -231,7 +230,6 @@ MILL_LINES = in_row(
         )
     ),
     few=2,
-    derandomize=False,
 )
 def test_what_is_left_means_the_same_and_expanding_again_changes_nothing(program):
     control, lines = program

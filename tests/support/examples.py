@@ -13,7 +13,6 @@ def law(
     *strategies: st.SearchStrategy[Any],
     few: int | None = None,
     many: int | None = None,
-    derandomize: bool = True,
     examples: Iterable[tuple[Any, ...]] = (),
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """In the place of `given`: two cases, with the few examples of the profile dev and with the many of the profile ci,
@@ -24,7 +23,7 @@ def law(
     def hold(check: Callable[..., None]) -> Callable[..., None]:
         @pytest.mark.parametrize("count", ["few", "many"])
         def test(count: str, **fixtures: Any) -> None:
-            profile = settings(dev, derandomize=derandomize, max_examples=counts[count])
+            profile = settings(dev, max_examples=counts[count])
             held = reduce(lambda test, each: example(*each)(test), examples, given(*strategies)(check))
             profile(held)(**fixtures)
 
