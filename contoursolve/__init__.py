@@ -39,6 +39,7 @@ _ROOMS = {
     "legal_blocks": "diagnosis",
     "list_solutions": "diagnosis",
     "plot_record": "pictures",
+    "sketch_system": "sketches",
     "solve_sketch": "sketches",
     "standing_alone": "notebook",
     "stated_words": "output",

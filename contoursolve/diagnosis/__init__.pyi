@@ -64,6 +64,8 @@ from .explain import (
 )
 from .explain_arcs import explain_arc as explain_arc
 from .fact_words import (
+    fact_key as fact_key,
+    fact_subject as fact_subject,
     fact_text as fact_text,
 )
 from .fill import (

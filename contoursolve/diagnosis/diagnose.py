@@ -1,6 +1,7 @@
 """Adds to findings why they are so and what to write instead, and which checks a contour went through."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from functools import partial
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -163,7 +164,8 @@ class _Diagnosed(Struct, frozen=True):
         if answer.start.is_known and (is_readable or affine is None):
             is_told = any(each.is_error or each.about in SAID_AGAIN | _ABOUT_RADII for each in answer.diagnostics)
             found = find_ties(profile, is_told=is_told)
-        sets = smallest_sets(answer.claim, found, profile) if found is not None else NO_SETS
+        part = partial(answer.read_by.part, answer.claim)
+        sets = smallest_sets(part, found, profile) if found is not None else NO_SETS
         answer = replace(answer, diagnostics=tuple(_compared_alone(answer, sets, control)))
         freedoms = tuple(_freedoms(profile, affine)) if is_readable else ()
         # What a contour needs and nobody reads here is no slip.

@@ -21,7 +21,7 @@ from contoursolve.diagnosis.equation_records import (
     SystemValue,
     TiedWords,
 )
-from contoursolve.diagnosis.fact_words import condition_text, fact_text
+from contoursolve.diagnosis.fact_words import condition_text, fact_key, fact_subject, fact_text
 from contoursolve.diagnosis.hand_calculation import HandCalculation
 from contoursolve.diagnosis.hand_sheet import Derivation
 from contoursolve.diagnosis.names_in_program import called_in_program
@@ -138,6 +138,10 @@ class Rereading(Protocol):
 
     def profile(self, claim: ParsedContour, without: frozenset[str]) -> Profile:
         """The profile of a contour without what some words state. Raises ValueError."""
+        ...
+
+    def part(self, claim: ParsedContour, without: frozenset[str]) -> Profile:
+        """The same, of nothing left out what no rule was asked of."""
         ...
 
 
@@ -286,7 +290,7 @@ class EquationSystem(Shown):
         Of a start point that is not known, one for each word that others determine."""
         profile, system = self.profile, self._system
         if profile.start.is_known:
-            sets = smallest_sets(self.claim, find_ties(profile, is_told=True), profile).found
+            sets = smallest_sets(self._part, find_ties(profile, is_told=True), profile).found
             facts = [(each.facts, assemble(each.profile), each.givens, each.is_conflict) for each in sets]
         else:
             tied = [(*others, last) for last, others in circuits_of(system).items()]
@@ -555,6 +559,9 @@ class EquationSystem(Shown):
 
     # -------------------------------------------------------------------------------------------------------------
 
+    def _part(self, without: frozenset[str]) -> Profile:
+        return self._read_by.part(self.claim, self._left_out | without)
+
     @cached_property
     def _names(self) -> Mapping[str, str]:
         return symbol_names(self.claim, self.profile, self._system)
@@ -720,8 +727,8 @@ class EquationSystem(Shown):
         }
 
     def _named(self, key: str) -> list[Given]:
-        """The values that a word states, by its key, its symbol or its text, as `TiedWords` has it. Raises
-        ValueError."""
+        """The values that a word states, by its key, its symbol or its text, as `TiedWords` has it; of a fact also by
+        what it gives the value of. Raises ValueError."""
         keys = word_keys(self.claim.words.values())
         words = self.claim.words.values()
         called = {
@@ -729,9 +736,11 @@ class EquationSystem(Shown):
         }
         spans = called if len(called) == 1 else set()
         stated = [(given, given.word) for given in self.profile.givens.values() if given.word is not None]
+        facts = {word.span: fact_subject(word.text) for _, word in stated if word.address == FACT}
+        spans |= {span for span, subject in facts.items() if fact_key(subject) == fact_key(key)}
         found = [given for given, word in stated if word.span in spans or self._names.get(given.name) == key]
         if not found:
-            known = dict.fromkeys(keys.values())
+            known = dict.fromkeys((*keys.values(), *facts.values()))
             raise ValueError(f"{key} is no word of the contour; its words are {join(list(known))}")
         if any(given.unit is Unit.SIGN for given in found):
             raise ValueError(f"{key} chooses between two solutions: its value is in no equation")

@@ -148,11 +148,19 @@ class ReadBy:
         that cannot be used."""
         if not without:
             return examine(claim, self.control, self.policy, depth=Depth.VERDICT).profile
-        from contoursolve.geometry import apply_statements  # noqa: PLC0415 - few contours are read so
+        return self.part(claim, without)
 
-        profile, faults = apply_statements(read(claim, without), claim.directives, lambda: None)
-        if faults:
-            raise ValueError(faults[0].message)
+    def part(self, claim: ParsedContour, without: frozenset[str]) -> Profile:
+        """The same, also without a word that is none of its givens; of nothing left out, what no rule was asked of."""
+        profile = read(claim, without.intersection(claim.givens))
+        if claim.directives:
+            from contoursolve.geometry import Layout, apply_statements  # noqa: PLC0415 - few contours have facts
+
+            profile, faults = apply_statements(profile, claim.directives, lambda: None)
+            if faults:
+                raise ValueError(faults[0].message)
+            facts = tuple(fact for fact in profile.facts if fact.given not in without)
+            profile = replace(profile, layout=Layout(profile.figure, facts))
         return replace(profile, ignored=())
 
 

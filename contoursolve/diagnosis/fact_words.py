@@ -1,5 +1,6 @@
 """Facts in words: each as a condition on what is sought, and on which condition several of them determine it."""
 
+import re
 from collections.abc import Collection, Sequence
 
 from contoursolve.diagnosis.wording import angle_text, join, length_text, unknowns_text
@@ -58,3 +59,23 @@ def _lines(headings: Sequence[Fact], profile: Profile) -> str:
     """The lines that run at given angles, with their words."""
     words = [word.text.strip() for word in profile.words_of(headings)]
     return f"the {'lines' if len(headings) > 1 else 'line'} at {join(words)}" if words else "the line"
+
+
+def fact_subject(text: str) -> str:
+    """The subject of a fact, whose value it gives, as it is printed."""
+    return " ".join(text.partition("=")[0].split())
+
+
+def fact_key(text: str) -> str:
+    """The subject of a fact, however it is spelled: `Z of end of corner 2` is `corner 2.end Z`."""
+    subject = fact_subject(text).lower().replace("centre", "center")
+    also = _ALSO.fullmatch(subject)
+    if also is None:
+        return _DOTTED.sub(r" \1", subject)
+    axis, part, of = also.groups()
+    return f"{of}{f'.{_BEGIN.get(part, part)}' if part else ''} {axis}"
+
+
+_ALSO = re.compile(r"([a-z]) of (?:(begin|start|end|center) of )?(.+)")
+_DOTTED = re.compile(r"\.([a-z])$")
+_BEGIN = {"start": "begin"}

@@ -12,8 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import AGAINST
-from contoursolve.geometry import Arc, Fact, Layout, Profile, apply_statements, assemble, put_on
-from contoursolve.reading import ParsedContour, read
+from contoursolve.geometry import Arc, Fact, Layout, Profile, assemble, put_on
 from contoursolve.solving import (
     Note,
     Refusal,
@@ -74,11 +73,15 @@ def is_exact(ties: Ties) -> bool:
     return not any(_lent(each.facts, ties.profile) for each in ties.circuits.found if system.headed)
 
 
-def smallest_sets(claim: ParsedContour, ties: Ties, whole: Profile) -> SmallestSets:
+Part = Callable[[frozenset[str]], Profile]
+"""The profile of a contour without what some words state. It raises ValueError where there is none."""
+
+
+def smallest_sets(part: Part, ties: Ties, whole: Profile) -> SmallestSets:
     """The smallest sets of words of a contour that say the same at its values.
 
     Args:
-        claim: the contour, whose start is known.
+        part: the contour without some of its words; its start is known.
         ties: what ties its facts.
         whole: the profile that they are the facts of.
     """
@@ -88,11 +91,11 @@ def smallest_sets(claim: ParsedContour, ties: Ties, whole: Profile) -> SmallestS
             for each in ties.circuits.found
         )
         return SmallestSets(tuple(told), ties.circuits.is_complete)
-    return _read_alone(claim, ties, whole)
+    return _read_alone(part, ties, whole)
 
 
-def _read_alone(claim: ParsedContour, ties: Ties, whole: Profile) -> SmallestSets:
-    words = _Words(claim, whole)
+def _read_alone(part: Part, ties: Ties, whole: Profile) -> SmallestSets:
+    words = _Words(part, whole)
     told = [ties, *words.without_lent(ties)]
     candidates = dict.fromkeys(
         # Of what says a part of a word alone, the word.
@@ -100,8 +103,13 @@ def _read_alone(claim: ParsedContour, ties: Ties, whole: Profile) -> SmallestSet
         for each in told
         for circuit in each.circuits.found
     )
-    tied = dict.fromkeys(chain.from_iterable(map(words.tied_within, words.joined(candidates))))
-    refused = dict.fromkeys(chain.from_iterable(map(words.refused_within, tied)))
+    tied, refused = dict[frozenset[str], None](), dict[frozenset[str], None]()
+    for group in words.joined(candidates):
+        # What says the same at these values, and not at all others, is a set if it has no contour.
+        found_here = [*words.tied_within(group)]
+        tied |= dict.fromkeys(found_here)
+        refused |= dict.fromkeys(() if found_here else words.refused_at_values(group))
+    refused |= dict.fromkeys(chain.from_iterable(map(words.refused_within, tied)))
     smallest = [names for names in tied if not any(each < names for each in refused)]
     smallest += [names for names in refused if names not in tied and not any(each < names for each in refused)]
     found = words.compared(smallest)
@@ -137,8 +145,8 @@ MOST_LENT = 3
 class _Words:
     """Parts of the words of a contour, each read alone once."""
 
-    def __init__(self, claim: ParsedContour, whole: Profile) -> None:
-        self._claim, self._whole, self.is_cut, self._searched = claim, whole, False, 0
+    def __init__(self, part: Part, whole: Profile) -> None:
+        self._part, self._whole, self.is_cut, self._searched = part, whole, False, 0
         self._stating = frozenset(stating_givens(whole))
         self._touching = {fact.statement for fact in whole.facts if fact.foot and fact.statement}
         self._read: dict[frozenset[str], Profile | None] = {}
@@ -189,6 +197,12 @@ class _Words:
         """The smallest sets that are a part of one and that no contour has: a point is out of reach."""
         for each in _smaller(names):
             yield from _smallest(each, self._is_refused)
+
+    def refused_at_values(self, names: frozenset[str]) -> list[frozenset[str]]:
+        """The smallest sets within one that no contour has."""
+        found = [*_smallest(names & self._stating, self._is_refused)]
+        self.is_cut |= not found
+        return found
 
     def compared(self, sets: Iterable[frozenset[str]]) -> tuple[TiedSet, ...]:
         """Sets, smallest first, with what their words alone tell; without those that take one search too many."""
@@ -274,18 +288,10 @@ class _Words:
         return self._read[names]
 
     def _profile(self, without: frozenset[str]) -> Profile | None:
-        claim = self._claim
-        profile = read(claim, without.intersection(claim.givens))
-        if claim.directives:
-            try:
-                profile, faults = apply_statements(profile, claim.directives, lambda: None)
-            except ValueError:
-                return None
-            if faults:
-                return None
-            facts = tuple(fact for fact in profile.facts if fact.given not in without)
-            profile = replace(profile, layout=Layout(profile.figure, facts))
-        return _closed(replace(profile, ignored=()), self._whole)
+        try:
+            return _closed(self._part(without), self._whole)
+        except ValueError:
+            return None
 
 
 def _closed(profile: Profile, whole: Profile) -> Profile:

@@ -1,6 +1,5 @@
 """Template of a block with free words, and how it is read: plain data, from which any process makes the same."""
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal, InvalidOperation
@@ -12,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import CONTROLS
-from contoursolve.diagnosis import Answer, Depth, join, named_in_program, typed_text, with_value
+from contoursolve.diagnosis import Answer, Depth, fact_key, fact_subject, join, named_in_program, typed_text, with_value
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
@@ -210,10 +209,10 @@ def read_word(name: str, template: Template) -> tuple[str, Word]:
     if blank and head == START:
         return text, _only(axis, _words_of(start) if start is not None else [], "the start point", "")
     facts = (*template.asked.facts, *(each for block in program.blocks for each in block.directives))
-    stated = {subject_of(each.text): each for each in facts if "=" in each.text}
-    if subject_of(text) in stated or blank:
-        fact = stated.get(subject_of(text))
-        return subject_text(fact.text if fact is not None else text), _fact_of(text, stated)
+    stated = {fact_key(each.text): each for each in facts if "=" in each.text}
+    if fact_key(text) in stated or blank:
+        fact = stated.get(fact_key(text))
+        return fact_subject(fact.text if fact is not None else text), _fact_of(text, stated)
     line = text.rpartition(":")[0]
     if line and not line.isdecimal():
         told = "; N names a block, LINE is the line of the program, from 1" if line.startswith("N") else ""
@@ -259,9 +258,9 @@ def _only(name: str, words: Sequence[Word], where: str, line: str) -> Word:
 
 def _fact_of(name: str, stated: Mapping[str, Directive]) -> Word:
     """A fact whose value is a number, as a word with that number."""
-    fact = stated.get(subject_of(name))
+    fact = stated.get(fact_key(name))
     if fact is None:
-        have = ", ".join(subject_text(each.text) for each in stated.values())
+        have = ", ".join(fact_subject(each.text) for each in stated.values())
         raise FamilyError(f"no fact says what {name} is; there are {have or 'none'}")
     text = fact.text.partition("=")[2].strip()
     try:
@@ -271,30 +270,10 @@ def _fact_of(name: str, stated: Mapping[str, Directive]) -> Word:
     return Word(FACT, number, "." in text, fact.text, fact.span)
 
 
-def subject_text(text: str) -> str:
-    """The subject of a fact, whose value it gives, as it is printed."""
-    return " ".join(text.partition("=")[0].split())
-
-
-def subject_of(text: str) -> str:
-    """The subject of a fact, however it is spelled: `Z of end of corner 2` is `corner 2.end Z`."""
-    subject = subject_text(text).lower().replace("centre", "center")
-    also = _ALSO.fullmatch(subject)
-    if also is None:
-        return _DOTTED.sub(r" \1", subject)
-    axis, part, of = also.groups()
-    return f"{of}{f'.{_BEGIN.get(part, part)}' if part else ''} {axis}"
-
-
-_ALSO = re.compile(r"([a-z]) of (?:(begin|start|end|center) of )?(.+)")
-_DOTTED = re.compile(r"\.([a-z])$")
-_BEGIN = {"start": "begin"}
-
-
 def is_same(typed: Word, other: Word) -> bool:
     """Whether a word, wherever it now stands in its line, is the free word that was typed."""
     is_alike = (typed.span.line, typed.address) == (other.span.line, other.address)
-    return is_alike and (typed.address != FACT or subject_of(typed.text) == subject_of(other.text))
+    return is_alike and (typed.address != FACT or fact_key(typed.text) == fact_key(other.text))
 
 
 def unit_word(word: Word, *, has_point: bool) -> Word:

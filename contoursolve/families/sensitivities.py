@@ -13,9 +13,9 @@ import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, fact_key, fact_subject
 from contoursolve.diagnostics import Shown, hash_of
-from contoursolve.families.block_template import BlockOptions, first_error, spec_of, subject_of, subject_text
+from contoursolve.families.block_template import BlockOptions, first_error, spec_of
 from contoursolve.families.branch_rows import add_path
 from contoursolve.families.case_classes import CaseClass, ShownOutput, case_in, results_of
 from contoursolve.families.errors import FamilyError
@@ -100,7 +100,7 @@ def read_tolerances(allowed: Mapping[str, float], spelled: Mapping[str, str]) ->
 
 def _key(word: str) -> str:
     """The name of a word, or of a fact, however it is spelled."""
-    return subject_of(name_of(word))
+    return fact_key(name_of(word))
 
 
 def _spelled(slopes: Rates, words: Mapping[str, Word]) -> dict[str, str]:
@@ -277,7 +277,7 @@ def _tied(system: System) -> frozenset[str]:
 def _fact_name(given: Given, word: Word, profile: Profile) -> str:
     """The subject of a fact; of a place, with the axis."""
     axis = given.name.rpartition(".")[2]
-    name = subject_text(word.text)
+    name = fact_subject(word.text)
     return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in word.text and axis.isdigit() else name
 
 

@@ -8,9 +8,9 @@ from typing import Unpack
 import numpy
 from msgspec import Struct
 
-from contoursolve.diagnosis import Answer, AskedValue, short_name, value_text
+from contoursolve.diagnosis import Answer, AskedValue, fact_key, short_name, value_text
 from contoursolve.diagnostics import Shown
-from contoursolve.families.block_template import BlockOptions, first_error, spec_of, subject_of
+from contoursolve.families.block_template import BlockOptions, first_error, spec_of
 from contoursolve.families.branches import Branch
 from contoursolve.families.case_classes import CaseClass, results_of
 from contoursolve.families.errors import FamilyError, NotClosedError
@@ -218,10 +218,10 @@ def _measured(read: ResultName, answer: Answer) -> float | None:
 
 def _asked(text: str, answer: Answer) -> AskedValue | None:
     """The value that a word or a fact of this name asks for."""
-    name = subject_of(text).removeprefix("asked.")
+    name = fact_key(text).removeprefix("asked.")
     for each in answer.asked:
         word = each.question.word
-        if name == (subject_of(word.text) if word.address == FACT else word.address.lower()):
+        if name == (fact_key(word.text) if word.address == FACT else word.address.lower()):
             return each
     return None
 

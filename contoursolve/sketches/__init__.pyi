@@ -1,3 +1,6 @@
+from .drawn_system import (
+    sketch_system as sketch_system,
+)
 from .dxf_chain import (
     DxfChain as DxfChain,
     DxfError as DxfError,

@@ -2,10 +2,14 @@
 
 import re
 from collections.abc import Iterable, Mapping
+from copy import deepcopy
 from decimal import Decimal, InvalidOperation
 from numbers import Integral, Real
+from types import MappingProxyType
+from typing import Any
 
-from contoursolve.diagnostics import Shown
+from contoursolve.diagnostics import Shown, from_above
+from contoursolve.gcode import read_directive
 from contoursolve.geometry import (
     ANGLES,
     Arc,
@@ -31,6 +35,7 @@ from contoursolve.geometry import (
     put_on,
     rank,
     read_statement,
+    word_of,
 )
 from contoursolve.solving.alternatives import decide, find_alternatives
 from contoursolve.solving.contour import trace
@@ -154,7 +159,7 @@ class Sketch(Shown):
         self._facts: list[Fact] = []
         self._beside: list[tuple[str, Place | None, Decimal | None]] = []
         self._free_lines: list[Line] = []
-        self._statements: list[str | Statement] = []
+        self._statements: dict[str, str | Statement] = {}
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Sketch) and vars(self) == vars(other)
@@ -207,7 +212,30 @@ class Sketch(Shown):
         with None for its value, asks for it."""
         if not (isinstance(fact, str) and fact.strip()) and not hasattr(fact, "state"):
             raise ValueError(f"state: a fact is a text or a statement, not {fact!r}")
-        self._statements.append(fact)
+        last = next(reversed(self._statements), "fact 0")
+        self._statements[f"fact {int(last.removeprefix('fact ')) + 1}"] = fact
+
+    @property
+    def facts(self) -> Mapping[str, str | Statement]:
+        """Its facts by name: `fact 1`, `fact 2` and so on."""
+        return MappingProxyType(self._statements)
+
+    def with_facts(self, facts: Mapping[str, str | Statement]) -> "Sketch":
+        """The same lines, arcs and circles, of which this is stated in place of its own facts, by names as in
+        `facts`."""
+        found = deepcopy(self)
+        found._statements = {}
+        for name, fact in facts.items():
+            if not _INTERNAL.fullmatch(name):
+                raise ValueError(f"with_facts: the names of facts are `fact 1`, `fact 2` and so on, not {name!r}")
+            found.state(fact)
+            found._statements[name.lower()] = found._statements.popitem()[1]
+        return found
+
+    def system(self) -> Any:
+        """Its equations, an `EquationSystem`. Facts are their words, by what they give the value of:
+        `sketch.system().subs({"length of a": 30})`. Raises as `profile`."""
+        return from_above("sketch_system", self)
 
     @property
     def _names(self) -> list[str]:
@@ -237,16 +265,18 @@ class Sketch(Shown):
                 draft.circle(name, place, size)
         elements = (*draft.figure.path, *draft.figure.lines, *draft.figure.circles)
         words = Vocabulary([each.name for each in elements], (self._first, *self._points), PLANE, Length.MM)
-        read = [(number, _read(number, fact, words)) for number, fact in enumerate(self._statements, 1)]
-        questions: dict[int, tuple[Fact, Unit]] = {}
-        for number, statement in sorted(read, key=lambda each: rank(each[1])):
-            name = f"fact {number}"
+        read = [(name, _read(name, fact, words)) for name, fact in self._statements.items()]
+        questions: dict[str, tuple[Fact, Unit]] = {}
+        for name, statement in sorted(read, key=lambda each: rank(each[1])):
+            text = str(self._statements[name])
+            draft.word = word_of(read_directive(text, -int(name.removeprefix("fact "))))
             try:
                 fact = statement.state(draft, name)
             except StatementError as error:
-                raise StatementError(f"{name} `{self._statements[number - 1]}`: {error}") from None
+                raise StatementError(f"{name} `{text}`: {error}") from None
             if name not in draft.givens and fact.given == name:
-                questions[number] = fact, Unit.DEGREE if isinstance(statement, ANGLES) else Unit.MM
+                questions[name] = fact, Unit.DEGREE if isinstance(statement, ANGLES) else Unit.MM
+        draft.word = None
         for line in self._free_lines:
             draft.line(line.name)
         profile = Profile(
@@ -260,7 +290,7 @@ class Sketch(Shown):
             intersections=(),
             is_extended=True,
         )
-        return profile, {f"fact {number}": questions[number] for number in sorted(questions)}
+        return profile, {name: questions[name] for name in self._statements if name in questions}
 
     def solve(self) -> Drawings:
         """Every way to draw the sketch. Raises ValueError for one without elements, and GrammarError or StatementError
@@ -268,7 +298,7 @@ class Sketch(Shown):
         if not (self._path or self._beside or self._free_lines):
             raise ValueError("the sketch is empty; add a line, an arc or a circle")
         profile, questions = self._stated()
-        texts = {f"fact {number}": str(fact) for number, fact in enumerate(self._statements, 1)}
+        texts = {name: str(fact) for name, fact in self._statements.items()}
         stated = Stated(profile, texts, questions)
         system = assemble(profile)
         verdict = analyse(system)
@@ -304,13 +334,13 @@ class Sketch(Shown):
         return end
 
 
-def _read(number: int, fact: str | Statement, words: Vocabulary) -> Statement:
+def _read(name: str, fact: str | Statement, words: Vocabulary) -> Statement:
     if not isinstance(fact, str):
         return fact
     try:
         return read_statement(fact, words)
     except GrammarError as error:
-        raise GrammarError(f"fact {number} `{fact}`: {error}", error.begin, error.end) from None
+        raise GrammarError(f"{name} `{fact}`: {error}", error.begin, error.end) from None
 
 
 def _drawn(item: Alternative, stated: Stated) -> Drawing:

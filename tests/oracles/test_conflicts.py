@@ -140,6 +140,9 @@ SIEMENS = Spelling(
     *("siemens-840d", "G17 G90 G0 X10 Y5\n", {"X": "X{:.5f}", "Y": "Y{:.5f}", "AN": "ANG={:.5f}"}, FANUC.blocks),
     *(" RND=.01", "", FACTS),
 )
+TANGENT_ARC = SIEMENS._replace(blocks=("G01", "CT"), corner="")._replace(
+    facts={"LEN": "length of line = {1:.5f}", "R": "radius of arc = {1:.5f}"}
+)
 MITSUBISHI = FANUC._replace(control="mitsubishi", before="G17 G90 G00 X10. Y5.\n")._replace(
     words={"X": "X{:.5f}", "Y": "Y{:.5f}", "AN": "A{:.5f}"}
 )
@@ -159,6 +162,7 @@ PATHS = {
     "arc, FCT": (KLARTEXT, "A ~A"),
     "Fanuc": (FANUC, "L L L"),
     "SINUMERIK": (SIEMENS, "L L L"),
+    "CT": (TANGENT_ARC, "L ~A"),
     "Mitsubishi": (MITSUBISHI, "L L L"),
     "NCT": (NCT, "L L L"),
 }
@@ -194,8 +198,13 @@ def written(kind: str, seed: int, most: int) -> Written:
     for name in random.sample(kept, random.choice((1, 1, 2))):
         words[name] = round(words[name] + random.choice((-1, 1)) * random.uniform(1.5, 6), 3)
     words |= {name: abs(value) for name, value in words.items() if name.endswith("R")}
-    touching = {name: 0.0 for name in path.words if name.endswith("T")}
-    return Written(path, words | touching, *program(spelling, path, words))
+    touching = [name for name in path.words if name.endswith("T")]
+    text, facts, named = program(spelling, path, words)
+    if spelling.blocks and touching:  # that they touch is a code, and goes without saying
+        firm = [path.says[name] for name in ("", *touching)]
+        path = path._replace(says=path.says | {"": lambda v, _: [each for say in firm for each in say(v, 0.0)]})
+        touching = []
+    return Written(path, words | dict.fromkeys(touching, 0.0), text, facts, named)
 
 
 def klartext(*blocks: str) -> str:
@@ -336,7 +345,7 @@ def assert_advice(text: str, answer, control: str = "heidenhain") -> None:
         line, (column, end) = each.span.line - 1, (each.span.column - 1, each.span.end_column - 1)
         word = changed[line][column:end].rstrip("+-.0123456789")
         changed[line] = changed[line][:column] + f"{word}{each.values['expected']:+.4f}" + changed[line][end:]
-    (again,) = contoursolve.solve("\n".join(changed) + "\n", control="heidenhain").answers
+    (again,) = contoursolve.solve("\n".join(changed) + "\n", control=control).answers
     assert "words-conflict" not in {each.code for each in again.diagnostics}, ("\n".join(changed), again.diagnostics)
 
 
@@ -389,3 +398,11 @@ def test_a_tangency_is_off_by_an_angle_and_no_number_is_advised_for_it():
     messages = [each.message for each in answer.diagnostics]
     assert messages[0] == "FCT disagrees with X+30, CCX+31, CCY+15 and R10 by 5.711 deg"
     assert not [each for each in messages if "FCT repeats" in each]
+
+
+@pytest.mark.parametrize(("behind", "told"), [("", {("AN", "LEN", "CCX", "FCT")}), ("FLT AN+90 LEN10", set())])
+def test_no_list_is_complete_without_what_has_a_contour_at_other_values_only(behind, told):
+    text = klartext("FL AN+0 LEN20", "FCT DR+ R5 CCX+31", *([behind] if behind else []))
+    (answer,) = contoursolve.solve(text, control="heidenhain", rules="off").answers
+    assert {tie.addresses for tie in answer.diagnosis.ties if tie.is_conflict} == told
+    assert answer.diagnosis.ties_complete is bool(told)

@@ -232,7 +232,9 @@ def test_a_system_with_other_numbers_is_that_of_the_block_so_written(programs):
 def test_a_system_with_other_numbers_keeps_its_facts_and_what_is_free():
     system = contoursolve.system("G111 X100. A180. K? B120. P5.", start=START, facts=["length of line 1 = 31"])
     moved = contoursolve.system("G111 X100. A180. K? B120. P5.", start=START, facts=["length of line 1 = 40."])
-    assert shown(system.subs(fact1=40)) == shown(moved)
+    assert shown(system.subs(fact1=40)) == shown(system.subs({"length of line 1": 40})) == shown(moved)
+    without = contoursolve.system("G111 X100. A180. K? B120. P5.", start=START)
+    assert shown(system.free("length of line 1"))[1:] == shown(without)[1:]
     shaft = contoursolve.system(SHAFT, start=START)
     assert shaft.free("K").subs(X=50).free == shaft.free("K").free
     for value in ("a", float("nan"), float("inf")):

@@ -1,8 +1,10 @@
 """`contoursolve.Sketch`: names, closed paths, values that are asked for, and calls that make no sense."""
 
+import pickle
 from decimal import Decimal
 from typing import Any
 
+import numpy
 import pytest
 
 from contoursolve import Drawings, Sketch, Status
@@ -36,6 +38,32 @@ def test_nothing_follows_a_closed_path() -> None:
         sketch.line("c")
     with pytest.raises(ValueError, match=r"an element from P0 to P0 has no length"):
         Sketch().arc("a", "cw", to="P0")
+
+
+# --- Its equations ----------------------------------------------------------------------------------
+
+
+def test_the_system_of_a_sketch_is_its_drawing_also_with_other_values_and_with_fewer_facts() -> None:
+    def drawn(values: dict[str, float]) -> Sketch:
+        sketch = path(("a",), ("k", "ccw"), ("b",), closes=False)
+        stated(sketch, "a tangent to k", "k tangent to b", *(f"{name} = {value}" for name, value in values.items()))
+        return sketch
+
+    facts = {"length of a": 20.0, "direction of a": 30.0, "radius of k": 5.0, "direction of b": 90.0}
+    facts["length of b"] = 10.0
+    system = drawn(facts).system()
+    assert (system.dof, system.ties, pickle.loads(pickle.dumps(system))) == (0, (), system)
+    for changed in ({}, {"length of a": 31.5, "direction of b": 60.0}):
+        again, (drawing,) = system.subs(changed), drawn(facts | changed).solve()
+        found = {str(symbol): value for symbol, value in again.solution.items()}
+        assert (found["X_P3"], found["Y_P3"]) == pytest.approx(drawing.points["P3"], abs=1e-9)
+        assert numpy.array(again.function()()["points"])[-1] == pytest.approx(drawing.points["P3"], abs=1e-9)
+    assert system.free("radius of k").dof == 1
+    (conflict,) = drawn(facts | {"X of k.center": 16.0}).system().conflicts
+    used = [f"{name} = {value}" for name, value in facts.items() if name.endswith((" a", " k"))]
+    assert set(conflict.words) == {"a tangent to k", "X of k.center = 16.0", *used}
+    with pytest.raises(ValueError, match="c is no word of the contour; its words are "):
+        system.subs(c=3)
 
 
 # --- Distances, parallels and arcs from their centres -----------------------------------------------
