@@ -45,6 +45,7 @@ from .json_text import (
     plain as plain,
 )
 from .source import (
+    DRAWN as DRAWN,
     OWN as OWN,
     Book as Book,
     Evidence as Evidence,

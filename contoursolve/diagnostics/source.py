@@ -37,6 +37,10 @@ class Source(Struct, frozen=True):
         return f"{self.manual}, {self.place} ({self.evidence.value})"
 
 
+DRAWN = Source(OWN, "the drawing", Evidence.DERIVED)
+"""Of a finding about a sketch, whose places are lines of its file."""
+
+
 class Book(NamedTuple):
     """A manual, whose places have a grade each."""
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 
 from contoursolve.diagnosis import count
-from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Label
+from contoursolve.diagnostics import DRAWN, Applicability, Diagnostic, Fix, Label
 from contoursolve.gcode import FaultKind
 from contoursolve.output.plain_text import cells, printable
 from contoursolve.reading import ReadIssue
@@ -115,7 +115,7 @@ def finding_pieces(
     for fix in fixes:
         lines.append([*foot, (f" fix [{effect_of(fix, finding)}]: {fix.description}", "")])
         if fix.applicability is not Applicability.PLACEHOLDER:
-            lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in _written(fix)]
+            lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in _written(fix, finding, name)]
     if len(finding.fixes) > len(fixes):
         more = len(finding.fixes) - len(fixes)
         lines.append([*foot, (f" {count(more, 'more fix', 'more fixes')}: {explaining} lists all", "")])
@@ -127,7 +127,7 @@ def finding_pieces(
     return [*([(printable(text), kind) for text, kind in line] for line in lines), []]
 
 
-def _written(fix: Fix) -> Iterator[str]:
+def _written(fix: Fix, finding: Diagnostic, name: str) -> Iterator[str]:
     """The lines that a fix writes: those of the contour that it changes, or all if their number changes; then those
     beside with their numbers, as they are and as they become."""
     if not fix.beside or fix.replacement != fix.replaced:
@@ -137,7 +137,7 @@ def _written(fix: Fix) -> Iterator[str]:
         )
         yield from map(_line, changed)
     for each in fix.beside:
-        yield f"program line {each.span.line}:"
+        yield f"line {each.span.line} of {name}:" if finding.source == DRAWN else f"program line {each.span.line}:"
         texts = each.text.split("\n")
         yield f"  {_line(each.old)}" if each.old in texts else f"- {_line(each.old)}"
         yield from (f"+ {_line(text)}" for text in texts if text and text != each.old)

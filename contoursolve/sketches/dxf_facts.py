@@ -3,7 +3,7 @@ many facts those are chosen that do not follow from others."""
 
 import re
 from cmath import phase, rect
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from decimal import Decimal
 from math import degrees, dist, hypot, nan, radians
 from typing import Any
@@ -56,37 +56,46 @@ class DrawnFact(Struct, frozen=True):
 
     def words(self) -> dict[str, Value]:
         """The fields that state it."""
-        if self.field in ("tangent", "facts"):
+        if self.field in ("tangent", "facts", "corner"):
             return {}
         counts = {f"R{self.field[1:]}": Decimal(self.origin)} if self.origin not in (None, self.element) else {}
         return {self.field: self.value, **counts}
 
 
-class Chamfer(Struct, frozen=True):
-    """A chamfer after an element, by the element's place: its setback, its ends, and the corner that it cuts."""
+class DrawnCorner(Struct, frozen=True):
+    """A chamfer or a rounding after an element, by the element's place: setback or radius, its ends, its centre."""
 
     after: int
-    setback: float
+    corner: SketchCorner
     ends: tuple[Point, Point]
+    center: Point | None = None
 
 
-def chamfered(chain: DxfChain, near: float) -> tuple[DxfChain, tuple[Chamfer, ...]]:
-    """The chain without lines that cut as much from both their neighbours, which go on to the corner; and these."""
-    kept, found = list(chain.elements), list[Chamfer]()
-    place = 1
-    while place < len(kept) - 1:
-        before, own, after = kept[place - 1 : place + 2]
-        corner = _corner_of(before, own, after, near)
-        if corner is not None:
-            found.append(Chamfer(place - 1, dist(corner, own.start), (own.start, own.end)))
-            kept[place - 1 : place + 2] = [replace(before, end=corner), replace(after, start=corner)]
-        place += 1
-    return replace(chain, elements=tuple(kept)), tuple(found)
+def cornered(
+    chain: DxfChain, near: float, left: Collection[tuple[Point, Point]] = ()
+) -> tuple[DxfChain, tuple[DrawnCorner, ...]]:
+    """The chain without chamfers and roundings: lines and arcs that cut as much from both lines beside them, which go
+    on to the corner; and these. Those with ends in `left` stay in the chain."""
+    kept, cut, found = [*chain.elements], set[int](), list[DrawnCorner]()
+    for place, own in enumerate(chain.elements[1:-1], 1):
+        before, _, after = chain.elements[place - 1 : place + 2]
+        is_open = place - 1 not in cut and (own.start, own.end) not in left
+        at = _corner_of(before, own, after, near) if is_open else None
+        if at is None:
+            continue
+        corner, center = SketchCorner("chamfer", number(dist(at, own.start))), None
+        if isinstance(own, ArcSegment):
+            corner, center = SketchCorner("rounding", number(own.radius)), own.center
+        found.append(DrawnCorner(place - 1 - len(cut), corner, (own.start, own.end), center))
+        cut.add(place)
+        kept[place - 1], kept[place + 1] = replace(kept[place - 1], end=at), replace(after, start=at)
+    elements = tuple(each for place, each in enumerate(kept) if place not in cut)
+    return replace(chain, elements=elements), tuple(found)
 
 
 def _corner_of(before: Segment, own: Segment, after: Segment, near: float) -> Point | None:
-    """The corner that a chamfer cuts; None of what is none."""
-    if not (isinstance(own, LineSegment) and isinstance(before, LineSegment) and isinstance(after, LineSegment)):
+    """The corner that a chamfer or a rounding cuts; None of what is neither."""
+    if not (isinstance(before, LineSegment) and isinstance(after, LineSegment)):
         return None
     way, other = direction(before.start, before.end), direction(after.end, after.start)
     turn = way[0] * other[1] - way[1] * other[0]
@@ -95,8 +104,16 @@ def _corner_of(before: Segment, own: Segment, after: Segment, near: float) -> Po
     gap = own.end[0] - own.start[0], own.end[1] - own.start[1]
     setbacks = (gap[0] * other[1] - gap[1] * other[0]) / turn, (gap[0] * way[1] - gap[1] * way[0]) / turn
     is_square = abs(way[0] * other[0] + way[1] * other[1]) < _SHARP
-    room = (max if is_square else min)(before.length, after.length)
-    if abs(setbacks[0] - setbacks[1]) > near or min(setbacks) <= near or own.length >= room:
+    if isinstance(own, ArcSegment):
+        # It touches both lines where it meets them, and its corner is no farther than a line of the drawing is long.
+        off = (
+            complex(*own.center) - complex(*at) - 1j * own.turn.sign * own.radius * complex(*along)
+            for at, along in ((own.start, way), (own.end, (-other[0], -other[1])))
+        )
+        is_cut = max(map(abs, off)) <= near and max(setbacks) <= max(before.length, after.length)
+    else:
+        is_cut = own.length < (max if is_square else min)(before.length, after.length)
+    if not is_cut or abs(setbacks[0] - setbacks[1]) > near or min(setbacks) <= near:
         return None
     return own.start[0] + way[0] * setbacks[0], own.start[1] + way[1] * setbacks[0]
 
@@ -110,9 +127,15 @@ class Chained:
     last end is the start. `near` is how near the points of dimensions lie."""
 
     def __init__(
-        self, chain: DxfChain, axes: tuple[str, str], near: float, *, is_turned: bool, chamfers: Sequence[Chamfer] = ()
+        self,
+        chain: DxfChain,
+        axes: tuple[str, str],
+        near: float,
+        *,
+        is_turned: bool,
+        corners: Sequence[DrawnCorner] = (),
     ) -> None:
-        self.chamfers = {each.after: each for each in chamfers}
+        self.corners = {each.after: each for each in corners}
         self.elements, self.axes, self.near = chain.elements, axes, near
         self.is_turned, self.is_closed = is_turned, chain.is_closed
         count = len(self.elements)
@@ -172,10 +195,10 @@ class Chained:
 
     def level_with(self, axis: int, at: Point) -> list[int]:
         """These ends, and all that lines along the other axis show to have the same coordinate."""
-        # Where a chamfer ends, its corner has the same coordinate as the line that it cuts.
+        # Where a chamfer or a rounding ends, the corner has the same coordinate as the line that it cuts.
         cut = {
             place + 1
-            for place, each in self.chamfers.items()
+            for place, each in self.corners.items()
             for line, end in zip(self.elements[place : place + 2], each.ends, strict=True)
             if self.is_along(line, 1 - axis) and dist(end, self.over(at)) <= self.near
         }
@@ -277,12 +300,18 @@ def _read(chained: Chained, entity: Any, place: Callable[[Any], Point]) -> tuple
         return abs((run * rect(1, -radians(angle))).real), ways
     if kind in (_RADIUS, _DIAMETER):
         center = corner if kind == _RADIUS else ((corner[0] + last[0]) / 2, (corner[1] + last[1]) / 2)
-        same = (
-            place
-            for place, arc in chained.arcs.items()
-            if dist(arc.center, chained.over(center)) <= near >= abs(arc.radius - dist(center, last))
+        of_arcs = ((chained.fact(place, "R"), arc.center, arc.radius) for place, arc in chained.arcs.items())
+        of_corners = (
+            (DrawnFact(place, "corner"), each.center, dist(each.center, each.ends[0]))
+            for place, each in chained.corners.items()
+            if each.center is not None
         )
-        return dist(corner, last), [chained.fact(each, "R") for each in same]
+        same = [
+            fact
+            for fact, at, radius in (*of_arcs, *of_corners)
+            if dist(at, chained.over(center)) <= near >= abs(radius - dist(center, last))
+        ]
+        return dist(corner, last), same
     if kind in (_ANGULAR, _BY_POINTS):
         sides = ((last, first), (last, second)) if kind == _BY_POINTS else ((first, second), (last, corner))
         return _between(chained, *sides)
@@ -329,7 +358,8 @@ def _between(chained: Chained, *sides: tuple[Point, Point]) -> tuple[float, list
 def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[DrawnFact], bool]:
     """Of facts in their order those that say something new about the places, for which a field is free; and whether
     they determine the chain."""
-    basis, chosen, taken = list[Any](), list[DrawnFact](), set[tuple[int, str]]()
+    basis, taken = list[Any](), set[tuple[int, str]]()
+    chosen = [fact for group in groups for fact in group if fact.field == "corner"]
     step = _STEP * float(np.ptp(chained.at))
     moves = np.eye(chained.at.size).reshape(-1, *chained.at.shape) * step
 
@@ -348,7 +378,7 @@ def independent(chained: Chained, *groups: Sequence[DrawnFact]) -> tuple[list[Dr
     stated = [DrawnFact(-1, name) for name in chained.axes] + [DrawnFact(place, "off") for place in chained.arcs]
     for each in stated:
         is_new(each, _RANKS[-1])
-    for least, fact in ((each, fact) for each in _RANKS for group in groups for fact in group):
+    for least, fact in ((each, fact) for each in _RANKS for group in groups for fact in group if fact not in chosen):
         name = fact.field.removeprefix("I")
         rivals = {name, f"I{name}"} if name in chained.axes else {fact.field} - {"facts"}
         is_free = not any((fact.element, each) in taken for each in rivals)
@@ -370,7 +400,7 @@ def elements_of(chained: Chained, facts: Sequence[DrawnFact], *, has_guess: bool
                 {name: value for fact in own for name, value in fact.words().items()},
                 arc.turn.value if arc else None,
                 any(fact.field == "tangent" for fact in own),
-                _corner(chained.chamfers.get(place)),
+                chained.corners[place].corner if place in chained.corners else None,
                 guess=chained.place(place + 1) if has_guess else {},
                 facts=tuple(
                     f"angle from line {(fact.origin or 0) + 1} to line {place + 1} = {fact.value}"
@@ -380,7 +410,3 @@ def elements_of(chained: Chained, facts: Sequence[DrawnFact], *, has_guess: bool
             )
         )
     return tuple(found)
-
-
-def _corner(chamfer: Chamfer | None) -> SketchCorner | None:
-    return SketchCorner("chamfer", number(chamfer.setback)) if chamfer is not None else None

@@ -2,7 +2,7 @@
 
 import io
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from math import dist
 from pathlib import Path
@@ -29,10 +29,9 @@ from contoursolve.sketches.dxf_chain import (
 )
 from contoursolve.sketches.dxf_facts import (
     Chained,
-    Chamfer,
     DrawnFact,
-    chamfered,
     coordinates,
+    cornered,
     dimensions,
     elements_of,
     independent,
@@ -170,16 +169,20 @@ def read_dxf(
     chosen = _directed(chosen, is_reversed=is_backward != reverse)
     axes, distance = DRAWINGS[part].plane.axes, JOINED / _MM[named]
 
-    def chained_by(chain: DxfChain, chamfers: Sequence[Chamfer]) -> tuple[Chained, set[str]]:
-        own = Chained(chain, axes, distance, is_turned=part == "turned", chamfers=chamfers)
-        return own, {fact.given for fact in dimensions(own, contents.dimensions, place)[0]}
+    def given_by(ends: Iterable[tuple[Point, Point]]) -> tuple[Chained, set[str]]:
+        chain, own = cornered(chosen, near, {*every}.difference(ends))
+        chained = Chained(chain, axes, distance, is_turned=part == "turned", corners=own)
+        return chained, {fact.given for fact in dimensions(chained, contents.dimensions, place)[0]}
 
-    chained, given_by = chained_by(chosen, ())
-    plain, chamfers = chamfered(chosen, near)
-    of_corners, given_by_corners = chained_by(plain, chamfers)
-    # Where a dimension ends at the end of a chamfer, the drawing says the line itself.
-    chained, chamfers = (of_corners, chamfers) if given_by_corners >= given_by else (chained, ())
-    notes += [f"read as a chamfer of {each.setback:.6g} {named}: {_name(chosen, each.ends)}" for each in chamfers]
+    # Where a dimension ends at the end of a chamfer or of a rounding, the drawing says the line or the arc itself.
+    every = [each.ends for each in cornered(chosen, near)[1]]
+    (chained, told_by_all), told_by_lines = given_by(every), given_by([])[1]
+    if not told_by_all >= told_by_lines:
+        chained = given_by([ends for ends in every if given_by([ends])[1] >= told_by_lines])[0]
+    notes += [
+        f"read as a {each.corner.shape} of {each.corner.size} {named}: {_name(chosen, each.ends)}"
+        for each in chained.corners.values()
+    ]
     known = list(coordinates(chained))
     sketch, given = _sketch(chained, chosen, known, contents.dimensions, place, named, notes)
     return DxfSketch(sketch, given, tuple(notes), dict(layers), tuple(_measured(chained, known)))

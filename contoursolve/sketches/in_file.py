@@ -8,16 +8,14 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics import (
-    OWN,
+    DRAWN,
     Applicability,
     Basis,
     Diagnostic,
-    Evidence,
     Fix,
     Label,
     LineChange,
     Severity,
-    Source,
     Span,
 )
 from contoursolve.gcode import Program
@@ -30,7 +28,6 @@ from contoursolve.sketches.sketch_file import read_sketch
 _HEADER = re.compile(r"\s*\[\[\s*element\s*\]\]")
 _TABLE = re.compile(r"\s*\[\s*element\s*\.\s*(?P<name>\w+)\s*\]")
 _KEY = re.compile(r"\s*(?P<name>\w+)\s*=\s*(?P<value>[^#]*[^#\s])")
-_DRAWING = Source(OWN, "the drawing", Evidence.DERIVED)
 _KIND = re.compile(r"\bkind\b[\"']?\s*[=:]")
 
 
@@ -129,7 +126,7 @@ def _diagnostic(file: SketchFile, finding: SketchFinding) -> Diagnostic:
         Basis.NUMERICAL if values else Basis.STRUCTURAL,
         next(iter(spans)),
         finding.message,
-        _DRAWING,
+        DRAWN,
         tuple(Label(span, "") for span in spans),
         values=values,
         help=finding.help,
