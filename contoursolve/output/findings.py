@@ -1,9 +1,9 @@
 """A finding as text, in the layout that compilers use: the place, the words marked, why, and what to do."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from contoursolve.diagnosis import count
-from contoursolve.diagnostics import DRAWN, Applicability, Diagnostic, Fix, Label
+from contoursolve.diagnosis import count, join
+from contoursolve.diagnostics import DRAWN, Applicability, Diagnostic, Fix, Label, Severity
 from contoursolve.gcode import FaultKind
 from contoursolve.output.plain_text import cells, printable
 from contoursolve.reading import ReadIssue
@@ -46,6 +46,30 @@ Style = Callable[[str, str], str]
 def plain(text: str, _role: str) -> str:
     """No style."""
     return text
+
+
+def words_of(finding: Diagnostic) -> tuple[Severity, str, object]:
+    """What a finding says of its place, the same for others in the same words; its fixes hold for its place alone."""
+    own = finding.span if finding.fixes or finding.span.line <= 0 else None
+    return finding.severity, finding.code, (finding.message, finding.notes, finding.help, own)
+
+
+def alike(findings: Iterable[Diagnostic]) -> list[list[Diagnostic]]:
+    """Findings in the same words together, in the order of the first ones."""
+    found: dict[object, list[Diagnostic]] = {}
+    for each in findings:
+        found.setdefault(words_of(each), []).append(each)
+    return [*found.values()]
+
+
+MOST_LINES = 12
+"""Lines that are named where several findings say the same."""
+
+
+def lines_text(lines: Sequence[int]) -> str:
+    """The lines of a program in which the same is found: `program lines 3, 5 and 7`."""
+    more = [f"{len(lines) - MOST_LINES:,} more"] if len(lines) > MOST_LINES else []
+    return f"program line{'s' * (len(lines) > 1)} {join([*map(str, lines[:MOST_LINES]), *more])}"
 
 
 def finding_lines(

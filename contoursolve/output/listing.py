@@ -1,7 +1,7 @@
 """A whole result as text: contours with their findings in the order of the program, and what was examined in all."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace as replace_fields
 from heapq import heappop, heappush
 from itertools import chain
@@ -24,7 +24,7 @@ from contoursolve.diagnosis import (
 )
 from contoursolve.diagnostics import Applicability, Diagnostic, Fix, LateModule, Severity, check_type
 from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
-from contoursolve.output.findings import EXPLAINING, Style, finding_lines
+from contoursolve.output.findings import EXPLAINING, Style, finding_lines, lines_text, words_of
 from contoursolve.output.plain_text import columns, printable
 from contoursolve.program import ELSEWHERE, Result, Run, what_shows
 from contoursolve.reading import ReadIssue
@@ -110,10 +110,12 @@ def stream_findings(
     is_alone: bool = True,
     most: int | None = MOST_ALIKE,
 ) -> Iterator[str]:
-    """The findings of a stream, as `check` reports them: of those of one code so many, and then how many more. Only
-    where it `is_alone` that there is nothing to solve is told."""
+    """The findings of a stream, as `check` reports them: of those in the same words the first, then the lines of the
+    others; of those of one code so many, and then how many more. Only where it `is_alone` that there is nothing to
+    solve is told."""
     is_short = not (run.is_strict or is_explained)
     alike = Counter[tuple[Severity, str]]()
+    again: dict[tuple[Severity, str, object], list[int]] = {}
 
     answers, following = list[Answer](), Consequences()
 
@@ -126,9 +128,11 @@ def stream_findings(
 
     def shown() -> Iterator[Diagnostic]:
         for finding in _in_order(items()):
-            kind = finding.severity, finding.code
-            alike[kind] += 1
-            if most is None or alike[kind] <= most:
+            kind, words = (finding.severity, finding.code), words_of(finding)
+            is_said = words in again and not is_explained
+            again.setdefault(words, []).append(finding.span.line)
+            alike[kind] += not is_said
+            if most is None or (alike[kind] <= most and not is_said):
                 yield finding
             else:
                 following.beneath(finding)
@@ -137,13 +141,26 @@ def stream_findings(
         run.frame, shown(), style, is_explained=is_explained, is_short=is_short, following=following
     )
     yield from lines_of_findings(run.frame, following.left(), style)
+    if most is not None and not is_explained:
+        yield from _said_again(again, style)
     for (severity, code), number in alike.items():
         if most is not None and number > most:
-            role = severity.value
-            yield f"{style(f'{role}[{code}]', role)}: and {number - most:,} more like it; --all shows them"
+            yield f"{_kind_text(severity, code, style)}: and {number - most:,} more like it; --all shows them"
             yield ""
     for answer in answers:
         yield from (title_line(answer, run.frame.program.name), *explaining_lines(answer), "")
+
+
+def _said_again(said: Mapping[tuple[Severity, str, object], Sequence[int]], style: Style) -> Iterator[str]:
+    """Where else findings say the same, by what they say: the lines of each, the first of which was shown."""
+    for (severity, code, _), (_, *others) in said.items():
+        if others:
+            yield f"{_kind_text(severity, code, style)}: the same in {lines_text(others)}; --all shows each"
+            yield ""
+
+
+def _kind_text(severity: Severity, code: str, style: Style) -> str:
+    return style(f"{severity.value}[{code}]", severity.value)
 
 
 def _counted(

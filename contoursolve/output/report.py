@@ -17,6 +17,7 @@ from contoursolve.diagnosis import Answer, Policy, coordinates, count
 from contoursolve.diagnostics import Diagnostic, Evidence, Label, LateModule, Severity, Span, checked
 from contoursolve.gcode import Block, own_comments
 from contoursolve.output.contours import given_table, path_of
+from contoursolve.output.findings import alike
 from contoursolve.output.html import (
     checks_table,
     figure,
@@ -239,19 +240,24 @@ def _contours(result: Result, places: PageAnchors) -> h.Element:
     if not result.answers:
         return h.section(id="contours")[h.h2["Contours"], together or h.p["The program has no contour."]]
     header = ("contour", "line", "form", "status", "ends at", "findings")
+    own = {id(each) for answer in result.answers for each in answer.diagnostics}
+    beside: dict[int | None, list[Diagnostic]] = {}
+    for finding in (each for each in result.diagnostics if id(each) not in own):
+        beside.setdefault(places.contours.get(finding.span.line), []).append(finding)
     rows = [
         (
             h.a(href=places.contour(number))[f"contour {number}"],
             _line_link(answer.lines[0], places),
             short(answer.form_text),
-            _status(answer),
+            _status(answer, found),
             h.span(".place")[coordinates(answer.contour.end, answer.plane, answer.unit)] if answer.contour else "",
-            _found(answer.diagnostics),
+            _found(found),
         )
         for number, answer in enumerate(result.answers, 1)
+        for found in [(*answer.diagnostics, *beside.get(number, ()))]
     ]
     return h.section(id="contours")[
-        h.h2["Contours"],
+        h.h2["Contours"] if together or len(rows) > 1 else None,
         together,
         table("Every contour, with what became of it", header, rows) if len(rows) > 1 else None,
         _points(result, places),
@@ -324,7 +330,11 @@ def _contour(
     path = path_element(answer, identity=f"path-{number}")
     words = words_table(answer, identity=f"words-{number}")
     element = h.article(id=f"contour-{number}")[
-        h.h3[short(f"Contour {number}, program line {answer.lines[0]}: {answer.form_text}"), ": ", _status(answer)],
+        h.h3[
+            short(f"Contour {number}, program line {answer.lines[0]}: {answer.form_text}"),
+            ": ",
+            _status(answer, answer.diagnostics),
+        ],
         h.div(".blocks")[
             (
                 h.p[_line_link(block.line, places), " ", h.code[short(block.text.strip())]]
@@ -374,12 +384,12 @@ def _finding(
     return finding_element(finding, name, sources, anchor=places.line, identity=identity, heading=heading, names=names)
 
 
-def _status(answer: Answer) -> h.Element:
+def _status(answer: Answer, findings: Sequence[Diagnostic]) -> h.Element:
     """The status, in the colour of its worst finding."""
-    return h.span(class_=f"status {worst_of(answer.diagnostics)}")[answer.state]
+    return h.span(class_=f"status {worst_of(findings)}")[answer.state]
 
 
-def _found(findings: tuple[Diagnostic, ...]) -> str:
+def _found(findings: Sequence[Diagnostic]) -> str:
     numbers = Counter(each.severity for each in findings)
     return ", ".join(count(numbers[each], each.value) for each in Severity if numbers[each]) or "none"
 
@@ -441,8 +451,20 @@ def _others(result: Result, places: PageAnchors) -> h.Element | None:
         return None
     return h.section(id="others")[
         h.h2["Other findings"],
-        (_finding(each, result, places, h.h3) for each in others),
+        (_in_same_words(each, result, places) for each in alike(others)),
     ]
+
+
+def _in_same_words(found: Sequence[Diagnostic], result: Result, places: PageAnchors) -> Iterator[h.Element]:
+    """The first of findings that say the same, and the places of the others."""
+    first, *others = found
+    yield _finding(first, result, places, h.h3)
+    if others:
+        lines = [
+            [", " * bool(n), h.span(id=places.finding(one))[_line_link(one.span.line, places)]]
+            for n, one in enumerate(others)
+        ]
+        yield h.p(".more")["The same in ", lines]
 
 
 def _program(result: Result, places: PageAnchors) -> h.Element:

@@ -8,8 +8,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import DECIMALS, Answer
-from contoursolve.diagnostics import checked
+from contoursolve.diagnostics import Diagnostic, checked
 from contoursolve.geometry import Turn
+from contoursolve.output.findings import alike, lines_text
 from contoursolve.pictures import (
     Closeup,
     Leader,
@@ -75,19 +76,22 @@ class Stance(Struct, frozen=True):
 def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[ToolDrawing, ...]:
     """The drawings of a tool beside the contours of a program, in each plane, or beside one of them."""
     lines = answer.lines if answer is not None else ()
-    drawn = []
+    drawn, findings = [], sorted(report.findings, key=lambda finding: not finding.is_error)
+    # Beside a whole program, nobody sees which line "this line" is.
+    told = findings if lines else [_named(each) for each in alike(findings)]
     for each in report.runs:
         own = [place for place, travel in enumerate(each.run.travels) if answer is None or travel.line in lines]
         if own:
-            # Beside a whole program, nobody sees which line "this line" is.
-            findings = [
-                one if lines else replace(one, message=f"program line {one.span.line}: {one.message}")
-                for one in sorted(report.findings, key=lambda finding: not finding.is_error)
-                if one.span.line in (lines or each.run.lines)
-            ]
-            drawn.append(_beside(each, own, tuple(remarks_of(findings)), is_whole=answer is None))
+            here = [one for one in told if one.span.line in (lines or each.run.lines)]
+            drawn.append(_beside(each, own, tuple(remarks_of(here)), is_whole=answer is None))
     planes = groupby(sorted(drawn, key=lambda one: one.plane.code), key=lambda one: one.plane)
     return tuple(_together([*several]) for _, several in planes)
+
+
+def _named(found: Sequence[Diagnostic]) -> Diagnostic:
+    """The first of findings in the same words, which names the lines of all."""
+    lines = lines_text([each.span.line for each in found])
+    return replace(found[0], message=f"{lines}: {found[0].message}")
 
 
 @checked
