@@ -49,7 +49,7 @@ def plain(text: str, _role: str) -> str:
 
 
 def words_of(finding: Diagnostic) -> tuple[Severity, str, object]:
-    """What a finding says of its place, the same for others in the same words; its fixes hold for its place alone."""
+    """The words of a finding about a place, equal to those of others that say the same; fixes hold for one place."""
     own = finding.span if finding.fixes or finding.span.line <= 0 else None
     return finding.severity, finding.code, (finding.message, finding.notes, finding.help, own)
 

@@ -152,7 +152,7 @@ def stream_findings(
 
 
 def _said_again(said: Mapping[tuple[Severity, str, object], Sequence[int]], style: Style) -> Iterator[str]:
-    """Where else findings say the same, by what they say: the lines of each, the first of which was shown."""
+    """The other lines of findings in the same words, of which the first was shown."""
     for (severity, code, _), (_, *others) in said.items():
         if others:
             yield f"{_kind_text(severity, code, style)}: the same in {lines_text(others)}; --all shows each"

@@ -62,7 +62,7 @@ class DrawnFact(Struct, frozen=True):
         return {self.field: self.value, **counts}
 
 
-class DrawnCorner(Struct, frozen=True):
+class CutCorner(Struct, frozen=True):
     """A chamfer or a rounding after an element, by the element's place: setback or radius, its ends, its centre."""
 
     after: int
@@ -73,10 +73,10 @@ class DrawnCorner(Struct, frozen=True):
 
 def cornered(
     chain: DxfChain, near: float, left: Collection[tuple[Point, Point]] = ()
-) -> tuple[DxfChain, tuple[DrawnCorner, ...]]:
+) -> tuple[DxfChain, tuple[CutCorner, ...]]:
     """The chain without chamfers and roundings: lines and arcs that cut as much from both lines beside them, which go
     on to the corner; and these. Those with ends in `left` stay in the chain."""
-    kept, cut, found = [*chain.elements], set[int](), list[DrawnCorner]()
+    kept, cut, found = [*chain.elements], set[int](), list[CutCorner]()
     for place, own in enumerate(chain.elements[1:-1], 1):
         before, _, after = chain.elements[place - 1 : place + 2]
         is_open = place - 1 not in cut and (own.start, own.end) not in left
@@ -86,7 +86,7 @@ def cornered(
         corner, center = SketchCorner("chamfer", number(dist(at, own.start))), None
         if isinstance(own, ArcSegment):
             corner, center = SketchCorner("rounding", number(own.radius)), own.center
-        found.append(DrawnCorner(place - 1 - len(cut), corner, (own.start, own.end), center))
+        found.append(CutCorner(place - 1 - len(cut), corner, (own.start, own.end), center))
         cut.add(place)
         kept[place - 1], kept[place + 1] = replace(kept[place - 1], end=at), replace(after, start=at)
     elements = tuple(each for place, each in enumerate(kept) if place not in cut)
@@ -133,7 +133,7 @@ class Chained:
         near: float,
         *,
         is_turned: bool,
-        corners: Sequence[DrawnCorner] = (),
+        corners: Sequence[CutCorner] = (),
     ) -> None:
         self.corners = {each.after: each for each in corners}
         self.elements, self.axes, self.near = chain.elements, axes, near
