@@ -8,6 +8,7 @@ from enum import Enum
 from math import atan2, ceil, cos, hypot, inf, radians, sin, sqrt, tau
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.geometry import Length, Plane
 
@@ -78,6 +79,18 @@ class Travel(Struct, frozen=True):
             for axis, center, part in zip(self.bend.axes, self.bend.center, (cos(angle), sin(angle)), strict=True):
                 place[axis] = center + radius * part
         return tuple(place)
+
+    def moved(self, by: Sequence[float]) -> "Travel":
+        """The same, some mm further along each axis."""
+        start, end = (
+            tuple(None if at is None else at + way for at, way in zip(place, by, strict=True))
+            for place in (self.start, self.end)
+        )
+        bend = self.bend
+        if bend is not None:
+            first, second = (at + by[axis] for axis, at in zip(bend.axes, bend.center, strict=True))
+            bend = replace(bend, center=(first, second))
+        return replace(self, start=start, end=end, bend=bend)
 
     def length(self, begin: float = 0.0) -> float:
         """The length from a fraction of the way to the end, mm; infinite if the start is not known."""

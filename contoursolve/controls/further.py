@@ -124,8 +124,12 @@ _SPEEDS: Mapping[int, str] = {
     **dict.fromkeys(_points("22.1", "22.2", "23.1", "80.4", "80.5", "81.1", "81.4"), "limits and synchronous axes"),
 }
 _FRAMES: Mapping[int, str] = {
-    **dict.fromkeys(_points("7.1", "12.1", "13.1", "16.1", "16.2"), "interpolation on another surface"),
-    **dict.fromkeys(_points("50.1", "51.1", "50.2", "51.2", "50.4", "51.4"), "mirroring or polygon turning"),
+    **dict.fromkeys(_points("7.1", "12.1", "16.1", "16.2"), "interpolation on another surface"),
+    **dict.fromkeys(_points("13.1"), "end of interpolation on another surface"),
+    **dict.fromkeys(_points("50.1"), "end of mirroring"),
+    **dict.fromkeys(_points("51.1"), "mirroring"),
+    **dict.fromkeys(_points("51.2", "51.4"), "polygon turning or synchronous axes"),
+    **dict.fromkeys(_points("50.2", "50.4"), "end of polygon turning or synchronous axes"),
     **dict.fromkeys(_points("53.1", "53.2", "53.6", "68.1", "68.2", "68.3", "68.4", "69.1"), "tilted plane"),
     **dict.fromkeys(_points("43.1", "43.3", "43.4", "43.5", "43.8", "43.9", "44.1", "49.1"), "tool direction"),
     **dict.fromkeys(_points("41.1", "42.1", "41.2", "42.2", "41.4", "42.4", "41.5", "42.5"), "compensation in space"),
@@ -146,10 +150,14 @@ _ISO = {
     Effect.SINGLE: _ACTIONS,
 }
 
+_SURFACES = {
+    **dict.fromkeys((7, 107, 112), "interpolation on another surface"),
+    113: "end of interpolation on another surface",
+}
 _MILLS = {
     Effect.NONE: dict.fromkeys((160, 161), "cutter compensation mode"),
     Effect.SINGLE: dict.fromkeys((45, 46, 47, 48), "tool offset by steps") | {12: "pocket", 13: "pocket"},
-    Effect.FRAME: dict.fromkeys((107, 112, 113, 7), "interpolation on another surface"),
+    Effect.FRAME: _SURFACES,
 }
 _LATHES = {
     Effect.NONE: dict.fromkeys((160, 161), "compensation mode"),
@@ -158,13 +166,13 @@ _LATHES = {
     Effect.SINGLE: {29: "return from reference point", 33: "thread"}
     | dict.fromkeys((38, 39, 52), "shift or measurement")
     | dict.fromkeys((68, 69), "second turret"),
-    Effect.FRAME: dict.fromkeys((7, 107, 112, 113), "interpolation on another surface"),
+    Effect.FRAME: _SURFACES,
 }
 _HAAS = {
     Effect.NONE: dict.fromkeys((103, 187, 188, 254, 255), "look ahead and accuracy")
     | dict.fromkeys((184, 186, 195, 196), "tapping with a live tool"),
     Effect.SHIFT: dict.fromkeys((*range(110, 130), 154), "work coordinate system"),
-    Effect.FRAME: dict.fromkeys((100, 101), "mirroring") | dict.fromkeys((141, 143, 234, 253), "tool direction"),
+    Effect.FRAME: {100: "end of mirroring", 101: "mirroring"} | dict.fromkeys((141, 143, 234, 253), "tool direction"),
     Effect.SINGLE: dict.fromkeys((35, 36, 136, 102, 105), "measurement or output")
     | dict.fromkeys((12, 13, 70, 71, 72, 150), "pocket or row of holes"),
     Effect.CYCLE: dict.fromkeys((77, 153, 155, 156, 174, 178, 241, 242, 243, 244, 245, 246, 247, 248, 249), "drilling"),

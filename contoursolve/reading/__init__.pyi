@@ -109,8 +109,11 @@ from .moved_zero import (
     ZeroMove as ZeroMove,
     ZeroRow as ZeroRow,
     ZeroTable as ZeroTable,
+    shift_in as shift_in,
     shift_zero as shift_zero,
     table_of as table_of,
+    turns_in as turns_in,
+    with_turn as with_turn,
 )
 from .parsed_contour import (
     ParsedContour as ParsedContour,

@@ -9,6 +9,9 @@ from contoursolve.diagnostics import Source
 from contoursolve.gcode import PLAIN, Word, WordSpelling
 from contoursolve.geometry import Given, Length, Plane, Unit
 
+END_OF = "end of "
+"""The begin of the meaning of a code that ends what the rest of it says."""
+
 
 class Effect(Enum):
     """The effect of a G code, as far as contours are concerned."""
@@ -82,6 +85,11 @@ class Code:
     def text(self) -> str:
         """The text that is written."""
         return self.name or f"G{self.number:02}"
+
+    @property
+    def ends_frame(self) -> bool:
+        """Whether it ends what turns, mirrors or scales axes."""
+        return self.effect is Effect.FRAME and self.meaning.startswith(END_OF)
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,7 +36,7 @@ from contoursolve.gcode import (
 from contoursolve.geometry import Length, Plane, Start
 from contoursolve.reading.arc_table import ArcTable
 from contoursolve.reading.contour_form import Convention, Setting
-from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon, WithoutPoint
+from contoursolve.reading.lexicon import END_OF, TURNED, Bearing, Code, Diameter, Effect, Lexicon, WithoutPoint
 from contoursolve.reading.moved_zero import (
     NOTHING_MOVES,
     UNKNOWN_ZERO,
@@ -45,10 +45,15 @@ from contoursolve.reading.moved_zero import (
     ZeroRow,
     ZeroTable,
     change_entries,
+    commanded,
     entries_of_assignment,
     forget_shifts,
     is_along_axes,
     move_zero,
+    shift_in,
+    turns_in,
+    unknown_zero,
+    with_turn,
 )
 from contoursolve.tolerance import TRAVEL
 
@@ -281,7 +286,7 @@ class State(Struct, frozen=True):
 
     def lose_all(self, axes: tuple[str, ...], reason: str, span: Span) -> "State":
         """The same where it is not known either which offsets are in force."""
-        return replace(self.lose(axes, reason, span), zero=UNKNOWN_ZERO)
+        return replace(self.lose(axes, reason, span), zero=unknown_zero(self.zero))
 
 
 def unread_state(unit: Length) -> State:
@@ -434,7 +439,9 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
             case Effect.SHIFT | Effect.FRAME if code.number not in modes.zero.codes:
                 reason = f"{code.text} changes the coordinate system"
                 state = state.lose(modes.axes, reason, block.span)
-                state = replace(state, zero=forget_shifts(state.zero) if code.is_read else UNKNOWN_ZERO)
+                zero = state.zero if code.is_read else unknown_zero(state.zero)
+                zero = forget_shifts(zero) if code.effect is Effect.SHIFT else _turned(zero, code, block, modes)
+                state = replace(state, zero=zero)
             case Effect.PRESET:
                 state = replace(state, zero=forget_shifts(state.zero))
             case _:
@@ -449,12 +456,32 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
     return _move_zero(state, block, moving, modes) if moving or block.macro is not None else state
 
 
+def _turned(zero: Zero, code: Code, block: Block, modes: Modes) -> Zero:
+    """The zero behind a code that turns, mirrors or scales axes, or ends that; single axes are mirrored, each by
+    itself."""
+    name = code.meaning.removeprefix(END_OF)
+    if name.startswith(_POLE):
+        return zero
+    axes = [_axis(word, modes) for word in axis_words(block, modes)] if name == _MIRRORING else []
+    is_end = code.ends_frame
+    every = [each for each in turns_in(zero) if each.startswith(name)] if is_end and not axes else [name]
+    for each in [f"{name} of {axis}" for axis in axes] or every:
+        zero = with_turn(zero, each, is_on=not is_end)
+    return zero
+
+
+_MIRRORING, _POLE = "mirroring", "pole"
+
+
 def _move_zero(state: State, block: Block, moving: Sequence[tuple[ZeroRow, Word]], modes: Modes) -> State:
     """The state with the coordinate system moved by words of a block, or by the variable that it sets."""
     numbers = _shifts_in(state, block, modes) if moving else {}
     for row, word in moving:
-        mm = partial(_shift_of, state)
-        moved = move_zero(state.zero, row, word, block, numbers, modes.axes, state.plane.code, mm)
+        mm, own = partial(_shift_of, state), numbers
+        if row.adds_increments and state.is_incremental:
+            ways = {axis: (shift_in(state.zero, axis), by) for axis, by in numbers.items()}
+            own = {axis: None if old is None or by is None else old + by for axis, (old, by) in ways.items()}
+        moved = move_zero(state.zero, row, word, block, own, modes.axes, state.plane.code, mm)
         state = state if moved is None else state_moved(state, moved, block.span)
     entries = [*entries_of_assignment(modes.zero, block)]
     if entries:
@@ -548,7 +575,8 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
     for code in codes:
         if isinstance(code, Word):
             # Whatever it does, it may do to every axis.
-            return state.lose_all(modes.axes, f"{code.text} is not known to contoursolve", code.span)
+            state = state.lose_all(modes.axes, f"{code.text} is not known to contoursolve", code.span)
+            return replace(state, zero=commanded(state.zero, modes.zero, code.text))
     lost = _lost_by_faults(block, modes)
     words = axis_words(block, modes)
     codes = [code for code in codes if words or isinstance(code, Word) or not code.needs_axes]

@@ -94,8 +94,8 @@ class ZeroRow:
     """The offset that it selects, where another code has that as well."""
     goes_on: bool = False
     """Whether what it does not say stays as it was: G43 alone keeps H."""
-    is_of_words: bool = False
-    """Whether only the axes of its block's words are concerned, where there are some."""
+    adds_increments: bool = False
+    """Whether its numbers come to those in force where increments are in force."""
     entries: Entries | None = None
 
     def axes_in(self, plane: str) -> tuple[str, ...]:
@@ -125,6 +125,8 @@ class ZeroTable:
     """Those of variables and statements, which are found in other ways: commas part their names."""
     first: Zero = field(default_factory=dict)
     variables: Callable[[str], Iterable[Entry]] | None = None
+    commands: re.Pattern[str] | None = None
+    """Commands beside words that turn, mirror or scale axes, by their name, and whether they begin or end that."""
 
     def rows_in(self, block: Block) -> list[tuple[ZeroRow, Word]]:
         """The rows that a block's words ask for."""
@@ -169,6 +171,32 @@ def table_of(
     return ZeroTable(codes, names, tuple(beside), {**at_first, **(first or {})}, variables)
 
 
+_TURNED = "turned by "
+
+
+def with_turn(zero: Zero, name: str, *, is_on: bool) -> Zero:
+    """The zero in which something of that name turns, mirrors or scales axes, or does so no more."""
+    kept = {key: value for key, value in zero.items() if key != _TURNED + name}
+    return {**kept, _TURNED + name: ()} if is_on else kept
+
+
+def turns_in(zero: Zero) -> frozenset[str]:
+    """The names of what turns, mirrors or scales axes; an empty one for shifts that are not known."""
+    return frozenset(key.removeprefix(_TURNED) for key in zero if key.startswith(_TURNED))
+
+
+def commanded(zero: Zero, table: ZeroTable, text: str) -> Zero:
+    """The zero behind a command."""
+    found = table.commands.match(text) if table.commands is not None else None
+    return zero if found is None else with_turn(zero, found["name"].upper(), is_on=found["end"] is None)
+
+
+def shift_in(zero: Zero, axis: str) -> Decimal | None:
+    """The shift of an axis by numbers, mm; None where it is not known."""
+    first, second = (zero.get(name) for name in (_shift(axis), _fine(axis)))
+    return first + second if isinstance(first, Decimal) and isinstance(second, Decimal) else None
+
+
 def _shift(axis: str) -> str:
     return f"shift {axis}"
 
@@ -198,8 +226,6 @@ def move_zero(
     reason = _reason(row, word, block)
     every = row.axes_in(plane) or (() if isinstance(row.axes, Mapping) else axes)
     every = tuple(axis for axis in every if axis in axes)
-    if row.is_of_words and numbers:
-        every = tuple(numbers)
     lost = Moved(dict.fromkeys(every), zero, reason)
     match row.move:
         case ZeroMove.SELECT:
@@ -227,6 +253,11 @@ UNKNOWN_ZERO: Zero = {_DATA: ()}
 """The zero of which nothing is known."""
 
 
+def unknown_zero(zero: Zero) -> Zero:
+    """The zero of which no more is known than what turns axes, as long as nothing ends it."""
+    return {**UNKNOWN_ZERO, **{key: value for key, value in zero.items() if key.startswith(_TURNED)}}
+
+
 def zero_at_call(zero: Zero) -> Zero:
     """The zero in which a subprogram begins that saves the modes."""
     return {name: value for name, value in zero.items() if name != _DATA} if _DATA in zero else zero
@@ -234,7 +265,7 @@ def zero_at_call(zero: Zero) -> Zero:
 
 def is_along_axes(zero: Zero, first: Zero) -> bool:
     """Whether all shifts that a control has are known, so that nothing is turned."""
-    return all(name in zero for name, value in first.items() if isinstance(value, Decimal))
+    return not turns_in(zero) and all(name in zero for name, value in first.items() if isinstance(value, Decimal))
 
 
 def change_entries(zero: Zero, entries: Iterable[Entry], axes: tuple[str, ...], reason: str) -> Moved | None:
@@ -336,7 +367,7 @@ def shift_zero(
             pass
         case ZeroMove.FORMULA:
             new = {axis: (numbers.get(axis, _ZERO), _ZERO) for axis in axes}
-            return _shifted(zero, shifts, new, reason)
+            return _shifted(with_turn(zero, "", is_on=False), shifts, new, reason)
         case ZeroMove.SET:
             new = {axis: (value, shifts[axis][1]) for axis, value in numbers.items()}
         case ZeroMove.FINE:
@@ -344,6 +375,7 @@ def shift_zero(
         case ZeroMove.ADD:
             new = {axis: (shifts[axis][0], _sum(shifts[axis][1], value)) for axis, value in numbers.items()}
         case ZeroMove.REPLACE | ZeroMove.TURN if is_bare:
+            zero = with_turn(zero, "", is_on=False)
             return _shifted(zero, shifts, dict.fromkeys(axes, (_ZERO, _ZERO)), reason)
         case ZeroMove.REPLACE if not any(fine for _, fine in shifts.values()):
             # Whether the shift of an axis that is not named stays, manuals contradict.
@@ -353,7 +385,7 @@ def shift_zero(
         case _:
             pass
     if not new or block.is_skippable or any(None in shifts[axis] for axis in new):
-        return Moved(dict.fromkeys(axes), forget_shifts(zero), reason)
+        return Moved(dict.fromkeys(axes), with_turn(forget_shifts(zero), "", is_on=True), reason)
     return _shifted(zero, shifts, new, reason)
 
 
@@ -380,6 +412,8 @@ def _shifted(
 
 
 def _shifts_of(zero: Zero, axis: str) -> _Shifts:
+    if turns_in(zero):
+        return None, None
     first, second = (zero.get(name) for name in (_shift(axis), _fine(axis)))
     return first if isinstance(first, Decimal) else None, second if isinstance(second, Decimal) else None
 

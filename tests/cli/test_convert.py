@@ -1,5 +1,6 @@
 """Programs and drawings in another control's own words: the same path, and nothing else changed."""
 
+import re
 from pathlib import Path
 from random import Random
 
@@ -135,3 +136,91 @@ def test_what_is_not_converted_stands_as_a_comment_and_is_listed(name):
     assert status == 1
     assert comments
     assert told.count("is not converted: ") == len(comments)
+
+
+_BEGINS = {
+    "siemens-840d": "G17 G90 G710 G94\nG54",
+    "fanuc-mill": "G21 G17 G90 G94\nG54",
+    "haas-mill": "G21 G17 G90 G94\nG54",
+    "isg": "%PART\nG17 G90 G71 G94\nG54",
+    "heidenhain": "BEGIN PGM PART MM",
+}
+_FRAMES = (
+    # What moves both axes by numbers, and its end.
+    ("siemens-840d", "TRANS X50 Y10", "TRANS", True),
+    ("siemens-840d", "TRANS X50\nATRANS Y10", "ROT", True),
+    ("siemens-840d", "G58 X50\nG59 Y10", "TRANS", True),
+    ("siemens-840d", "$P_PFRAME=CTRANS(X,50,Y,10)", "TRANS", True),
+    ("fanuc-mill", "G52 X50. Y10.", "G52 X0 Y0", True),
+    ("fanuc-mill", "G92 X-49. Y-8.", "G92 X70. Y30.", True),
+    ("isg", "G92 X50\nG92 Y10", "G92 X0 Y0", True),
+    ("heidenhain", "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+50\nCYCL DEF 7.2 IY+10",
+     "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+0\nCYCL DEF 7.2 Y+0", True),
+    # What does otherwise.
+    ("siemens-840d", "ROT RPL=30", "ROT", False),
+    ("siemens-840d", "TRANS X5\nAROT RPL=30", "TRANS", False),
+    ("siemens-840d", "SCALE X2 Y2", "SCALE", False),
+    ("siemens-840d", "MIRROR X0", "MIRROR", False),
+    ("siemens-840d", "TRANSMIT", "TRAFOOF", False),
+    ("siemens-840d", "/TRANS X5", "TRANS", False),
+    ("siemens-840d", "G58 X5\n$P_PFRAME=CROT(Z,30)", "TRANS", False),
+    ("fanuc-mill", "G68 X0 Y0 R30.", "G69", False),
+    ("fanuc-mill", "G51 X0 Y0 P2.", "G50", False),
+    ("fanuc-mill", "G51.1 X0 Y0", "G50.1 X0\nG50.1 Y0", False),
+    ("fanuc-mill", "G16", "G15", False),
+    ("fanuc-mill", "G12.1", "G13.1", False),
+    ("fanuc-mill", "G54.1 P2", "G54", False),
+    ("haas-mill", "G101 X0", "G100 X0", False),
+    ("haas-mill", "G154 P2", "G54", False),
+    ("isg", "G21", "G20", False),
+    ("isg", "G68 R30", "G69", False),
+    ("isg", "#ROTATION ON [ANGLE 30]", "#ROTATION OFF", False),
+    ("isg", "#CS ON [1,2,3,0,0,5]", "#CS OFF", False),
+    ("heidenhain", "CYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1 X", "CYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1", False),
+    ("heidenhain", "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+35", "CYCL DEF 10.1 ROT+0", False),
+    ("heidenhain", "CYCL DEF 11.1 SCL 2", "CYCL DEF 11.1 SCL 1", False),
+    ("heidenhain", "CYCL DEF 19.1 A+0 B+45 C+0", "CYCL DEF 19.1 A+0 B+0 C+0", False),
+    ("heidenhain", "PLANE SPATIAL SPA+0 SPB+45 SPC+0 STAY", "PLANE RESET STAY", False),
+    ("heidenhain", "TRANS DATUM AXIS X+3", "TRANS DATUM RESET", False),
+)  # fmt: skip
+_SHIFT = re.compile(r"(?P<all>TRANS\b)|G52|G92|CYCL DEF 7\.\d")
+_AXIS = re.compile(r"(?<![A-Z])([XY])=?([+-]?[\d.]+)")
+
+
+def places(text):
+    """Where plain code leads, read without the package: with the shifts that it states."""
+    at, shift = {"X": 0.0, "Y": 0.0}, {"X": 0.0, "Y": 0.0}
+    for line in text.splitlines():
+        bare, words = re.sub(r"\(.*|;.*", "", line), {}
+        words = {axis: float(number) for axis, number in _AXIS.findall(bare)}
+        stated = _SHIFT.search(bare)
+        if stated is not None:
+            shift = {**(dict.fromkeys("XY", 0.0) if stated["all"] else shift), **words}
+        elif words:
+            at |= {axis: number + shift[axis] for axis, number in words.items()}
+            yield at["X"], at["Y"]
+
+
+@pytest.mark.parametrize(("control", "begins", "ends", "is_shift"), _FRAMES)
+def test_no_block_is_written_in_another_coordinate_system(control, begins, ends, is_shift):
+    """Behind what moves the coordinate system, blocks lead to the same places, or are left until that ends."""
+    moves = "{0}X{2} Y{3}{5}\n{1}X{4}{6}\n{1}Y{4}"
+    is_klartext = control == "heidenhain"
+    rapid, line = ("L ", "L ") if is_klartext else ("G00 ", "G01 ")
+    numbers = ("+1", "+2", "+20") if is_klartext else ("1.", "2.", "20.")
+    inside = moves.format(rapid, line, *numbers, " FMAX" if is_klartext else "", " F100")
+    last = f"{rapid}X{numbers[0]} Y{numbers[0]}" + (" FMAX\nEND PGM PART MM" if is_klartext else "\nM30")
+    text = "\n".join([_BEGINS[control], inside.split("\n")[0], begins, inside, ends, last])
+    kin = {"haas-mill": "fanuc-mill"}.get(control, control)
+    for to in {"fanuc-mill", "siemens-840d", "isg", "heidenhain"} - {kin}:
+        found = contoursolve.convert(text, to, control=control)
+        assert found.text is not None, (to, found.comparison)
+        left = {each.line: each.reason for each in found.not_converted if "G54" not in each.text}
+        first = len((_BEGINS[control] + "\n" + begins).split("\n")) + 2
+        if is_shift:
+            assert left == {}, found.text
+            assert [*places(found.text)] == [(1, 2), (51, 12), (70, 12), (70, 30), (1, 1)], found.text
+        else:
+            assert {first, first + 1, first + 2} <= {*left}, (to, found.text)
+            assert "not converted, and moves or turns it" in left[first]
+            assert [*places(found.text)] == [(1, 2), (1, 1)], found.text

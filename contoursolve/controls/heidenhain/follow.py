@@ -23,6 +23,7 @@ from contoursolve.gcode import Block, Word, late_pattern
 from contoursolve.geometry import Length
 from contoursolve.reading import (
     FAULTY,
+    WORK,
     Mode,
     Modes,
     Position,
@@ -32,9 +33,11 @@ from contoursolve.reading import (
     apply_modes,
     axis_words,
     positions,
+    shift_in,
     shift_zero,
     state_moved,
     table_of,
+    with_turn,
 )
 from contoursolve.tolerance import LENGTH
 
@@ -191,6 +194,7 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
 _CALLS_CYCLE = late_pattern(BLOCK_NUMBER + r"CYCL[ \t]+CALL\b", re.IGNORECASE)
 _CYCLE = "a cycle runs"
 _RECALLED = BOOK.assumed("coordinate transformations")
+_NOTHING = Decimal(0)
 _MOST_SHOWN = 40
 _MOVING: tuple[tuple[re.Pattern[str], ZeroRow], ...] = tuple(
     (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), ZeroRow(name, move, _RECALLED))
@@ -260,26 +264,46 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
 def _shown(block: Block) -> str:
     """The begin of a statement, as a message names it."""
     text = block.syntax.comment.sub("", block.text).replace("~", " ")
-    return " ".join(_NUMBER.sub("", text).split())[:_MOST_SHOWN]
+    return " ".join(_NUMBER.sub("", text, count=1).split())[:_MOST_SHOWN]
 
 
 _NUMBER = late_pattern(BLOCK_NUMBER, re.IGNORECASE)
 
 
+_ENDS = re.compile(
+    r"CYCL DEF (?:8\.\d+|10\.\d+ ROT ?[+-]?0+(?:\.0*)?|11\.\d+ SCL ?\+?0*1(?:\.0*)?"
+    r"|19\.\d+(?: [ABC] ?[+-]?0+(?:\.0*)?)*)|PLANE RESET\b.*"
+)
+"""The ends of what turns, mirrors or scales axes."""
+
+
 def _move_zero(state: State, block: Block, row: ZeroRow, modes: Modes) -> State:
     """The state behind a statement that moves the coordinate system."""
+    text = " ".join(_NUMBER.sub("", block.syntax.comment.sub("", block.text), count=1).upper().split())
     if row.move is ZeroMove.OTHER:
-        return state.lose_all(modes.axes, f"{_shown(block)} may change the coordinate system", block.span)
+        lost = state.lose_all(modes.axes, f"{_shown(block)} may change the coordinate system", block.span)
+        is_shift = text.startswith("TRANS")
+        return replace(lost, zero=with_turn(lost.zero, "TRANS", is_on=not text.endswith("RESET"))) if is_shift else lost
+    if row.move is ZeroMove.TURN:
+        name = "PLANE" if text.startswith("PLANE") else text.partition(".")[0]
+        is_header = text.partition(".")[2].startswith("0")
+        zero = state.zero if is_header else with_turn(state.zero, name, is_on=_ENDS.fullmatch(text) is None)
+        return replace(state.lose(modes.axes, f"{_shown(block)} changes the coordinate system", block.span), zero=zero)
+    if row.move is ZeroMove.SELECT:
+        # Another preset ends shifts and turns; a line of a table of datums is one by its number.
+        zero = {**modes.zero.first, WORK: ((text, 0),)}
+        return replace(state.lose(modes.axes, f"{_shown(block)} changes the coordinate system", block.span), zero=zero)
     steps: Mapping[bool, dict[str, Decimal | None]] = {False: {}, True: {}}
-    said = block.syntax.comment.sub("", block.text).partition(".")[2] if row.move is ZeroMove.SET else ""
-    for each in _SHIFT.finditer(said):
+    for each in _SHIFT.finditer(text.partition(".")[2]):
         value = None if each["number"] is None else Decimal(each["number"]) * state.unit.in_mm
         steps[bool(each["step"])][each["axis"].upper()] = None if Mode.UNIT in state.doubts else value
     for is_step, numbers in steps.items():
-        if numbers or (row.move is not ZeroMove.SET and not is_step):
-            move, shifts = ZeroMove.ADD if is_step else row.move, numbers if row.move is ZeroMove.SET else None
+        if numbers:
+            # An increment takes the place of what is in force by the sum of both.
+            ways = {axis: (shift_in(state.zero, axis) if is_step else _NOTHING, by) for axis, by in numbers.items()}
+            sums = {axis: None if old is None or by is None else old + by for axis, (old, by) in ways.items()}
             reason = f"{_shown(block)} changes the coordinate system"
-            moved = shift_zero(state.zero, move, block, shifts, modes.axes, reason)
+            moved = shift_zero(state.zero, row.move, block, sums, modes.axes, reason)
             state = state_moved(state, moved, block.span)
     return state
 

@@ -44,7 +44,8 @@ _CODES = BASIC_CODES | {
     Effect.SHIFT: dict.fromkeys((53, *range(54, 60), 159), "zero offset"),
     Effect.SINGLE: {74: "reference point", 100: "measuring", 310: "measuring", 161: "absolute centres"},
     Effect.FRAME: {92: "reference point offset", 68: "rotation", 69: "end of rotation"}
-    | dict.fromkeys((*range(20, 25), 351), "mirroring"),
+    | {20: "end of mirroring"}
+    | dict.fromkeys((*range(21, 25), 351), "mirroring"),
     Effect.NONE: {162: "centres from where an arc begins", 164: "no centre correction", 165: "centre correction"}
     | dict.fromkeys((8, 9, 60, 61, 260, 261, 359, 360, 361), "exact stop or blending")
     | dict.fromkeys((93, 94, 95, 96, 97, 194), "kind of feed or speed")
@@ -191,19 +192,27 @@ _OFFSET_DATA = re.compile(
 _OFFSETS = BOOK.printed("zero offsets")
 _BY_PLANE = {"G17": ("Z",), "G18": ("X", "Y", "Z"), "G19": ("X",)}
 """The axes that the lengths of a tool move: the tool's axis, and on lathes (G18) two."""
-_ZERO = table_of(
-    (
-        ZeroRow("G53 G54 G55 G56 G57 G58 G59", ZeroMove.SELECT, _OFFSETS, WORK),
-        ZeroRow("G159", ZeroMove.SELECT, _OFFSETS, WORK, words="G159"),
-        ZeroRow("G92", ZeroMove.OTHER, BOOK.assumed("offset of the reference point"), is_of_words=True),
-        ZeroRow("D", ZeroMove.SELECT, BOOK.printed("tool geometry"), TOOL, _BY_PLANE),
+_TURNING = re.compile(
+    r"#(?P<name>CS|ACS|ECS|MCS|ROTATION|SCALE|MIRROR|TRAFO)[ \t]+(?:ON|(?P<end>OFF))\b", re.IGNORECASE
+)
+"""Commands of other coordinate systems."""
+_ZERO = replace(
+    table_of(
+        (
+            ZeroRow("G53 G54 G55 G56 G57 G58 G59", ZeroMove.SELECT, _OFFSETS, WORK),
+            ZeroRow("G159", ZeroMove.SELECT, _OFFSETS, WORK, words="G159"),
+            ZeroRow("G92", ZeroMove.SET, BOOK.printed("reference point offset (G92), 206145291"), adds_increments=True),
+            ZeroRow("D", ZeroMove.SELECT, BOOK.printed("tool geometry"), TOOL, _BY_PLANE),
+        ),
+        {},
+        "XYZ",
+        first={WORK: (("G", _INITIAL),)},
+        variables=_entries_set,
+        beside=(
+            ZeroRow("V.G.NP, V.G.NP_AKT, V.G.WZ_AKT", ZeroMove.DATA, BOOK.printed("access to the current zero offset")),
+        ),
     ),
-    {},
-    first={WORK: (("G", _INITIAL),)},
-    variables=_entries_set,
-    beside=(
-        ZeroRow("V.G.NP, V.G.NP_AKT, V.G.WZ_AKT", ZeroMove.DATA, BOOK.printed("access to the current zero offset")),
-    ),
+    commands=_TURNING,
 )
 """The moves of the coordinate system: at first, no offset is in force."""
 

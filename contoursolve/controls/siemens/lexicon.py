@@ -68,8 +68,9 @@ _UNREAD: tuple[tuple[Effect, Mapping[str, tuple[str, ...]]], ...] = (
 _NAMES: tuple[tuple[Effect, Mapping[str, tuple[str, ...]]], ...] = (
     (Effect.FRAME, {
         "coordinate frame": (
-            "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF PRESETON PRESETONS",
+            "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS PRESETON PRESETONS",
         ),
+        "end of another surface": ("TRAFOOF",),
     }),
     (Effect.SINGLE, {
         "no offset": ("SUPA",),

@@ -47,6 +47,9 @@ class Meaning:
     comments: list[str] = field(default_factory=list)
     lost: list[str] = field(default_factory=list)
     reason: str = ""
+    end: str = ""
+    """The reason why it is not converted where it ends what turns the coordinate system; where nothing does, it is
+    nothing that is lost."""
     restated: Restated | None = None
     radius: Token | None = None
     """The D of its compensation."""
@@ -224,7 +227,9 @@ class MeaningReader:
             return None
         rows = self.modes.codes.values()
         if self.plain is None:
-            return self.modes.codes.get(int(token.number))
+            # Codes with a point are looked up by a decimal.
+            row: Code | None = self.modes.codes.get(token.number)  # type: ignore[call-overload]
+            return row
         return next((row for row in rows if row.effect is Effect.COMPENSATION and row.number == token.number), None)
 
     def _lathe_tool(self, meaning: Meaning, tokens: list[Token]) -> list[Token]:
@@ -265,12 +270,16 @@ class MeaningReader:
                 has_point = token.has_point or not self.counts
                 meaning.functions.append(SaidFunction(_STRAY[address], token.number, token.text, has_point=has_point))
         elif address == "G":
-            code = self.modes.codes.get(int(token.number)) if token.number is not None else None
+            code = self._row(token) if self.plain is None else None
             if code is not None and (code.effect is Effect.NONE or code.effect is Effect.CANCEL) and code.is_read:
                 meaning.lost.append(token.text)
             else:
                 told = f": {code.meaning}" if code is not None else ""
-                meaning.reason = meaning.reason or f"{token.text} has no counterpart{told}"
+                reason = f"{token.text} has no counterpart{told}"
+                if code is not None and code.ends_frame:
+                    meaning.end = meaning.end or reason
+                else:
+                    meaning.reason = meaning.reason or reason
         elif address == "D" and has_side:
             meaning.radius = token
         elif self.is_of_path(token):

@@ -126,6 +126,10 @@ class BlockWriter:
         """A comment behind the next line."""
         self.lines: list[str] = []
         self.origins: list[int] = []
+        self.shift: Mapping[str, float] = {}
+        """The way from where the program's block leads to its coordinates here, mm by axis."""
+        self.shifts: dict[int, Mapping[str, float]] = {}
+        """The same by line, from 1."""
         self.line = 0
         self.skip = ""
         self.label = ""
@@ -155,6 +159,7 @@ class BlockWriter:
         """A line, of which the target's state is followed."""
         if not text:
             return
+        self.shifts[len(self.lines) + 1] = self.shift
         if is_comment:
             self.lines.append(text)
         else:
@@ -186,6 +191,30 @@ class BlockWriter:
             text = text.replace("--", "-")
         found = comment_out(text, self.modes.syntax)
         return [f"; {each[1:]}" for each in found] if self.modes.syntax.remark == ";{}" else found
+
+    def move_zero(self, shifts: Mapping[str, float]) -> bool:
+        """Shift the coordinate system, so that no `shift` is left: by which way along each axis, mm. Return whether the
+        target has words for it."""
+        cell = cell_of(ProgramFunction.SHIFT, self.kind)
+        if cell is None or not self.shift.keys() <= {*self.modes.axes} or self.state.counts_diameters():
+            return False
+        self.used.setdefault(ProgramFunction.SHIFT, self.line)
+        if self.state.is_incremental:
+            self.put(self._selecting(Effect.ABSOLUTE, 0, ""))
+        axes = sorted(self.shift)
+        if self.kind is ControlKind.SINUMERIK:
+            # Whether the shift of an axis stays that TRANS does not name, manuals contradict.
+            axes = sorted({*axes, *(axis for axis, at in shifts.items() if at)}) if any(shifts.values()) else []
+        words = [
+            write_word(axis, shifts.get(axis, 0.0), self.modes.words(self.state), self.state.unit) for axis in axes
+        ]
+        *heads, template = cell.texts[0].split(" | ")
+        for head in heads:
+            self.put(head)
+        for place, text in enumerate(words if heads else [" ".join(words)], 1):
+            self.put(template.replace("{place}", str(place)).replace("{}", text).strip())
+        self.here = {axis: at - self.shift.get(axis, 0.0) for axis, at in self.here.items()}
+        return True
 
     def leave(self, text: str, reason: str, *, is_block: bool = False) -> None:
         """Write what has no counterpart, as a comment in its place."""

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace as replace_fields
 from decimal import Decimal
 from enum import IntEnum
 from itertools import count
@@ -10,7 +11,7 @@ from pathlib import PurePath
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.comparison import Comparison, Motion, ToolPath, Travel, Unfollowed, along, compare, follow
+from contoursolve.comparison import Comparison, Motion, Place, ToolPath, Travel, Unfollowed, along, compare, follow
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Severity
 from contoursolve.execution import Call, CodeLine, ProgramKind, kind_of
@@ -26,6 +27,7 @@ from contoursolve.postprocess.conversion.block_writer import (
     diameter_code,
     first_feed,
 )
+from contoursolve.postprocess.conversion.frames import FramePart, Frames
 from contoursolve.postprocess.conversion.program_lines import ProgramLine, as_it_runs, in_order, lines_of
 from contoursolve.postprocess.conversion.program_words import ControlKind, ProgramFunction, cell_of, kind_of_control
 from contoursolve.postprocess.expansion_report import NotConverted
@@ -38,8 +40,10 @@ from contoursolve.reading import (
     Modes,
     ReadIssue,
     State,
+    axis_words,
     blocks_of,
     codes_of,
+    rows_of,
 )
 from contoursolve.solving import ArcSegment
 from contoursolve.tolerance import LENGTH
@@ -73,6 +77,8 @@ class Converted(Struct, frozen=True):
     notes: tuple[str, ...]
     comparison: Comparison | None
     lines: tuple[int, ...] = ()
+    shifts: Mapping[int, Mapping[str, float]] = {}
+    """By line of the text, the way from where the program leads to its coordinates, mm by axis."""
     verbatim: frozenset[int] = frozenset()
     """The program lines that stay as they are."""
 
@@ -167,25 +173,49 @@ def _comparable(old: ToolPath, new: ToolPath, found: Converted, left: set[int]) 
     """Both paths without the lines that are left: an axis that is not known behind one is not known in either."""
     origins, kept = found.lines, found.verbatim
     first = [
-        each
-        for each in old.steps
-        if not each.file and (each.line in kept if isinstance(each, Unfollowed) else each.line not in left)
+        each for each in old.steps if not each.file and (each.line not in left if _is_move(each) else each.line in kept)
     ]
     has_left = len(first) < len(old.steps)
-    second = [each for each in new.steps if isinstance(each, Travel) or origins[each.line - 1] in kept]
-    by_line = dict[int, list[int]]()
+    second = [
+        _moved_back(each, found.shifts.get(each.line, {}), new.axes) if isinstance(each, Travel) else each
+        for each in new.steps
+        if _is_move(each) or origins[each.line - 1] in kept
+    ]
+    by_line, at = dict[int, list[int]](), None
     for place, step in enumerate(second):
         by_line.setdefault(origins[step.line - 1], []).append(place)
-    seen = dict[int, int]()
+    seen, there = dict[int, int](), set[int]()
     for number, step in enumerate(first):
-        places, at = by_line.get(step.line, []), seen.get(step.line, 0)
-        seen[step.line] = at + 1
-        own = second[places[at]] if at < len(places) else None
+        places, count = by_line.get(step.line, []), seen.get(step.line, 0)
+        own = second[places[count]] if count < len(places) else None
+        if own is None and at is not None and isinstance(step, Travel) and _leads_to(step, at):
+            there.add(number)
+            continue
+        seen[step.line] = count + 1
         if isinstance(own, Travel) and isinstance(step, Travel):
-            second[places[at]] = _as_unknown(own, step)
+            at = own.end
+            second[places[count]] = _as_unknown(own, step)
             if has_left and step.bend is None:
                 first[number] = _at_rest(step, own)
-    return replace(old, steps=tuple(first)), replace(new, steps=tuple(second))
+    kept_steps = (step for number, step in enumerate(first) if number not in there)
+    return replace(old, steps=tuple(kept_steps)), replace(new, steps=tuple(second))
+
+
+def _is_move(step: Travel | Unfollowed) -> bool:
+    return isinstance(step, Travel) and step.motion is not Motion.PRESET
+
+
+def _leads_to(step: Travel, place: Place) -> bool:
+    """Whether a line from where nobody knows leads to where the tool is in the new program already."""
+    ways = [(end, at) for start, end, at in zip(step.start, step.end, place, strict=True) if start != end]
+    return None in step.start and all(
+        end is not None and at is not None and abs(end - at) <= LENGTH for end, at in ways
+    )
+
+
+def _moved_back(step: Travel, shift: Mapping[str, float], axes: tuple[str, ...]) -> Travel:
+    """A step of the new program in the coordinates of the old one."""
+    return step.moved([-shift.get(axis, 0.0) * (axis not in step.free) for axis in axes]) if shift else step
 
 
 def _as_unknown(step: Travel, like: Travel) -> Travel:
@@ -219,6 +249,8 @@ _HEADS = (
 )
 _TAPE = re.compile(r"^\s*%\s*$")
 _PATH = re.compile(r"^\s*;\s*\$PATH=", re.IGNORECASE)
+_DATUM = re.compile(r"^\s*(?:N?\d+\s+)?CYCL\s+DEF\s+7\.0\b", re.IGNORECASE)
+"""The head of a datum shift in Klartext, whose numbers follow."""
 _END_PGM = re.compile(r"^\s*(?:N?\d+\s+)?END\s+PGM\b", re.IGNORECASE)
 
 
@@ -259,6 +291,9 @@ class _Program:
         self.verbatim = set[int]()
         """The lines that stay as they are."""
         self.speeds_told = set[int]()
+        self.frames = Frames(source)
+        self.changed: Mapping[str, FramePart] = {}
+        """The parts of the coordinate system that the line changes."""
 
     def write(self) -> Converted:
         """The whole program."""
@@ -281,6 +316,7 @@ class _Program:
             tuple(notes),
             None,
             tuple(writer.origins),
+            {line: shift for line, shift in writer.shifts.items() if shift and line <= len(writer.lines)},
             frozenset(self.verbatim),
         )
 
@@ -414,11 +450,11 @@ class _Program:
 
     def _line(self, place: int, line: ProgramLine) -> None:
         writer, block, meaning = self.writer, line.block, line.meaning
-        text = block.text.strip()
+        self.changed, text = self.frames.take(line), block.text.strip()
         if block.line == self.head_line and self.head_line:
             self._comments(meaning, is_head=True)
             return
-        if _TAPE.match(text) or _PATH.match(text) or _END_PGM.match(text):
+        if _TAPE.match(text) or _PATH.match(text) or _END_PGM.match(text) or self._is_head(text):
             return
         if not text:
             if not writer.is_klartext:
@@ -429,14 +465,48 @@ class _Program:
         if not (block.words or block.macro or block.faults) or is_message(block) or self._is_silent(line):
             self._comments(meaning)
             return
+        writer.shift = self.frames.shift()
         reason = self._reason(line)
         if self.is_run and self._is_read_alike(line):
             self._keep(line)
+        elif self._is_of_zero(line):
+            self._move_zero(line)
         elif not reason:
             self._write(place, line)
         else:
             self._keep_or_leave(line, reason)
         writer.here = {axis: at for axis, at in writer.here.items() if _is_known(line.after, axis)}
+
+    def _is_head(self, text: str) -> bool:
+        return self.kinds[0] is ControlKind.KLARTEXT is not self.kinds[1] and _DATUM.match(text) is not None
+
+    def _is_of_zero(self, line: ProgramLine) -> bool:
+        """Whether a block only shifts the coordinate system, by numbers, or ends what does not turn it."""
+        meaning, block, modes = line.meaning, line.block, self.source.modes
+        rows = [(row, word.text.strip()) for row, word in modes.zero.rows_in(block) if not row.group]
+        lost = {*meaning.lost} - {text for _, text in rows}
+        has_codes = any(code.effect not in _COUNTS for code, _ in meaning.codes)
+        says_more = bool(meaning.functions or lost or meaning.motion or has_codes or block.is_skippable)
+        is_frame = any(code.effect in (Effect.FRAME, Effect.PRESET) for code in rows_of(block, modes))
+        is_end = is_frame and not axis_words(block, modes)
+        if says_more or not (is_end or (self.changed and (is_frame or rows or block.macro))):
+            return False
+        return self.frames.differs_by() is None and not self._is_read_alike(line)
+
+    def _move_zero(self, line: ProgramLine) -> None:
+        """A shift of the coordinate system in the words of the target, or worked into the blocks behind it."""
+        writer = self.writer
+        self._comments(line.meaning)
+        if not writer.shift:
+            return
+        if writer.move_zero(self.frames.shifts()):
+            self.frames.convert_shifts()
+        else:
+            writer.comment(line.block.text)
+            writer.notes.append(
+                f"program line {line.block.line}: {_bare(line)} is worked into the coordinates behind it"
+            )
+        writer.shift = self.frames.shift()
 
     def _keep_or_leave(self, line: ProgramLine, reason: str) -> None:
         """A block that is not converted: between relatives that read it alike it stays as it is, else as a comment."""
@@ -462,6 +532,7 @@ class _Program:
             self.in_words += 1
         self.verbatim.add(block.line)
         self.is_opened = True
+        self.frames.convert(self.changed)
 
     def _write(self, place: int, line: ProgramLine) -> None:
         """Write what a line says in the words of the target; what it has no words for is left."""
@@ -480,6 +551,8 @@ class _Program:
                 writer.label, writer.skip, opening = label, skip, []
             self._put(line, meaning, speed, opening)
             self.is_opened = True
+            if len(writer.found) == kept[2]:
+                self.frames.convert(self.changed)
         except NoWordsError as error:
             writer.state, length, found, writer.label = kept
             del writer.lines[length:], writer.origins[length:], writer.found[found:]
@@ -554,14 +627,11 @@ class _Program:
 
     def _leave(self, line: ProgramLine, reason: str) -> None:
         self._comments(line.meaning)
-        block = line.block
-        bare = block.syntax.comment.sub("", block.text).strip().lstrip("/").strip()
-        bare = re.sub(r"^\d+\s+", "", bare) if self.kinds[0] is ControlKind.KLARTEXT else bare
         if self.is_run and self.writer.label:
             # A jump may lead to it.
             label, self.writer.label = self.writer.label, ""
             self.writer.put(label)
-        self.writer.leave(bare, reason, is_block=True)
+        self.writer.leave(_bare(line), reason, is_block=True)
 
     def _reason(self, line: ProgramLine) -> str:
         """The reason why a line is not converted at all; empty if it is."""
@@ -572,11 +642,18 @@ class _Program:
             return "it is the profile of a cycle"
         if line.meaning.reason:
             return line.meaning.reason
+        if line.meaning.end and (self.is_alike or self.changed):
+            return line.meaning.end
+        other = self.frames.differs_by() if line.travels or line.lost or line.answer is not None else None
+        if other is not None and other is not line:
+            return (
+                f"{_bare(other)} (line {other.block.line}) is not converted, and moves or turns it: write both by hand"
+            )
         if line.answer is not None and line.answer.contour is None:
             errors = [each for each in line.answer.diagnostics if each.is_error]
             return f"{errors[0].code}: {errors[0].message}" if errors else "the contour is not solved"
         is_offset = any(each.function.is_offset for each in line.meaning.functions)
-        return line.lost[0].reason if line.lost and not is_offset else ""
+        return line.lost[0].reason if line.lost and not (is_offset or line.meaning.end) else ""
 
     def _speed_behind(self, place: int) -> Decimal | None:
         """The next speed behind a tool call, which Klartext has in it."""
@@ -592,6 +669,16 @@ class _Program:
         return None
 
     def _moves(self, line: ProgramLine) -> Iterator[WrittenMove]:
+        shift = self.writer.shift
+        for move in self._own_moves(line):
+            if not shift:
+                yield move
+                continue
+            ends = {axis: at + shift.get(axis, 0.0) for axis, at in move.ends.items()}
+            by = [shift.get(axis, 0.0) for axis in self._axes()]
+            yield replace(move, ends=ends, arc=move.arc.moved(by) if move.arc is not None else None)
+
+    def _own_moves(self, line: ProgramLine) -> Iterator[WrittenMove]:
         answer = line.answer
         if answer is not None:
             level = self.levels.get(answer.lines[0], Plainness.OWN_WORDS)
@@ -614,18 +701,18 @@ class _Program:
             raise NoWordsError("where it begins is not known")
         ends = {
             axis: float(end)
-            for axis, start, end in zip(self._axes(travel), travel.start, travel.end, strict=True)
+            for axis, start, end in zip(self._axes(), travel.start, travel.end, strict=True)
             if end is not None and start != end
         }
         in_plane = travel.plane.axes if travel.plane is not None and travel.bend is not None else ()
         ends |= {
             axis: float(end)
-            for axis, end in zip(self._axes(travel), travel.end, strict=True)
+            for axis, end in zip(self._axes(), travel.end, strict=True)
             if axis in in_plane and end is not None
         }
         return WrittenMove(travel.motion is Motion.RAPID, ends, arc=travel if travel.bend is not None else None)
 
-    def _axes(self, _travel: Travel) -> tuple[str, ...]:
+    def _axes(self) -> tuple[str, ...]:
         return tuple(sorted({*self.source.modes.axes, *self.target.modes.axes}))
 
     def _plain(self, line: ProgramLine) -> Iterator[WrittenMove]:
@@ -713,7 +800,7 @@ class _Program:
         return found
 
     def _translate(self, answer: Answer) -> Moves | None:
-        if answer.contour is None or answer.start.is_relative or self.writer.state.is_incremental:
+        if answer.contour is None or answer.start.is_relative or self.writer.state.is_incremental or self.writer.shift:
             return None
         parts = [*blocks_of(answer.claim, answer.claim.before, self.source.modes)]
         if len({part.is_rapid for part in parts}) > 1 or len({part.state.is_incremental for part in parts}) > 1:
@@ -751,7 +838,7 @@ class _Program:
             ends = dict(zip(answer.plane.axes, segment.end, strict=True))
             if isinstance(segment, ArcSegment):
                 like = next(each for each in line.travels)
-                axes = self._axes(like)
+                axes = self._axes()
                 arc = along(replace(like, plane=answer.plane, element=segment.name), segment, axes)
                 yield WrittenMove(False, ends, arc=arc, is_by_radius=self._states_radius(answer), corner=said)
                 continue
@@ -761,6 +848,17 @@ class _Program:
                 if abs(end - start) > LENGTH
             }
             yield WrittenMove(is_rapid, changed or ends, corner=said)
+
+
+_COUNTS = (Effect.ABSOLUTE, Effect.INCREMENTAL)
+_NUMBER = re.compile(r"^N?\d+\s+", re.IGNORECASE)
+
+
+def _bare(line: ProgramLine) -> str:
+    """A block without its number and its comments."""
+    block = line.block
+    bare = block.syntax.comment.sub("", block.text).strip().lstrip("/").strip()
+    return _NUMBER.sub("", bare) if line.meaning.restated is not None or block.macro is not None else bare
 
 
 _ALIKE_LATHES = {ControlKind.FANUC_LATHE, ControlKind.HAAS_LATHE}
@@ -826,8 +924,4 @@ def _unit_of_head(lines: Sequence[ProgramLine]) -> Length | None:
 
 
 def _without(meaning: Meaning, function: ProgramFunction) -> Meaning:
-    kept = [each for each in meaning.functions if each.function is not function]
-    return Meaning(
-        meaning.block, kept, meaning.codes, meaning.motion, meaning.number, meaning.comments, meaning.lost,
-        meaning.reason, meaning.restated, meaning.radius, meaning.tool_name, meaning.is_metric_feed,
-    )  # fmt: skip
+    return replace_fields(meaning, functions=[each for each in meaning.functions if each.function is not function])

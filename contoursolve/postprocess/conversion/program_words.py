@@ -100,6 +100,7 @@ class ProgramFunction(Enum):
     OFFSET_4 = "work offset 4"
     OFFSET_5 = "work offset 5"
     OFFSET_6 = "work offset 6"
+    SHIFT = "shift of the coordinate system"
     MM = "lengths in mm"
     INCH = "lengths in inch"
 
@@ -302,6 +303,12 @@ TABLE: Mapping[ProgramFunction, Mapping[ControlKind, Cell]] = {
         _IS: _of(_I, "206132747", "G04 {}"),
         _K: _of(_K6, "p. 631", "CYCL DEF 9.0 DWELL TIME | CYCL DEF 9.1 DWELL {}"),
         _P: _recalled("G4 F{}"),
+    },
+    ProgramFunction.SHIFT: {
+        _FM: _recalled("G52 {}"),
+        _S: _of(_ONE, "p. 315", "TRANS {}"),
+        _IS: _of(_I, "206145291", "G92 {}"),
+        _K: _recalled("CYCL DEF 7.0 DATUM SHIFT | CYCL DEF 7.{place} {}"),
     },
     ProgramFunction.END: {
         _FL: _recalled("M30", "M02", "M2"),
