@@ -270,7 +270,7 @@ def _shown(block: Block) -> str:
 _NUMBER = late_pattern(BLOCK_NUMBER, re.IGNORECASE)
 
 
-_ENDS = re.compile(
+_ENDS = late_pattern(
     r"CYCL DEF (?:8\.\d+|10\.\d+ ROT ?[+-]?0+(?:\.0*)?|11\.\d+ SCL ?\+?0*1(?:\.0*)?"
     r"|19\.\d+(?: [ABC] ?[+-]?0+(?:\.0*)?)*)|PLANE RESET\b.*"
 )

@@ -9,7 +9,7 @@ from contoursolve.controls.further import rows as rows_beside
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
 from contoursolve.diagnostics import Book
 from contoursolve.execution import COMMENT, isg
-from contoursolve.gcode import IN_BRACKETS, Block, Syntax, Word, lines_and_arcs
+from contoursolve.gcode import IN_BRACKETS, Block, Syntax, Word, late_pattern, lines_and_arcs
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import (
     COMMENTED,
@@ -192,7 +192,7 @@ _OFFSET_DATA = re.compile(
 _OFFSETS = BOOK.printed("zero offsets")
 _BY_PLANE = {"G17": ("Z",), "G18": ("X", "Y", "Z"), "G19": ("X",)}
 """The axes that the lengths of a tool move: the tool's axis, and on lathes (G18) two."""
-_TURNING = re.compile(
+_TURNING = late_pattern(
     r"#(?P<name>CS|ACS|ECS|MCS|ROTATION|SCALE|MIRROR|TRAFO)[ \t]+(?:ON|(?P<end>OFF))\b", re.IGNORECASE
 )
 """Commands of other coordinate systems."""
