@@ -135,17 +135,20 @@ class NotConverted(Struct, frozen=True):
         text: the words, as they are typed.
         reason: why they are not converted.
         is_block: whether it is a whole block, with its motion if it has one.
+        times: how many times it stands in the new program, as of a loop that is written out.
     """
 
     line: int
     text: str
     reason: str
     is_block: bool = False
+    times: int = 1
 
     @property
     def sentence(self) -> str:
         """The words that stand as a comment, and the reason."""
-        return f"{self.text} is not converted: {self.reason}"
+        often = f" ({self.times} times)" if self.times > 1 else ""
+        return f"{self.text} is not converted{often}: {self.reason}"
 
 
 class Conversion(Struct, frozen=True):

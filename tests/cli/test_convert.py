@@ -65,7 +65,7 @@ _WRITTEN_OUT = "G0 X0 Y0|G91 G1 X{0}|G90|G91 G1 X{0}|G90|G1 X60 RND=2 F100|Y20|M
         (_CALLS.format(1), "fanuc-mill", "mitsubishi", {}, _CALLS.format(1).replace("O7", "O0007"), []),
         (_CALLS.format(1), "fanuc-mill", "siemens-840d", {}, _WRITTEN_OUT.format(20), []),
         (_CALLS.format(5041), "fanuc-mill", "siemens-840d", {"#5041": 3}, _WRITTEN_OUT.format(3), []),
-        (_CALLS.format(5041), "fanuc-mill", "siemens-840d", {}, "; NOT CONVERTED: G91 G01 X#5041", [10, 10, 6, 7]),
+        (_CALLS.format(5041), "fanuc-mill", "siemens-840d", {}, "; NOT CONVERTED: G91 G01 X#5041", [10, 6, 7]),
         ("G00 X9. Z0.\n#1=3.\nG01 Z-5. ,A170. ,R#1\nX40.\nM30", "fanuc-lathe", "haas-lathe", {},
          "G01 Z-5. A170. ,R#1", []),
         ("M97 P9 L2\nG00 X5.\nM30\nN9 G91 G00 X1.\nG90\nM99", "haas-mill", "fanuc-mill", {},
@@ -86,6 +86,7 @@ def test_calls_and_variables_stay_or_are_written_out(text, control, to, variable
     wanted = lines.replace("\n", "|").split("|")
     assert "\n".join(wanted) in "\n".join(written), (written, found.not_converted)
     assert [each.line for each in found.not_converted] == left
+    assert sum(each.times for each in found.not_converted) == found.text.count("NOT CONVERTED")
 
 
 @pytest.mark.parametrize("number", range(24))

@@ -1,7 +1,7 @@
 """A whole program of one control in the words of another, read back: what leads elsewhere is written more plainly."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
 from enum import IntEnum
@@ -29,11 +29,17 @@ from contoursolve.postprocess.conversion.block_writer import (
 )
 from contoursolve.postprocess.conversion.frames import FramePart, Frames
 from contoursolve.postprocess.conversion.program_lines import ProgramLine, as_it_runs, in_order, lines_of
-from contoursolve.postprocess.conversion.program_words import ControlKind, ProgramFunction, cell_of, kind_of_control
+from contoursolve.postprocess.conversion.program_words import (
+    ControlKind,
+    ProgramFunction,
+    are_alike,
+    cell_of,
+    kind_of_control,
+)
 from contoursolve.postprocess.expansion_report import NotConverted
 from contoursolve.postprocess.post_processors import Arcs, MachineKind, machine_of
 from contoursolve.postprocess.written import Moves, translate
-from contoursolve.program import Request, run
+from contoursolve.program import Request, Run, run
 from contoursolve.reading import (
     Control,
     Effect,
@@ -101,12 +107,15 @@ def convert_program(
     the program number where the program has a name. With `has_comments`, contours that are written out have their
     blocks above them as comments."""
     source, target = controls
-    result = run(parse(text, name), replace(asked, control=source))
+    asked = replace(asked, control=source)
+    examined = Run(parse(text, name), asked)
+    program = examined.frame.program
     axes = tuple(sorted({*source.modes.axes, *target.modes.axes}))
-    is_kept = _are_alike(source, target) and all(
-        _statements(source.modes, each) == _statements(target.modes, each) for each in result.program.blocks
+    is_kept = are_alike(source, target) and all(
+        _statements(source.modes, each) == _statements(target.modes, each) for each in program.blocks
     )
-    ran, notes = (None, ()) if is_kept else as_it_runs(result, replace(asked, control=source))
+    ran, notes = (None, ()) if is_kept else as_it_runs(program, asked)
+    result = examined.collect() if ran is None else examined.frame
     old = follow(result, source, asked.unit, axes, ran=ran)
     lines = [
         *lines_of(in_order(result, source, asked.unit) if ran is None else ran, source, old, is_run=ran is not None)
@@ -280,7 +289,7 @@ class _Program:
         self.name = "" if name.startswith("<") else PurePath(name).stem
         self.is_opened = False
         self.has_frame = False
-        self.is_alike = _are_alike(source, self.target)
+        self.is_alike = are_alike(source, self.target)
         self.is_run = (
             self.is_alike
             and kind_of((each.block.text for each in lines), source.modes.language) is ProgramKind.FOLLOWED
@@ -307,10 +316,13 @@ class _Program:
         if writer.is_klartext:
             texts = [f"{number} {text}" for number, text in enumerate(texts)]
         assumed = [*self._assumptions()]
-        notes = [*writer.notes, *([f"{', '.join(assumed)}: assumed, as we saw no page of a manual"] if assumed else [])]
+        notes = [
+            *dict.fromkeys(writer.notes),
+            *([f"{', '.join(assumed)}: assumed, as we saw no page of a manual"] if assumed else []),
+        ]
         return Converted(
             "\n".join(texts) + "\n",
-            tuple(writer.found),
+            _once(writer.found),
             self.in_words,
             tuple(self.written_out),
             tuple(notes),
@@ -408,7 +420,7 @@ class _Program:
         is_alike = self.is_alike
         codes = list[str]()
         has_plane = any(code.effect is Effect.PLANE for code, _ in meaning.codes)
-        if not is_alike and not has_plane and self.kinds[1] not in _ALIKE_LATHES:
+        if not is_alike and not has_plane and self.kinds[1].family is not ControlKind.FANUC_LATHE:
             plane = next(
                 (row for row in target.modes.codes.values() if row.plane and row.plane.code == line.before.plane.code),
                 None,
@@ -861,19 +873,17 @@ def _bare(line: ProgramLine) -> str:
     return _NUMBER.sub("", bare) if line.meaning.restated is not None or block.macro is not None else bare
 
 
-_ALIKE_LATHES = {ControlKind.FANUC_LATHE, ControlKind.HAAS_LATHE}
-_ALIKE_MILLS = {ControlKind.FANUC_MILL, ControlKind.HAAS_MILL, ControlKind.MITSUBISHI_MILL}
 _HEAD = (ProgramFunction.MM, ProgramFunction.INCH, ProgramFunction.FEED_A_MINUTE, ProgramFunction.FEED_A_TURN)
-_ALIKE = (_ALIKE_LATHES, _ALIKE_MILLS)
-
-
-def _are_alike(one: Control, other: Control) -> bool:
-    """Whether two controls read the same words beside the path alike, statements among them."""
-    kinds = {kind_of_control(one), kind_of_control(other)}
-    return len(kinds) == 1 or any(kinds <= each for each in _ALIKE)
-
-
 _NOT_KNOWN = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN, ReadIssue.MODE_UNKNOWN)
+
+
+def _once(found: Iterable[NotConverted]) -> tuple[NotConverted, ...]:
+    """What is left, each once: a block that runs again as it is where it runs first."""
+    first = dict[tuple[int, str], NotConverted]()
+    for each in found:
+        key = each.line, "" if each.is_block else each.text
+        first[key] = replace(first[key], times=first[key].times + 1) if key in first else each
+    return tuple(first.values())
 
 
 def _is_sound(answer: Answer) -> bool:

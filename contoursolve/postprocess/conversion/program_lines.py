@@ -8,7 +8,7 @@ from itertools import groupby
 from contoursolve.comparison import ToolPath, Travel, Unfollowed
 from contoursolve.diagnosis import Answer, join
 from contoursolve.execution import EventKind, ProgramEvent
-from contoursolve.gcode import Block
+from contoursolve.gcode import Block, Program
 from contoursolve.geometry import Length
 from contoursolve.postprocess.conversion.block_meaning import Meaning, MeaningReader
 from contoursolve.postprocess.conversion.program_words import kind_of_control
@@ -32,11 +32,11 @@ class ProgramLine:
     lost: tuple[Unfollowed, ...]
 
 
-def as_it_runs(result: Result, asked: Request) -> tuple[Sequence[Step] | None, tuple[str, ...]]:
+def as_it_runs(program: Program, asked: Request) -> tuple[Sequence[Step] | None, tuple[str, ...]]:
     """A program as it runs, without calls, jumps and variables, and what is to be said of that; None for one that has
     none of these, or that cannot be followed to its end."""
     control, events = asked.control, list[ProgramEvent]()
-    machine = machine_for(result.program, control, asked.around, asked.unit) if control is not None else None
+    machine = machine_for(program, control, asked.around, asked.unit) if control is not None else None
     if machine is None or not machine.computes:
         return None, ()
     ran = [*walk((), asked, machine=machine, told=events.append)]
@@ -46,7 +46,7 @@ def as_it_runs(result: Result, asked: Request) -> tuple[Sequence[Step] | None, t
     if any(block.file for step in ran for block in step.blocks):
         return None, ("calls, jumps and variables are not written out: other files are called",)
     told = ["calls, jumps and variables are written out, with the values that they have"]
-    rest = [each.line for each in result.program.blocks if each.says_something and each.line not in machine.ran]
+    rest = [each.line for each in program.blocks if each.says_something and each.line not in machine.ran]
     if rest:
         what = "lines" if len(rest) > 1 else "line"
         told.append(f"nothing runs program {what} {_named(rest)}: left out")

@@ -31,6 +31,11 @@ class ControlKind(Enum):
         return self in _FANUC
 
     @property
+    def family(self) -> "ControlKind":
+        """The kind whose words it has where it has none of its own."""
+        return _LIKE.get(self, self)
+
+    @property
     def is_lathe(self) -> bool:
         """Whether it is on lathes alone."""
         return self in (ControlKind.FANUC_LATHE, ControlKind.HAAS_LATHE, ControlKind.CNC_PILOT)
@@ -62,6 +67,11 @@ def kind_of_control(control: Control) -> ControlKind:
     """The kind of a control; one that is not built in is taken for a Fanuc of its kind of machine."""
     usual = {MachineKind.LATHE: ControlKind.FANUC_LATHE, MachineKind.MILL: ControlKind.FANUC_MILL}[machine_of(control)]
     return _BY_NAME.get(control.name, ControlKind.KLARTEXT if control.writing is not None else usual)
+
+
+def are_alike(one: Control, other: Control) -> bool:
+    """Whether two controls read the same words beside the path alike, statements among them."""
+    return kind_of_control(one).family is kind_of_control(other).family
 
 
 class ProgramFunction(Enum):
@@ -342,7 +352,7 @@ TABLE: Mapping[ProgramFunction, Mapping[ControlKind, Cell]] = {
 def cell_of(function: ProgramFunction, kind: ControlKind) -> Cell | None:
     """The words of a function on a kind of control; None if it has none."""
     row = TABLE.get(function, {})
-    return row.get(kind) or row.get(_LIKE.get(kind, kind))
+    return row.get(kind) or row.get(kind.family)
 
 
 def words_of_control(control: Control) -> Iterator[str]:
