@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
@@ -373,6 +373,7 @@ def convert(
     *,
     comments: bool = True,
     variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
     name: str = "<program>",
     **options: Unpack[ReadingKeywords],
 ) -> postprocess.Conversion:
@@ -387,6 +388,7 @@ def convert(
         to: the other control, such as `fanuc-lathe`, or its tables.
         comments: whether the blocks of contours that are written out are kept as comments.
         variables: as for `solve`.
+        folders: as for `solve`.
         control: and all others as for `solve`, with the same errors.
 
     What has no counterpart stands in its place as a comment, and is listed in `not_converted`. The new program is read
@@ -402,7 +404,7 @@ def convert(
     X100. ,A120.
     <BLANKLINE>
     """
-    text, name, told = _text(text, name, SolveOptions(variables=variables, **options))
+    text, name, told = _text(text, name, SolveOptions(variables=variables, folders=folders, **options))
     # Only this function needs them.
     from contoursolve.postprocess import (  # noqa: PLC0415
         Conversion,

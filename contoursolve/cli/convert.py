@@ -1,6 +1,6 @@
 """The command that writes a program for another control."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import click
 
@@ -12,6 +12,7 @@ from contoursolve.cli.options import (
     control_option,
     let_option,
     naming,
+    path_option,
     rules_option,
     settings_of,
     settings_option,
@@ -36,6 +37,7 @@ _TARGETS = tuple(name for name, control in CONTROLS.items() if isinstance(contro
 @rules_option
 @settings_option
 @let_option
+@path_option
 @click.option("-o", "--output", metavar="NEW", help="Where to write; without it, or with -, to standard output.")
 @click.option("--force", "is_forced", is_flag=True, help="Replace NEW if it exists.")
 @click.option(
@@ -58,6 +60,7 @@ def convert(
     rules: Rules,
     assignments: tuple[str, ...],
     variables: Mapping[str, float],
+    folders: Sequence[str],
     output: str | None,
     is_forced: bool,
     no_comments: bool,
@@ -68,7 +71,8 @@ def convert(
     Each contour is written in the words of the other control: lines by their ends or angles, corners as its corner
     words. A contour that it has no words for is written out as lines and arcs, and named. Head, end, feeds, speeds,
     tools, offsets and comments are written as that control writes them. Calls, jumps and variables stay where the other
-    control reads them alike. For others they are written out, with the values that they have.
+    control reads them alike. For others they are written out, with the values that they have; a subprogram of another
+    file stands where it is called.
 
     What has no counterpart stands in its place as a comment, NOT CONVERTED, and is listed with its line. The new
     program is read again as the other control reads it. If its path is not that of OLD to within 0.002 mm, but for what
@@ -95,6 +99,7 @@ def convert(
             to,
             comments=not no_comments,
             variables=variables,
+            folders=folders,
             control=control,
             units=units,
             rules=rules,

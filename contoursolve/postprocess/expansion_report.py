@@ -136,6 +136,7 @@ class NotConverted(Struct, frozen=True):
         reason: why they are not converted.
         is_block: whether it is a whole block, with its motion if it has one.
         times: how many times it stands in the new program, as of a loop that is written out.
+        called: the file of a subprogram that has it, with its line; empty for the program itself.
     """
 
     line: int
@@ -143,12 +144,13 @@ class NotConverted(Struct, frozen=True):
     reason: str
     is_block: bool = False
     times: int = 1
+    called: str = ""
 
     @property
     def sentence(self) -> str:
         """The words that stand as a comment, and the reason."""
-        often = f" ({self.times} times)" if self.times > 1 else ""
-        return f"{self.text} is not converted{often}: {self.reason}"
+        place, often = f" in {self.called}" * bool(self.called), f" ({self.times} times)" * (self.times > 1)
+        return f"{self.text}{place} is not converted{often}: {self.reason}"
 
 
 class Conversion(Struct, frozen=True):

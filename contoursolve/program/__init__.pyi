@@ -6,6 +6,7 @@ from .batch import (
 )
 from .called_files import (
     blocks_of_called_files as blocks_of_called_files,
+    names_called as names_called,
 )
 from .calls import (
     machine_for as machine_for,

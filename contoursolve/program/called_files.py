@@ -48,7 +48,7 @@ def _called_by(
         if _REMARK.match(line):
             continue
         for language, library in libraries:
-            called = {*_names(language, line.rstrip("\r\n"))} if language.may_say(line) else set[str]()
+            called = {*names_called(language, line.rstrip("\r\n"))} if language.may_say(line) else set[str]()
             for name in sorted(called - names[language.name]):
                 names[language.name].add(name)
                 source = library.find(name)
@@ -56,7 +56,7 @@ def _called_by(
                     yield source.name, [(block.line, block.text) for block in source.blocks]
 
 
-def _names(language: MacroLanguage, line: str) -> Iterator[str]:
+def names_called(language: MacroLanguage, line: str) -> Iterator[str]:
     """The programs that a line calls by name or number."""
     statements = list(language.read(line).statements)
     statements += (inner for each in statements if isinstance(each, When) for inner in each.then)

@@ -225,3 +225,32 @@ def test_no_block_is_written_in_another_coordinate_system(control, begins, ends,
             assert {first, first + 1, first + 2} <= {*left}, (to, found.text)
             assert "not converted, and moves or turns it" in left[first]
             assert [*places(found.text)] == [(1, 2), (1, 1)], found.text
+
+
+@pytest.mark.parametrize(
+    ("control", "to", "program", "called", "file", "lines"),
+    [
+        ("fanuc-mill", "siemens-840d", "G21 G17 G90 G94\nG0 X0 Y0\nM98 P8 L2\nG1 X30. F100.\nM30",
+         "O8\nG91 G1 X10. F50.\nG28 Z0.\nG90\nM99", "O0008.nc",
+         "G91 G1 X10 F50|; NOT CONVERTED: G28 Z0.|G90"),
+        ("siemens-840d", "heidenhain", "G17 G90 G710 G94\nG0 X0 Y0\nPOCKET\nG1 X30 F100\nM30",
+         "G1 X=IC(10) F50\nY4 RND=1\nX2\nM17", "POCKET.SPF", "2 L IX+10 F50|3 L Y+4|4 RND R1|5 L X+2"),
+        ("heidenhain", "isg", "BEGIN PGM A MM\nL X+0 Y+0 FMAX\nCALL PGM SUB.H\nL X+30 F100\nEND PGM A MM",
+         "BEGIN PGM SUB MM\nL IX+10 F50\nEND PGM SUB MM", "SUB.H", "G01 X10 F50|X30 F100"),
+        ("fanuc-mill", "haas-mill", "G21 G17 G90 G94\nG0 X0 Y0\nM98 P8 L2\nG1 X30. F100.\nM30",
+         "O8\nG91 G1 X10. F50.\nG90\nM99", "O0008.nc", "M98 P8 L2"),
+    ],
+)  # fmt: skip
+def test_a_subprogram_of_another_file_stands_where_it_is_called(control, to, program, called, file, lines, tmp_path):
+    (tmp_path / "main.nc").write_text(program)
+    (tmp_path / "subs").mkdir()
+    (tmp_path / "subs" / file).write_text(called)
+    command = ("convert", tmp_path / "main.nc", "--control", control, "--to", to)
+    assert "name its folder with --path" in run(*command)[2] or to == "haas-mill"
+    status, output, told = run(*command, "--path", tmp_path / "subs")
+    assert "\n".join(lines.split("|")) in output
+    assert (status, file in told) == (int("NOT CONVERTED" in output), True)
+    assert "G28 Z0. in O0008.nc, line 3 is not converted (2 times)" in told or not status
+    (tmp_path / "new.nc").write_text(output)
+    compared = ("diff", tmp_path / "main.nc", tmp_path / "new.nc", "--control", control, "--new-control", to)
+    assert run(*compared, "--path", tmp_path / "subs")[0] == 0 or status

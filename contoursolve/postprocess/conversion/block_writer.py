@@ -132,7 +132,7 @@ class BlockWriter:
         """The same by line, from 1."""
         self.line = 0
         self.skip = ""
-        self.label = ""
+        self.label = self.called = ""
         self.feeds, self.source_feeds = Feeds(first_feed(control)), Feeds(first)
         self.feed: dict[ProgramFunction, Decimal] = {}
         self.is_feed_due = self.has_metric_feed = False
@@ -150,9 +150,10 @@ class BlockWriter:
 
     # What stands in the program
 
-    def begin(self, line: int, *, is_skippable: bool = False, label: str = "") -> None:
-        """From here on, lines are written for a line of the program."""
+    def begin(self, line: int, *, is_skippable: bool = False, label: str = "", called: str = "") -> None:
+        """From here on, lines are written for a line of the program, or of a file `called` there."""
         self.line, self.skip = line, "/" if is_skippable else ""
+        self.called = called
         self.label = label if not self.is_klartext else ""
 
     def put(self, text: str, *, is_comment: bool = False) -> None:
@@ -218,7 +219,7 @@ class BlockWriter:
 
     def leave(self, text: str, reason: str, *, is_block: bool = False) -> None:
         """Write what has no counterpart, as a comment in its place."""
-        self.found.append(NotConverted(self.line, text, reason, is_block))
+        self.found.append(NotConverted(self.line, text, reason, is_block, called=self.called))
         bare = text.strip()
         said = f"NOT CONVERTED: {bare}"
         self.comment(said.replace(":", " -", 1) if self.kind.is_fanuc else said)

@@ -15,7 +15,7 @@ from contoursolve.comparison import Comparison, Motion, Place, ToolPath, Travel,
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Severity
 from contoursolve.execution import Call, CodeLine, ProgramKind, kind_of
-from contoursolve.gcode import Block, Word, parse
+from contoursolve.gcode import Block, Program, Word, parse
 from contoursolve.geometry import CornerShape, Length, Plane
 from contoursolve.postprocess.contour_drawing import draw, size_as
 from contoursolve.postprocess.conversion.block_meaning import Meaning, is_message
@@ -28,7 +28,7 @@ from contoursolve.postprocess.conversion.block_writer import (
     first_feed,
 )
 from contoursolve.postprocess.conversion.frames import FramePart, Frames
-from contoursolve.postprocess.conversion.program_lines import ProgramLine, as_it_runs, in_order, lines_of
+from contoursolve.postprocess.conversion.program_lines import ProgramLine, as_it_runs, in_order, lines_of, place_in
 from contoursolve.postprocess.conversion.program_words import (
     ControlKind,
     ProgramFunction,
@@ -39,7 +39,7 @@ from contoursolve.postprocess.conversion.program_words import (
 from contoursolve.postprocess.expansion_report import NotConverted
 from contoursolve.postprocess.post_processors import Arcs, MachineKind, machine_of
 from contoursolve.postprocess.written import Moves, translate
-from contoursolve.program import Request, Run, run
+from contoursolve.program import Request, Run, names_called, run
 from contoursolve.reading import (
     Control,
     Effect,
@@ -128,7 +128,7 @@ def convert_program(
         blamed, comparison = _judge(found, target, asked, old, within)
         found = replace(found, comparison=comparison, notes=(*notes, *found.notes))
         if not blamed:
-            return found
+            return replace(found, notes=(*found.notes, *_calls_of_others(program, source, old, found)))
         moved = [line for line in blamed if _retreat(line, lines, levels)]
         if not moved:
             break
@@ -136,12 +136,24 @@ def convert_program(
     return replace(found, text=None)
 
 
+def _calls_of_others(program: Program, source: Control, old: ToolPath, found: Converted) -> Iterator[str]:
+    """That lines which stay as they are call other files."""
+    language, ran = source.modes.language, dict[int, str]()
+    for block in old.blocks:
+        for caller in block.callers:
+            ran[caller.line] = "" if not block.file else ran.get(caller.line, block.file)
+    for block in program.blocks:
+        names = names_called(language, block.text) if language is not None and block.line in found.verbatim else ()
+        for name in dict.fromkeys(names):
+            if file := ran.get(block.line, name):
+                yield f"program line {block.line} calls {file}, another file: convert that, too"
+
+
 def _retreat(line: int, lines: Sequence[ProgramLine], levels: dict[int, Plainness]) -> bool:
     """Write a line more plainly; whether that is possible."""
     for own in lines:
-        key = own.answer.lines[0] if own.answer is not None else own.block.line
-        level = levels.get(key, Plainness.OWN_WORDS)
-        if own.block.line != line or level is Plainness.LEFT:
+        key, level = own.first, levels.get(own.first, Plainness.OWN_WORDS)
+        if own.line != line or level is Plainness.LEFT:
             continue
         is_contour = own.answer is not None and level is Plainness.OWN_WORDS
         levels[key] = Plainness.PLAIN if is_contour else Plainness.LEFT
@@ -164,7 +176,7 @@ def _judge(
     blamed = [line for line, about in errors if line not in found.verbatim or about not in _NOT_KNOWN]
     if blamed:
         return [*dict.fromkeys(blamed)], None
-    left = {each.line for each in found.left if each.is_block}
+    left = {each.called or each.line for each in found.left if each.is_block}
     new = follow(result, target, asked.unit, old.axes)
     first, second = _comparable(old, new, found, left)
     comparison = compare(first, second, within)
@@ -178,17 +190,17 @@ def _judge(
     return [*dict.fromkeys(lines)][:1], comparison
 
 
-def _comparable(old: ToolPath, new: ToolPath, found: Converted, left: set[int]) -> tuple[ToolPath, ToolPath]:
+def _comparable(old: ToolPath, new: ToolPath, found: Converted, left: set[int | str]) -> tuple[ToolPath, ToolPath]:
     """Both paths without the lines that are left: an axis that is not known behind one is not known in either."""
     origins, kept = found.lines, found.verbatim
-    first = [
-        each for each in old.steps if not each.file and (each.line not in left if _is_move(each) else each.line in kept)
-    ]
+    steps = [each for each in old.steps if (_place_of(each) not in left if _is_move(each) else _place_of(each) in kept)]
+    called = [replace(each, line=each.called_at) if isinstance(each, Travel) and each.file else each for each in steps]
+    first = [each for each in called if not each.file or each.line not in kept]
     has_left = len(first) < len(old.steps)
     second = [
         _moved_back(each, found.shifts.get(each.line, {}), new.axes) if isinstance(each, Travel) else each
         for each in new.steps
-        if _is_move(each) or origins[each.line - 1] in kept
+        if not each.file and (_is_move(each) or origins[each.line - 1] in kept)
     ]
     by_line, at = dict[int, list[int]](), None
     for place, step in enumerate(second):
@@ -208,6 +220,11 @@ def _comparable(old: ToolPath, new: ToolPath, found: Converted, left: set[int]) 
                 first[number] = _at_rest(step, own)
     kept_steps = (step for number, step in enumerate(first) if number not in there)
     return replace(old, steps=tuple(kept_steps)), replace(new, steps=tuple(second))
+
+
+def _place_of(step: Travel | Unfollowed) -> int | str:
+    """The place of a step, as what is left names it."""
+    return place_in(step.file, step.line) if step.file else step.line
 
 
 def _is_move(step: Travel | Unfollowed) -> bool:
@@ -463,17 +480,18 @@ class _Program:
     def _line(self, place: int, line: ProgramLine) -> None:
         writer, block, meaning = self.writer, line.block, line.meaning
         self.changed, text = self.frames.take(line), block.text.strip()
-        if block.line == self.head_line and self.head_line:
+        if self.head_line and line.line == self.head_line:
             self._comments(meaning, is_head=True)
             return
         if _TAPE.match(text) or _PATH.match(text) or _END_PGM.match(text) or self._is_head(text):
             return
         if not text:
             if not writer.is_klartext:
-                writer.begin(block.line)
+                writer.begin(line.line)
                 writer.put_blank()
             return
-        writer.begin(block.line, is_skippable=block.is_skippable, label=meaning.number)
+        called = place_in(block.file, block.line) if block.file else ""
+        writer.begin(line.line, is_skippable=block.is_skippable, label=meaning.number, called=called)
         if not (block.words or block.macro or block.faults) or is_message(block) or self._is_silent(line):
             self._comments(meaning)
             return
@@ -515,9 +533,7 @@ class _Program:
             self.frames.convert_shifts()
         else:
             writer.comment(line.block.text)
-            writer.notes.append(
-                f"program line {line.block.line}: {_bare(line)} is worked into the coordinates behind it"
-            )
+            writer.notes.append(f"program line {line.line}: {_bare(line)} is worked into the coordinates behind it")
         writer.shift = self.frames.shift()
 
     def _keep_or_leave(self, line: ProgramLine, reason: str) -> None:
@@ -542,7 +558,7 @@ class _Program:
         writer.here = {}
         if line.answer is not None and line.answer.lines[0] == block.line:
             self.in_words += 1
-        self.verbatim.add(block.line)
+        self.verbatim.add(line.line)
         self.is_opened = True
         self.frames.convert(self.changed)
 
@@ -550,7 +566,7 @@ class _Program:
         """Write what a line says in the words of the target; what it has no words for is left."""
         writer, meaning = self.writer, line.meaning
         speed = self._speed_behind(place) if writer.is_klartext else None
-        if writer.is_klartext and line.block.line in self.speeds_told:
+        if writer.is_klartext and line.line in self.speeds_told:
             meaning = _without(meaning, ProgramFunction.SPEED)
         kept = writer.state, len(writer.lines), len(writer.found), writer.label
         opening = [] if self.is_opened else self._opening(line)
@@ -595,8 +611,7 @@ class _Program:
     def _is_read_alike(self, line: ProgramLine) -> bool:
         """Whether a block stays as it is: both controls are relatives that read its statements and its words alike."""
         block, answer = line.block, line.answer
-        key = answer.lines[0] if answer is not None else block.line
-        level = self.levels.get(key, Plainness.OWN_WORDS)
+        level = self.levels.get(line.first, Plainness.OWN_WORDS)
         if not self.is_alike or level is not Plainness.OWN_WORDS or block.faults:
             return False
         if answer is not None and not (self.is_run and _is_sound(answer)):
@@ -647,8 +662,7 @@ class _Program:
 
     def _reason(self, line: ProgramLine) -> str:
         """The reason why a line is not converted at all; empty if it is."""
-        key = line.answer.lines[0] if line.answer is not None else line.block.line
-        if self.levels.get(key) is Plainness.LEFT:
+        if self.levels.get(line.first) is Plainness.LEFT:
             return "the target would cut another path there"
         if any(each.cycle for each in line.block.callers):
             return "it is the profile of a cycle"
@@ -658,9 +672,7 @@ class _Program:
             return line.meaning.end
         other = self.frames.differs_by() if line.travels or line.lost or line.answer is not None else None
         if other is not None and other is not line:
-            return (
-                f"{_bare(other)} (line {other.block.line}) is not converted, and moves or turns it: write both by hand"
-            )
+            return f"{_bare(other)} (line {other.line}) is not converted, and moves or turns it: write both by hand"
         if line.answer is not None and line.answer.contour is None:
             errors = [each for each in line.answer.diagnostics if each.is_error]
             return f"{errors[0].code}: {errors[0].message}" if errors else "the contour is not solved"
@@ -676,7 +688,7 @@ class _Program:
                 return None
             speed = line.meaning.value(ProgramFunction.SPEED)
             if speed is not None:
-                self.speeds_told.add(line.block.line)
+                self.speeds_told.add(line.line)
                 return speed
         return None
 
@@ -693,13 +705,13 @@ class _Program:
     def _own_moves(self, line: ProgramLine) -> Iterator[WrittenMove]:
         answer = line.answer
         if answer is not None:
-            level = self.levels.get(answer.lines[0], Plainness.OWN_WORDS)
+            level = self.levels.get(line.first, Plainness.OWN_WORDS)
             own = self._own_words(line, answer) if level is Plainness.OWN_WORDS else None
             if own is not None:
                 yield from own
                 return
-            if answer.lines[0] not in self.written_out:
-                self.written_out.append(answer.lines[0])
+            if line.first not in self.written_out:
+                self.written_out.append(line.first)
             if self.has_comments:
                 self.writer.comment(line.block.text)
             for travel in line.travels:
@@ -881,7 +893,7 @@ def _once(found: Iterable[NotConverted]) -> tuple[NotConverted, ...]:
     """What is left, each once: a block that runs again as it is where it runs first."""
     first = dict[tuple[int, str], NotConverted]()
     for each in found:
-        key = each.line, "" if each.is_block else each.text
+        key = each.line, each.called if each.is_block else each.text
         first[key] = replace(first[key], times=first[key].times + 1) if key in first else each
     return tuple(first.values())
 

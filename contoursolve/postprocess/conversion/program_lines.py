@@ -31,6 +31,26 @@ class ProgramLine:
     travels: tuple[Travel, ...]
     lost: tuple[Unfollowed, ...]
 
+    @property
+    def line(self) -> int:
+        """Its line in the main program: where that calls it, if another file has it."""
+        return line_of(self.block)
+
+    @property
+    def first(self) -> int:
+        """The line by which it is written more plainly, with the rest of its contour or of its file."""
+        return self.line if self.answer is None else line_of(self.answer.claim.blocks[0])
+
+
+def place_in(file: str, line: int) -> str:
+    """A line of another file, as a reader names it."""
+    return f"{file}, line {line}"
+
+
+def line_of(block: Block) -> int:
+    """The line in the main program of a block, or of the call that leads to it."""
+    return block.callers[0].line if block.file and block.callers else block.line
+
 
 def as_it_runs(program: Program, asked: Request) -> tuple[Sequence[Step] | None, tuple[str, ...]]:
     """A program as it runs, without calls, jumps and variables, and what is to be said of that; None for one that has
@@ -43,9 +63,11 @@ def as_it_runs(program: Program, asked: Request) -> tuple[Sequence[Step] | None,
     lost = next((each for each in events if each.kind in (EventKind.UNDECIDED, EventKind.STOPPED)), None)
     if lost is not None:
         return None, (f"calls, jumps and variables are not written out: {lost.reason}",)
-    if any(block.file for step in ran for block in step.blocks):
-        return None, ("calls, jumps and variables are not written out: other files are called",)
-    told = ["calls, jumps and variables are written out, with the values that they have"]
+    files = sorted({block.file for step in ran for block in step.blocks} - {""})
+    where = f" {join(files)} {'stand' if len(files) > 1 else 'stands'} where it is called." if files else ""
+    told = [f"calls, jumps and variables are written out, with the values that they have{where and ':'}{where[:-1]}"]
+    missing = {each.line: each.reason for each in events if each.kind is EventKind.LOST and each.called}
+    told += [f"program line {line}: {reason}" for line, reason in missing.items()]
     rest = [each.line for each in program.blocks if each.says_something and each.line not in machine.ran]
     if rest:
         what = "lines" if len(rest) > 1 else "line"
@@ -92,9 +114,11 @@ def lines_of(steps: Iterable[Step], source: Control, old: ToolPath, *, is_run: b
     travels, lost = dict[int, list[Travel]](), dict[int, list[Unfollowed]]()
     for each in old.steps:
         place = each.number if is_run else each.line
-        if not each.file and isinstance(each, Travel):
+        if each.file and not is_run:
+            continue
+        if isinstance(each, Travel):
             travels.setdefault(place, []).append(each)
-        elif not each.file and isinstance(each, Unfollowed):
+        else:
             lost.setdefault(place, []).append(each)
     for step in steps:
         state, answer = step.before, step.answer
