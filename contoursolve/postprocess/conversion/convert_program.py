@@ -890,7 +890,7 @@ _NOT_KNOWN = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN, ReadIssue.MODE_UNK
 
 
 def _once(found: Iterable[NotConverted]) -> tuple[NotConverted, ...]:
-    """What is left, each once: a block that runs again as it is where it runs first."""
+    """All that is left, each once: a block that runs again as it is where it runs first."""
     first = dict[tuple[int, str], NotConverted]()
     for each in found:
         key = each.line, each.called if each.is_block else each.text
