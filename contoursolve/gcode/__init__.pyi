@@ -76,6 +76,7 @@ from .text import (
     UnreadableProgramError as UnreadableProgramError,
     open_regular as open_regular,
     read_bytes as read_bytes,
+    read_toml as read_toml,
 )
 from .word import (
     FACT as FACT,

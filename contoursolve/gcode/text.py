@@ -4,10 +4,10 @@ import errno
 import os
 import stat
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from contoursolve.diagnostics import UserError, did_you_mean
 from contoursolve.gcode.late_pattern import late_pattern
@@ -67,6 +67,21 @@ def _is_folder(path: str) -> bool:
 
 _BLOCK = late_pattern(r"(?:[Nn]\d+ ?)?[Gg]\d+ ?[A-Za-z,]|[A-Za-z],?-?\d+\.? [A-Za-z,]")
 """Beginning of a block."""
+
+
+_DEEP = late_pattern(r"""(?m:^|[\[{,])[ \t]*(?:(?>[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*){9}""")
+"""A key of TOML with more than 8 dots: of one with thousands, a reader takes gigabytes."""
+
+
+def read_toml(text: str, parse_float: Callable[[str], Any] = float) -> dict[str, Any]:
+    """The tables of a TOML file. Raises ValueError, or RecursionError where brackets are nested too deeply."""
+    import tomllib  # noqa: PLC0415 - most runs read no such file
+
+    deep = _DEEP.search(text)
+    if deep is not None:
+        line = text.count("\n", 0, deep.end()) + 1
+        raise ValueError(f"a key has more than 8 dots (at line {line})")
+    return tomllib.loads(text, parse_float=parse_float)
 
 
 MOST_OF_PROGRAM, MOST_OF_OTHERS = 100_000_000, 20_000_000

@@ -22,7 +22,7 @@ from typing import Any
 
 from contoursolve.controls import CONTROLS
 from contoursolve.diagnostics import UserError, checked, did_you_mean
-from contoursolve.gcode import MOST_OF_OTHERS, late_pattern, open_regular, split_lines
+from contoursolve.gcode import MOST_OF_OTHERS, late_pattern, open_regular, read_toml, split_lines
 from contoursolve.reading import Control
 
 OWN, SHARED = "contoursolve.toml", "pyproject.toml"
@@ -202,8 +202,6 @@ def _example() -> str:
 
 def _table(file: Path) -> dict[str, Any] | None:
     """The table about contoursolve of a file; None if it has none."""
-    import tomllib  # noqa: PLC0415 - most folders have no such file
-
     if file.is_dir():
         if file.name == SHARED:
             return None
@@ -213,7 +211,7 @@ def _table(file: Path) -> dict[str, Any] | None:
         text = _text(file)
         if is_shared and "contoursolve" not in text:
             return None  # another tool's business
-        data = tomllib.loads(text)
+        data = read_toml(text)
     except UnicodeDecodeError:
         if is_shared:
             return None

@@ -2,7 +2,6 @@
 
 import json
 import re
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from enum import Enum
@@ -13,6 +12,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import DRAWINGS, words_of_drawing
 from contoursolve.diagnostics import checked, names_like
+from contoursolve.gcode import read_toml
 from contoursolve.sketches.sketch import ASKED, VERSION, ContourSketch, SketchCorner, SketchElement, SketchError
 from contoursolve.tolerance import LARGEST
 
@@ -115,7 +115,7 @@ def _parsed(text: str) -> object:
     try:
         if is_json:
             return json.loads(text, parse_float=Decimal, object_pairs_hook=_once, parse_constant=Decimal)
-        return tomllib.loads(text.removeprefix("\ufeff"), parse_float=Decimal)
+        return read_toml(text.removeprefix("\ufeff"), Decimal)
     except SketchError:
         raise
     except (ValueError, RecursionError, InvalidOperation) as error:

@@ -22,7 +22,7 @@ FIRST = 1 / 3
 DEAR = 0.3
 """Seconds of processor time: a case at a boundary that takes longer is drawn like all others."""
 
-WHOLE = 80.0
+WHOLE = 60.0
 """Seconds of processor time that all cases of the default run take, besides starting and collecting."""
 
 STEPS = (0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
