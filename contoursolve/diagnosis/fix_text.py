@@ -27,12 +27,16 @@ def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
     """The finding; it points at the words that its first fix changes, too, and says where that adds or takes away."""
     known, labels, notes = [label.span for label in finding.labels], list[Label](), list[str]()
     edits = repairs[0].edits if repairs else ()
+    are_blocks = any(each and each.name == "blocks-swapped" for repair in repairs[:1] for each in repair.slips)
+    lines = [str(edit.place) for edit in edits] if are_blocks and _are_exchanged(edits) else []
     for edit in edits:
         is_marked = any(touches(edit, span) for span in known)
         if edit.place <= 0 or is_marked or (edit.kind is EditKind.ADD and edit.place in {span.line for span in known}):
             continue
         there = f"program line {edit.place}"
-        if edit.kind is EditKind.CHANGE:
+        if lines:
+            notes = [f"program lines {join(sorted(lines, key=int))} were probably exchanged"]
+        elif edit.kind is EditKind.CHANGE:
             notes.append(f"{edit.old} in {there} was probably {edit.text}")
         elif edit.kind is EditKind.DROP:
             meant = next((each for each in edits if each.kind is EditKind.ADD and each.address == edit.address), None)
@@ -43,7 +47,8 @@ def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
         elif edit.kind is EditKind.ADD and not any(each.kind is EditKind.DROP for each in edits):
             notes.append(f"{edit.address} is missing {_side(edit)} {there}")
         if edit.span is not None:
-            labels.append(Label(edit.span, f"{PROBABLY}{edit.text}" if edit.text else f"{PROBABLY}not meant here"))
+            other = [f"exchanged with program line {each}" for each in lines if each != str(edit.place)]
+            labels.append(Label(edit.span, PROBABLY + (other[0] if other else edit.text or "not meant here")))
     # The first reason says what is wrong.
     told = (*finding.notes[:1], *notes, *finding.notes[1:])
     return replace(finding, labels=(*finding.labels, *labels), notes=told)
@@ -100,12 +105,20 @@ def _together(edits: Sequence[Edit]) -> list[str]:
         errand = edits[0].errand if len(edits) == _PAIR else None
         what = last.text.strip() + (f" ({errand.meaning})" if errand else "")
         return [f"move {what} from program line {lines[0]} {where} program line {lines[-1]}"]
-    if len(edits) == _PAIR and lines[0] != lines[1] and (edits[0].old, edits[0].text) == (last.text, last.old):
+    if _are_exchanged(edits):
         return [f"exchange {old[0]} in program line {lines[0]} and {old[1]} in program line {lines[1]}"]
     return []
 
 
 _PAIR = 2
+
+
+def _are_exchanged(edits: Sequence[Edit]) -> bool:
+    """Whether two edits in different lines give each other's place its text."""
+    if len(edits) != _PAIR:
+        return False
+    one, other = edits
+    return one.place != other.place and (one.old, one.text) == (other.text, other.old)
 
 
 def _fix(answer: Answer, repair: Repair, outcome: str, typed: MendedText | None) -> Fix:
