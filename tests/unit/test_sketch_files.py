@@ -98,7 +98,7 @@ _LINE = _PART + '[[element]]\nkind = "line"\n'
         ('{"sketch": 1, "sketch": 1, "part": "milled"}', "sketch is given twice in one table; leave one out"),
         ("[1", "the file is no TOML: Expected ']' at the end of a table declaration (at end of document)"),
         (_PART + "a." * 9 + "a = 1", "the file is no TOML: a key has more than 8 dots (at line 3)"),
-        (_PART + "start = { Z = 0, " + '"a" . ' * 9 + "b = 1 }", "the file is no TOML: a key has more than 8 dots (at line"),
+        (_PART + "start = { Z = 0, " + '"a" . ' * 9 + "b = 1 }", "the file is no TOML: a key has more than 8"),
         (_PART + "[a.b.c.d.e.f.g.h.i]", "a is no field here"),
         ("{]", "the file is no JSON: "),
     ],
