@@ -44,6 +44,7 @@ _ROOMS = {
     "standing_alone": "notebook",
     "stated_words": "output",
     "status_text": "diagnosis",
+    "system_latex": "output",
     "systems_to_json": "output",
     "text_of": "notebook",
     "to_smt": "output",

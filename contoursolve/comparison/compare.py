@@ -22,7 +22,7 @@ from contoursolve.comparison.words import (
     mode_words,
     news_of,
 )
-from contoursolve.diagnostics import Shown, UserError
+from contoursolve.diagnostics import Shown, UserError, hash_of
 from contoursolve.gcode import Block
 from contoursolve.program import Request, Result
 
@@ -68,6 +68,8 @@ class Comparison(Shown, Struct, frozen=True):
     deviation: float
     lines: tuple[int, int] | None
     alignment: Alignment
+
+    __hash__ = hash_of
 
     @property
     def is_equal(self) -> bool:

@@ -222,9 +222,8 @@ class EquationSystem(Shown):
         return tuple(self._corner(each) for each in figure.corners if ends_somewhere(each, figure))
 
     def _repr_latex_(self) -> str:
-        """The equations, one below the other."""
-        latex = symbolic.latex
-        return "$\\displaystyle \\begin{aligned}" + " \\\\ ".join(map(latex, self.equations)) + "\\end{aligned}$"
+        """The equations, one below the other, and the condition."""
+        return f"$\\displaystyle {from_above('system_latex', self)}$"
 
     # What sympy says of it ---------------------------------------------------------------------------------------
 
@@ -261,6 +260,11 @@ class EquationSystem(Shown):
         if drawing is None:
             return None
         names, verdict, exact = self._system.unknowns, self._verdict, None
+        if self._chosen is not None:
+            # A solution stands alone; where the slopes of its equations vanish, as of an arc that ends where it may end
+            # at most, these alone would let it move.
+            values = {self._symbols.scalar(name): self._chosen.scalars[name] for name in names}
+            return NullSpace(values, (), (), drawing.basis[:, :0], symbolic.no_motions(len(names)))
         values = {self._symbols.scalar(name): value for name, value in drawing.scalars.items()}
         values |= {self._symbols.scalar(side): float(sign) for side, sign in drawing.sides.items()}
         if drawing.dimension == len(names) - verdict.rank:
@@ -297,8 +301,8 @@ class EquationSystem(Shown):
             facts = [(each, system, givens_of_facts(each, system), False) for each in tied]
         found = []
         for each, of, givens, is_conflict in facts:
-            words = dict.fromkeys(word.text for name in givens if (word := profile.givens[name].word))
-            found.append(TiedWords(tuple(words), tie_of(of, each, self._symbols), is_conflict))
+            words = {word.span: word.text for name in givens if (word := profile.givens[name].word)}
+            found.append(TiedWords(tuple(words.values()), tie_of(of, each, self._symbols), is_conflict))
         return tuple(found)
 
     @property
@@ -383,12 +387,12 @@ class EquationSystem(Shown):
     def of_word(self, word: str | Word) -> tuple[tuple[Equation, ...], tuple[SystemCondition, ...]]:
         """The equations that a word states, and the conditions in which it plays a part.
 
-        The word is `"B"`, or `"2:B"` with its line, or one of `words` of its answer. Raises ValueError for what is no
-        word of the contour."""
-        named = self._named(word) if isinstance(word, str) else ()
-        spans = (
-            {word.span} if not isinstance(word, str) else {each.word.span for each in named if each.word is not None}
-        )
+        The word is `"B"`, or `"2:B"` with its line, its symbol, or one of `words` of its answer. Raises ValueError for
+        what is no word of the contour."""
+        if isinstance(word, Word):
+            spans = {word.span}
+        else:
+            spans = {each.word.span for each in self._named(word) if each.word is not None}
         symbols = {each.symbol for each in self.words if each.source and each.source.span in spans}
         stated = tuple(each for each in self.statements if each.source and each.source.span in spans)
         return stated, tuple(each for each in self.conditions if symbols & each.expression.free_symbols)
@@ -726,9 +730,13 @@ class EquationSystem(Shown):
             symbolic.symbol(self._names[line]): atan2(scalars[f"{line}.sin"], scalars[f"{line}.cos"]) for line in lines
         }
 
-    def _named(self, key: str) -> list[Given]:
+    def _named(self, key: object) -> list[Given]:
         """The values that a word states, by its key, its symbol or its text, as `TiedWords` has it; of a fact also by
         what it gives the value of. Raises ValueError."""
+        if not isinstance(key, str):
+            if not isinstance(key, symbolic.Symbol):
+                raise TypeError(f"a word is named by a text, such as 'B' or '2:B', or by its symbol, not by {key!r}")
+            key = str(key)
         keys = word_keys(self.claim.words.values())
         words = self.claim.words.values()
         called = {
@@ -763,9 +771,10 @@ class EquationSystem(Shown):
 
 def _typed(value: float | Decimal | str) -> str:
     """A number as it is typed, with a decimal point. Raises ValueError for what is none."""
+    is_exact = isinstance(value, Decimal | str | int)
     try:
-        number = Decimal(repr(value) if isinstance(value, float) else str(value))
-    except InvalidOperation:
+        number = Decimal(str(value) if is_exact else repr(float(value)))
+    except (InvalidOperation, TypeError, ValueError):
         number = Decimal("nan")
     if not number.is_finite():
         raise ValueError(f"{value!r} is no number")

@@ -111,6 +111,11 @@ def value_at(expression: Any, values: Mapping[Any, Any]) -> float | None:
     return float(found) if found.is_number else None
 
 
+def no_motions(unknowns: int) -> Any:
+    """The motions of a figure that stands still, by unknowns: a matrix without columns."""
+    return sympy.Matrix(unknowns, 0, [])
+
+
 def balanced(expression: Any) -> Any:
     """The equation that an expression is zero, with what is taken away on the other side."""
     terms = sympy.Add.make_args(expression)

@@ -131,6 +131,11 @@ class ContourSketch(Struct, frozen=True):
         write_whole(Path(path), (text.encode(),), keeps_backup=False)
 
     def changed(self, number: int, **fields: Any) -> "ContourSketch":
-        """The sketch with other fields of an element, by its number from 1."""
+        """The sketch with other fields of an element, by its number from 1; its words are one field:
+        `changed(2, words={"R": 12})`. Raises ValueError for an element or a field that there is not."""
+        if not 1 <= number <= len(self.elements):
+            raise ValueError(f"there is no element {number}; the sketch has {len(self.elements)}")
+        if unknown := [name for name in fields if name not in SketchElement.__struct_fields__]:
+            raise ValueError(f"{unknown[0]} is no field; an element has {', '.join(SketchElement.__struct_fields__)}")
         element = replace(self.elements[number - 1], **fields)
         return replace(self, elements=(*self.elements[: number - 1], element, *self.elements[number:]))

@@ -146,7 +146,8 @@ class Sketch(Shown):
     are added; circles and infinite lines stand beside it. In a notebook it shows every way to draw it.
 
     Every call raises ValueError for an argument that makes no sense, and names it. A name is a text without dots
-    that no other element (or point) has; capitals do not matter.
+    that no other element (or point) has; capitals do not matter. A fact is read when the sketch is solved: it may
+    mention what is added later.
     """
 
     def __init__(self, start: tuple[Number, Number] = (0, 0), *, name: str = "P0") -> None:

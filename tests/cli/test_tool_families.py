@@ -271,7 +271,8 @@ def test_a_doubtful_tip_is_a_warning_wherever_it_is_told(tmp_path):
     """No radius makes a tip another one: it keeps no tool from the contour."""
     about, warning = (*LATHE, *blocks_of(BORE)), "tip 3 points away from this straight, with the tool left of it"
     check = call("check", "--tool", "R0.4", *about[:2], "--tip", "3", *about[4:])
-    assert (check.exit_code, check.stdout.count(f"warning[tool-tip-against-side]: {warning}")) == (0, 2)
+    # Findings in the same words are one.
+    assert (check.exit_code, check.stdout.count(f"warning[tool-tip-against-side]: {warning}")) == (0, 1)
     assert call("expand", "--tool", "R0.4", *about).exit_code == 0
     ranges = call("range", "--word", "tool", *about).stdout
     # The step of 5 mm has a corner of 1 mm.

@@ -2,6 +2,7 @@
 
 import re
 from decimal import Decimal
+from fractions import Fraction
 from math import pi
 from random import Random
 
@@ -505,3 +506,27 @@ def test_a_point_slides_along_the_arc_that_it_is_on():
     assert "the end of block 2 can still slide along the arc" in answer.diagnostics[0].notes
     (freedom,) = answer.diagnosis.freedoms
     assert (freedom.point, freedom.about, freedom.how) == ("P2", "C2", "slides along the circle about C2")
+
+
+def test_a_contour_that_is_solved_cannot_move_even_where_slopes_alone_would_let_it():
+    half_circle = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1"
+    system = contoursolve.system(half_circle, control="nct-99m")
+    assert (system.dof, system.margin, system.null_space.texts, system.null_space.dimension) == (0, 0.0, (), 0)
+    singular = contoursolve.system("G111 A90. K0. X100. B120. P5.", start=START, rules="off")
+    assert singular.null_space.texts
+
+
+@pytest.mark.parametrize("value", [np.float64(150), np.int64(150), Fraction(150), sympy.Rational(150), "150"])
+def test_a_number_of_any_kind_is_typed_into_a_word_that_goes_by_its_symbol_too(value):
+    system = contoursolve.system("G111 X100. A180. K-30. B120. P5.", start=START)
+    (symbol,) = (each.symbol for each in system.words if each.name == "B")
+    assert system.subs({symbol: value}).inputs == system.subs(B=150.0).inputs
+    assert system.free(symbol).free == system.free("B").free
+    with pytest.raises(TypeError, match="a word is named by a text, such as 'B'"):
+        system.free([symbol])
+
+
+def test_words_of_a_tie_that_have_the_same_text_are_both_named():
+    blocks = "0 BEGIN PGM T MM\n1 L X+0 Y+0 RL F300\n2 FL X+20 Y+0\n3 FL X+40 Y+0 LEN20 AN+0\n9 END PGM T MM\n"
+    ties = contoursolve.solve(blocks, control="heidenhain").answer.system.ties
+    assert ("X+20", "Y+0", "X+40", "Y+0", "LEN20") in [each.words for each in ties]

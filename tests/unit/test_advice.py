@@ -35,7 +35,7 @@ def test_the_other_word_of_a_centre_is_offered_with_which_the_circle_passes_thro
 
 
 FORMS = {
-    "yasnac-lx3": "G111 12, G112 3, G11 2, G12 2",
+    "yasnac-lx3": "G111 36, G112 3, G11 2, G12 2",
     "fanuc-lathe": "line-angle 2, corners 4, line-line 1, chain 2",
     "mitsubishi": "line-angle 2, corners 2, line-line 1, line-circle 1, circle-line 1",
 }
