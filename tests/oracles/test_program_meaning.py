@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from drawn_meanings import drawn
 from meaning_path import CONTROLS, Hard, Open, path_of, runs
 from program_meaning import PRODUCT, judged
-from reference_interpreter import Move, Stopped, is_known
+from reference_interpreter import AXES, Move, Stopped, is_known
 
 from contoursolve import convert, expand
 from contoursolve.cli import main
@@ -80,16 +80,17 @@ def alike_zero(one: Move, other: Move) -> bool:
     return (one.zero[0] == other.zero[0]).all() and np.allclose(one.zero[1], other.zero[1], rtol=0, atol=1e-7)
 
 
-def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]]:
-    """The ends of all moves of the only way of a program, each in its own coordinates, and the centres of arcs: None
-    where something of it is not known."""
+def trace(text: str, control: str, *, is_in_one: bool) -> list[tuple[complex | None, complex | None]]:
+    """The ends of all moves of the only way of a program, and the centres of arcs: None where something of it is not
+    known. Each is in its own coordinates, or all are in those of the first move."""
     (moves,), found = runs(text, control), []
+    first = moves[0].zero if moves else None
     while moves:
         count = 1
         while moves[count - 1].corner is not None and count < len(moves):
             count += 1
         chain, moves = moves[:count], moves[count:]
-        path = path_of(chain)
+        path, begin = path_of(chain), len(found)
         if any(not alike_zero(each, chain[0]) for each in chain):
             # In whose coordinates such a path would be is not stated.
             raise Hard
@@ -104,7 +105,20 @@ def trace(text: str, control: str) -> list[tuple[complex | None, complex | None]
             raise Hard
         else:
             found += path.elements
+        if is_in_one:
+            turn, origin = chain[0].zero
+            away = (origin - first[1])[[*map(AXES.index, chain[0].axes)]]
+            if not np.allclose(turn, first[0]) or not is_known(away):
+                raise Hard
+            off = complex(*away[:, 0])
+            found[begin:] = [tuple(at if at is None else at + off for at in each) for each in found[begin:]]
     return found
+
+
+def from_first(path: list[tuple[complex | None, complex | None]]) -> list[tuple[complex | None, complex | None]]:
+    """A path, counted from the first place that is known."""
+    first = next((end for end, _ in path if end is not None), 0)
+    return [tuple(at if at is None else at - first for at in each) for each in path]
 
 
 TWINS = {"fanuc-mill": "haas-mill", "fanuc-lathe": "haas-lathe", "siemens-840d": "isg", "siemens-turning": "isg"}
@@ -113,7 +127,10 @@ TWINS = {"fanuc-mill": "haas-mill", "fanuc-lathe": "haas-lathe", "siemens-840d":
 AS_HERE = {
     # Its angles have no comma; an argument of G65 never has one.
     "fanuc": (r"(?m)^((?!.*G65).*) A(?=[-\d])", r"\1 ,A"),
-    "siemens": (r"#(?=[A-Z])|\bG5([12])\b", lambda found: {None: "", "1": "DIAMON", "2": "DIAMOF"}[found[1]]),
+    "siemens": (
+        r"#(?=[A-Z])|\bG(51|52|92)\b",
+        lambda found: {None: "", "51": "DIAMON", "52": "DIAMOF", "92": "G58"}[found[1]],
+    ),
 }
 """How words of a twin are spelled here."""
 
@@ -121,18 +138,21 @@ FRAMES = re.compile(r"TRANS|ROT|SCALE|MIRROR|SUPA|\$P_|G5(?:[389]|\d\d)|G153")
 """What no twin has."""
 
 
-def anew(seed: int, control: str, write) -> bool | None:
-    """Whether a drawn program is written anew, with the path that it had; None for one whose path is not known."""
+def anew(seed: int, control: str, write, *, is_in_one: bool = False) -> bool | None:
+    """Whether a drawn program is written anew, with the path that it had; None for one whose path is not known. Where
+    shifts may be worked into the coordinates, all are those of the first move."""
     text = drawn(str(seed), control)
     try:
-        before = trace(text, control)
+        before = trace(text, control, is_in_one=is_in_one)
     except (Hard, Stopped, ValueError):
         return None
     written = write(text)
     if written is None:
         return False
-    after = trace(written, control)
+    after = trace(written, control, is_in_one=is_in_one)
     assert len(before) == len(after), (seed, text, written)
+    if is_in_one:
+        before, after = map(from_first, (before, after))
     for one, other in zip(before, after, strict=True):
         for a, b in zip(one, other, strict=True):
             assert (a is None) is (b is None), (seed, one, other, text, written)
@@ -164,7 +184,8 @@ def test_what_is_written_for_the_twin_moves_as_before(control):
             return None
         return re.sub(*AS_HERE[control.partition("-")[0]], found.text)
 
-    told = [anew(seed, control, write) for seed in range(1000, 1000 + 6 * EACH)]
+    is_in_one = control.startswith("siemens")
+    told = [anew(seed, control, write, is_in_one=is_in_one) for seed in range(1000, 1000 + 6 * EACH)]
     assert told.count(True) >= told.count(False) - len(framed), (told.count(True), told.count(False), framed)
     assert told.count(True) >= 2
 
