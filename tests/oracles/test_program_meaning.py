@@ -80,7 +80,7 @@ def alike_zero(one: Move, other: Move) -> bool:
     return (one.zero[0] == other.zero[0]).all() and np.allclose(one.zero[1], other.zero[1], rtol=0, atol=1e-7)
 
 
-def trace(text: str, control: str, *, is_in_one: bool) -> list[tuple[complex | None, complex | None]]:
+def trace(text: str, control: str, *, is_in_one: bool = False) -> list[tuple[complex | None, complex | None]]:
     """The ends of all moves of the only way of a program, and the centres of arcs: None where something of it is not
     known. Each is in its own coordinates, or all are in those of the first move."""
     (moves,), found = runs(text, control), []
