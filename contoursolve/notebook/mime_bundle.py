@@ -29,7 +29,7 @@ def bundle(record: Shown) -> dict[str, str]:
     if isinstance(record, _DRAWN) and (not isinstance(record, Result) or record.answers):
         shown["image/svg+xml"] = _made(_svg, record)
     if isinstance(record, EquationSystem):
-        shown["text/latex"] = _made(_latex, record)
+        shown["text/latex"] = _made(EquationSystem._repr_latex_, record)
     if isinstance(record, Derivation):
         shown["text/latex"] = record.latex
     shown["text/html"] = _made(_html, record)
@@ -54,12 +54,6 @@ def _html(record: Shown) -> str:
     from contoursolve.notebook.records_html import html_of  # noqa: PLC0415 - htpy is slow to import
 
     return html_of(record)
-
-
-def _latex(record: EquationSystem) -> str:
-    from contoursolve.output import system_latex  # noqa: PLC0415 - sympy is slow to import
-
-    return f"$\\displaystyle {system_latex(record)}$"
 
 
 def with_widget(bundled: Any) -> tuple[dict[str, Any], dict[str, Any]]:
